@@ -1,0 +1,93 @@
+"""Which files of this package a script needs, read from its import statements and never by running it.
+
+Snakemake does not look inside a script's imports; its rules name these files as inputs, so that
+editing a module reruns what uses it.
+"""
+
+import ast
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def closure(*starts: str | Path) -> list[Path]:
+    """The package's files behind `starts`, sorted: what they import, and what that imports, and so on.
+
+    A start is a module's dotted name ("pseudorigid.orbits"), whose own file is part of the answer,
+    or the path of a script, which is not. Imports inside functions count; those under
+    `if TYPE_CHECKING` do not. A package's `__init__` runs when one of its modules is imported, so it
+    counts too. Raises ValueError for a module that is not there, and for `from package import name`
+    where the name is not a module: a lazy package does not tell where such a name comes from.
+    """
+    found: set[Path] = set()
+    pending = []
+    for start in starts:
+        if isinstance(start, Path):
+            pending += _imports(start, ())
+        else:
+            pending.append(tuple(start.split(".")))
+    while pending:
+        parts = pending.pop()
+        for size in range(1, len(parts) + 1):
+            file = _file(parts[:size])
+            if file is None:
+                raise ValueError(f"no module {'.'.join(parts[:size])} in {PACKAGE.name}")
+            if file not in found:
+                found.add(file)
+                package = parts[:size] if file.name == "__init__.py" else parts[: size - 1]
+                pending += _imports(file, package)
+    return sorted(found)
+
+
+def _file(parts: tuple[str, ...]) -> Path | None:
+    path = PACKAGE.joinpath(*parts[1:])
+    for file in (path / "__init__.py", path.with_suffix(".py")):
+        if file.is_file():
+            return file
+    return None
+
+
+def _imports(file: Path, package: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """The modules of this package that `file`, a member of `package`, imports anywhere."""
+    modules = []
+    pending: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"), str(file))]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            pending += node.orelse
+            continue
+        pending += ast.iter_child_nodes(node)
+        if isinstance(node, ast.Import):
+            modules += [tuple(alias.name.split(".")) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            base += tuple(node.module.split(".")) if node.module else ()
+            if base[:1] != (PACKAGE.name,):
+                continue
+            for alias in node.names:
+                modules.append(_module_or_name(base, alias.name, file))
+    return [module for module in modules if module[0] == PACKAGE.name]
+
+
+def _module_or_name(base: tuple[str, ...], name: str, file: Path) -> tuple[str, ...]:
+    """The module that `from base import name` needs."""
+    if _file((*base, name)):
+        return (*base, name)
+    own = _file(base)
+    if own and own.name == "__init__.py" and name not in _defined(own):
+        raise ValueError(f"{file.name}: import {name} from its module, not from {'.'.join(base)}")
+    return base
+
+
+def _defined(file: Path) -> set[str]:
+    """Names that a package's `__init__` defines by itself."""
+    names = set()
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            names |= {target.id for target in targets if isinstance(target, ast.Name)}
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {(alias.asname or alias.name) for alias in node.names}
+    return names

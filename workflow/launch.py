@@ -1,0 +1,151 @@
+"""What ./reproduce does once .venv is ready: run the tests, or snakemake and a table of the figures."""
+
+import fcntl
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "src"))
+
+from pseudorigid import config  # noqa: E402  (needs the path above; imports nothing heavy)
+
+CORES = re.compile(r"--(cores|jobs)(=.*)?|-[cj](all|\d*)|all|\d+")
+
+
+def environment() -> dict[str, str]:
+    """The tree's own package wherever the folder was moved, and caches that need no home folder."""
+    caches = ROOT / ".venv" / "cache"
+    return os.environ | {
+        "PYTHONPATH": str(ROOT / "src"),
+        "XDG_CACHE_HOME": str(caches),
+        "MPLCONFIGDIR": str(caches / "matplotlib"),
+    }
+
+
+def test(arguments: list[str]) -> int:
+    """Hand over to pytest; its exit status is ours."""
+    os.chdir(ROOT)
+    os.execve(sys.executable, [sys.executable, "-m", "pytest", *arguments], environment())
+
+
+WORDS = {"test": test}
+
+
+def hold_lock():
+    """The open lock file of this folder, or None where another run has it. Death releases it."""
+    lock = open(ROOT / ".lock", "w")  # noqa: SIM115  (stays open for the whole run)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return None
+    return lock
+
+
+def run_snakemake(arguments: list[str], lock) -> int:
+    """Run snakemake to its end and return its exit status."""
+    command = [sys.executable, "-m", "snakemake", "--nolock"]
+    command += ["--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
+    command += arguments
+    if not any(a.startswith("-") and CORES.fullmatch(a) for a in arguments):
+        command += ["--cores", "all"]
+    # snakemake keeps the lock too, in case it outlives this process.
+    child = subprocess.Popen(command, cwd=ROOT, env=environment(), pass_fds=[lock.fileno()])
+
+    def pass_on(number, _frame):
+        # Ctrl-C in a terminal reaches snakemake and its jobs by itself; a second one would cut
+        # their tidying up short.
+        if number != signal.SIGINT or not sys.stdin or not sys.stdin.isatty():
+            child.send_signal(signal.SIGINT)
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, pass_on)
+    status = child.wait()
+    return 128 - status if status < 0 else status
+
+
+def last_words(since: float) -> str | None:
+    """The newest one-line message that a job of this run left in its log."""
+    found = []
+    for log in ROOT.glob("results/*/logs/*.log"):
+        if log.stat().st_mtime >= since:
+            lines = log.read_text(errors="replace").splitlines()
+            found += [(log.stat().st_mtime_ns, x) for x in lines if x.startswith("pseudorigid: ")]
+    return max(found)[1] if found else None
+
+
+def figures() -> dict[str, tuple[str, Path]]:
+    """Every file of the config's figures as users name it -> (scene, the file drawn in results)."""
+    return {
+        config.shown(scene, extension): (scene, ROOT / config.drawn(scene, extension))
+        for scene, block in config.load(ROOT / "config.yaml")["scenes"].items()
+        for extension in block["formats"]
+    }
+
+
+def identity(path: Path) -> tuple[int, int] | None:
+    """Changes whenever the file is written anew; None where there is none."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
+
+
+def table(rows: list[tuple[str, str, str]]) -> None:
+    """Print the figures of this run, one a line: figure, file, size, recomputed or current."""
+    rows = [
+        (scene, name, f"{max(1, (ROOT / name).stat().st_size // 1000):,} kB", state)
+        for scene, name, state in rows
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    print()
+    for scene, name, size, state in rows:
+        print(f"{scene:{widths[0]}}  {name:{widths[1]}}  {size:>{widths[2]}}  {state}")
+
+
+def workflow(arguments: list[str]) -> int:
+    """Check the config, run snakemake, and say what became of the figures."""
+    files = figures()
+    lock = hold_lock()
+    if lock is None:
+        print("reproduce: another ./reproduce is running in this folder", file=sys.stderr)
+        return 1
+    before = {name: identity(path) for name, (_, path) in files.items()}
+    start = time.time() - 1  # some file systems keep whole seconds only
+    status = run_snakemake(arguments, lock)
+    if status:
+        message = last_words(start)
+        if message:
+            print(message, file=sys.stderr)
+        return status
+    # After a plain run the figures asked for, or all; with other options what was drawn on the way.
+    named = [argument for argument in arguments if argument in files]
+    options = [a for a in arguments if a not in files and not CORES.fullmatch(a)]
+    rows = []
+    for name, (scene, path) in files.items():
+        drawn = identity(path) != before[name]
+        if drawn or not options and name in (named or files):
+            rows.append((scene, name, "recomputed" if drawn else "current"))
+    if rows:
+        table(rows)
+    return 0
+
+
+def main(arguments: list[str]) -> int:
+    """Run one word, or snakemake."""
+    if arguments and arguments[0] in WORDS:
+        return WORDS[arguments[0]](arguments[1:])
+    try:
+        return workflow(arguments)
+    except config.ConfigError as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,51 @@
+# One rule for each kind of picture. The data are handed to the drawing in the order given here.
+
+
+rule draw_portrait:
+    input:
+        data=[artifact("orbits")],
+        code=code("draw.py", "pseudorigid.figures.portrait"),
+    output:
+        "results/{variant}/figures/{scene}.{extension}",
+    params:
+        scene=drawn_block,
+    log:
+        "results/{variant}/logs/draw_{scene}_{extension}.log",
+    wildcard_constraints:
+        scene=scenes_of("portrait"),
+    conda:
+        "../envs/python.yaml"
+    script:
+        "../scripts/draw.py"
+
+
+use rule draw_portrait as draw_motion with:
+    input:
+        data=[artifact("motion")],
+        code=code("draw.py", "pseudorigid.figures.motion"),
+    wildcard_constraints:
+        scene=scenes_of("motion"),
+
+
+use rule draw_portrait as draw_tangle with:
+    input:
+        data=[artifact("manifolds"), artifact("orbits")],
+        code=code("draw.py", "pseudorigid.figures.tangle"),
+    wildcard_constraints:
+        scene=scenes_of("tangle"),
+
+
+use rule draw_portrait as draw_closeup with:
+    input:
+        data=[artifact("manifolds")],
+        code=code("draw.py", "pseudorigid.figures.closeup"),
+    wildcard_constraints:
+        scene=scenes_of("closeup"),
+
+
+use rule draw_portrait as draw_exponents with:
+    input:
+        data=[artifact("lyapunov")],
+        code=code("draw.py", "pseudorigid.figures.exponents"),
+    wildcard_constraints:
+        scene=scenes_of("exponents"),
