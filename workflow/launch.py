@@ -68,14 +68,15 @@ def run_snakemake(arguments: list[str], lock) -> int:
     return 128 - status if status < 0 else status
 
 
-def last_words(since: float) -> str | None:
-    """The newest one-line message that a job of this run left in its log."""
+def last_words(since: float) -> list[str]:
+    """The one-line messages that jobs of this run left in their logs, in the order of time."""
     found = []
     for log in ROOT.glob("results/*/logs/*.log"):
-        if log.stat().st_mtime >= since:
-            lines = log.read_text(errors="replace").splitlines()
-            found += [(log.stat().st_mtime_ns, x) for x in lines if x.startswith("pseudorigid: ")]
-    return max(found)[1] if found else None
+        changed = log.stat().st_mtime
+        if changed >= since:
+            lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+            found += [(changed, line) for line in lines if line.startswith("pseudorigid: ")]
+    return [line for _, line in sorted(found)]
 
 
 def figures() -> dict[str, tuple[str, Path]]:
@@ -119,9 +120,8 @@ def workflow(arguments: list[str]) -> int:
     start = time.time() - 1  # some file systems keep whole seconds only
     status = run_snakemake(arguments, lock)
     if status:
-        message = last_words(start)
-        if message:
-            print(message, file=sys.stderr)
+        for line in last_words(start):
+            print(line, file=sys.stderr)
         return status
     # After a plain run the figures asked for, or all; with other options what was drawn on the way.
     named = [argument for argument in arguments if argument in files]

@@ -1,5 +1,6 @@
 # The checked config, and what the rules ask of it.
 import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -7,6 +8,9 @@ from pseudorigid.config import SHOWN, STAGES, ConfigError, drawn, load, owners, 
 from pseudorigid.sources import closure
 
 ROOT = Path(workflow.basedir)
+
+# Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
+sys.executable = shlex.quote(sys.executable)
 
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
@@ -22,11 +26,11 @@ PUBLISHED = [shown(scene, extension) for scene, extension in FIGURES if extensio
 ARTIFACTS = sorted({f"results/paper/{stage}_{owner}.nc" for (_, stage), owner in OWNERS.items()})
 
 
-def artifact(stage):
-    """Input function: the artifact of a stage that serves the scene."""
-    return lambda wildcards: "results/{}/{}_{}.nc".format(
-        wildcards.variant, stage, OWNERS[wildcards.scene, stage]
-    )
+def artifacts(*stages):
+    """Input function: the artifacts of some stages that serve the scene, in this order."""
+    return lambda wildcards: [
+        f"results/{wildcards.variant}/{stage}_{OWNERS[wildcards.scene, stage]}.nc" for stage in stages
+    ]
 
 
 def stage_block(stage):

@@ -37,7 +37,7 @@ rule periodic:
 
 rule motion:
     input:
-        periodic=artifact("periodic"),
+        periodic=artifacts("periodic"),
         code=code("motion.py"),
     output:
         "results/{variant}/motion_{scene}.nc",
@@ -55,7 +55,7 @@ rule motion:
 
 rule manifolds:
     input:
-        periodic=artifact("periodic"),
+        periodic=artifacts("periodic"),
         code=code("manifolds.py"),
     output:
         "results/{variant}/manifolds_{scene}.nc",

@@ -3,7 +3,7 @@
 
 rule draw_portrait:
     input:
-        data=[artifact("orbits")],
+        data=artifacts("orbits"),
         code=code("draw.py", "pseudorigid.figures.portrait"),
     output:
         "results/{variant}/figures/{scene}.{extension}",
@@ -21,7 +21,7 @@ rule draw_portrait:
 
 use rule draw_portrait as draw_motion with:
     input:
-        data=[artifact("motion")],
+        data=artifacts("motion"),
         code=code("draw.py", "pseudorigid.figures.motion"),
     wildcard_constraints:
         scene=scenes_of("motion"),
@@ -29,7 +29,7 @@ use rule draw_portrait as draw_motion with:
 
 use rule draw_portrait as draw_tangle with:
     input:
-        data=[artifact("manifolds"), artifact("orbits")],
+        data=artifacts("orbits", "manifolds", "periodic"),
         code=code("draw.py", "pseudorigid.figures.tangle"),
     wildcard_constraints:
         scene=scenes_of("tangle"),
@@ -37,7 +37,7 @@ use rule draw_portrait as draw_tangle with:
 
 use rule draw_portrait as draw_closeup with:
     input:
-        data=[artifact("manifolds")],
+        data=artifacts("manifolds"),
         code=code("draw.py", "pseudorigid.figures.closeup"),
     wildcard_constraints:
         scene=scenes_of("closeup"),
@@ -45,7 +45,7 @@ use rule draw_portrait as draw_closeup with:
 
 use rule draw_portrait as draw_exponents with:
     input:
-        data=[artifact("lyapunov")],
+        data=artifacts("lyapunov"),
         code=code("draw.py", "pseudorigid.figures.exponents"),
     wildcard_constraints:
         scene=scenes_of("exponents"),

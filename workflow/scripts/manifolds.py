@@ -8,7 +8,7 @@ from pseudorigid.periodic import of_type
 
 
 def trace(ball, energy, period, type, **how):
-    orbit = of_type(load(snakemake.input.periodic), type)
+    orbit = of_type(load(snakemake.input.periodic[0]), type)
     return (window_manifolds if "window" in how else scene_manifolds)(ball, energy, orbit, **how)
 
 

@@ -8,7 +8,7 @@ from pseudorigid.periodic import of_type
 
 
 def scene_motion(ball, energy, period, type, duration):
-    return motion(ball, of_type(load(snakemake.input.periodic), type), duration)
+    return motion(ball, of_type(load(snakemake.input.periodic[0]), type), duration)
 
 
 save_stage(snakemake, scene_motion)
