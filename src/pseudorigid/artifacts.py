@@ -1,0 +1,170 @@
+"""The one door through which data is saved and read: uncompressed netCDF-4 with CF attributes.
+
+The same dataset always gives the same bytes: variables and attributes go in a fixed order, nothing
+is compressed (compressed bytes depend on the system's zlib), and no date is written. Ragged
+arrays are contiguous: `row_size` counts the samples of each row, one row after the other.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from .files import replacing
+
+CONVENTIONS = "CF-1.11"
+REQUIRED = ("stage", "k", "g", "energy", "config")
+
+
+class ArtifactError(ValueError):
+    """A dataset that cannot be saved, or a file that is no artifact; the message names it."""
+
+
+def save(dataset, path, *, stage, ball, energy, config, **extra_attrs):
+    """Save `dataset` to `path` as netCDF-4, whole or not at all, and return the path.
+
+    `ball` has `k` and `g`; `config` is the block of configuration behind the data, stored as
+    canonical JSON; `extra_attrs` become global attributes beside the dataset's own. Every variable
+    needs `long_name` and, strings apart, units "1". NaN is stored as it is: no variable has a
+    fill value. Raises ArtifactError.
+    """
+    path = Path(path)
+    dataset = dataset.copy()
+    dataset.attrs |= extra_attrs
+    dataset.attrs |= {"stage": stage, "k": float(ball.k), "g": float(ball.g)}
+    dataset.attrs |= {"energy": float(energy), "config": canonical_json(config)}
+    dataset.attrs["Conventions"] = CONVENTIONS
+    dataset = _with_sample_dimension(dataset, path)
+    _check(dataset, path)
+    with replacing(path) as part:
+        _write(dataset, part)
+    return path
+
+
+def load(path):
+    """Return the artifact at `path` as a Dataset in memory, the file closed.
+
+    Raises ArtifactError with one line that names the file if it is missing, damaged or not
+    written by `save`.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise ArtifactError(f"{path}: no such artifact")
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            file.set_auto_scale(False)
+            variables = {
+                name: (variable.dimensions, variable[...], _attributes(variable))
+                for name, variable in file.variables.items()
+            }
+            attrs = _attributes(file)
+    except (OSError, RuntimeError, UnicodeDecodeError) as error:
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
+    missing = [name for name in REQUIRED if name not in attrs]
+    if missing:
+        raise ArtifactError(f"{path}: not an artifact: no attribute {', '.join(missing)}")
+    try:
+        dataset = xr.Dataset(variables, attrs=attrs)
+        _check(dataset, path)
+    except ArtifactError:
+        raise
+    except ValueError as error:
+        raise ArtifactError(f"{path}: not an artifact: {error}") from error
+    return dataset
+
+
+def content_hash(dataset):
+    """Return the sha256 (hex) of names, dims, dtypes, values and attributes.
+
+    It says nothing about the container: not the library versions that netCDF embeds, not the
+    order of variables, not byte order. All NaN count as one value; 0.0 and -0.0 differ.
+    """
+    digest = hashlib.sha256()
+    _feed(digest, sorted(dataset.sizes.items()), _plain(dataset.attrs))
+    for name in sorted(dataset.variables):
+        variable = dataset.variables[name]
+        kind = "str" if _is_text(variable) else variable.dtype.newbyteorder("<").str
+        _feed(digest, name, variable.dims, variable.shape, kind, _plain(variable.attrs))
+        if kind == "str":
+            _feed(digest, [str(value) for value in variable.values.ravel()])
+        else:
+            values = np.ascontiguousarray(variable.values, dtype=kind)
+            if values.dtype.kind == "f":
+                values = np.where(np.isnan(values), np.array(np.nan, dtype=kind), values)
+            digest.update(values.tobytes())
+    return digest.hexdigest()
+
+
+def canonical_json(value):
+    """Return `value` as JSON with sorted keys and no spaces: equal values, equal text."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _with_sample_dimension(dataset, path):
+    """Name in `row_size` the dimension that it counts, as CF's ragged arrays require."""
+    if "row_size" not in dataset:
+        return dataset
+    counts = dataset["row_size"]
+    dims = [dim for dim in dataset.sizes if dim not in counts.dims]
+    sample = counts.attrs.get("sample_dimension", dims[0] if len(dims) == 1 else None)
+    if sample not in dataset.sizes:
+        raise ArtifactError(f"{path}: row_size does not say which dimension it counts")
+    if int(counts.sum()) != dataset.sizes[sample]:
+        raise ArtifactError(
+            f"{path}: row_size adds up to {int(counts.sum())}, "
+            f"but dimension {sample} has {dataset.sizes[sample]}"
+        )
+    attrs = counts.attrs | {"sample_dimension": sample}
+    return dataset.assign(row_size=(counts.dims, counts.values, attrs))
+
+
+def _check(dataset, path):
+    for name, variable in dataset.variables.items():
+        text = _is_text(variable)
+        if not text and variable.dtype.kind not in "iuf":
+            raise ArtifactError(f"{path}: variable {name} has dtype {variable.dtype}")
+        if not variable.attrs.get("long_name"):
+            raise ArtifactError(f"{path}: variable {name} has no long_name")
+        if not text and variable.attrs.get("units") != "1":
+            units = variable.attrs.get("units")
+            raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
+
+
+def _write(dataset, path):
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
+        file.setncatts({name: dataset.attrs[name] for name in sorted(dataset.attrs)})
+        for dim in sorted(dataset.sizes):
+            file.createDimension(dim, dataset.sizes[dim])
+        for name in sorted(dataset.variables):
+            variable = dataset.variables[name]
+            text = _is_text(variable)
+            kind = str if text else variable.dtype.newbyteorder("<")
+            target = file.createVariable(name, kind, variable.dims, fill_value=False)
+            target.set_auto_mask(False)
+            target.setncatts({key: variable.attrs[key] for key in sorted(variable.attrs)})
+            target[...] = np.asarray(variable.values, dtype=object if text else kind)
+
+
+def _attributes(source):
+    return {name: source.getncattr(name) for name in source.ncattrs()}
+
+
+def _is_text(variable):
+    return variable.dtype.kind in "UOT"
+
+
+def _plain(attrs):
+    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike."""
+    arrays = {name: np.asarray(value) for name, value in sorted(attrs.items())}
+    return {
+        name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
+    }
+
+
+def _feed(digest, *items):
+    digest.update((json.dumps(items) + "\n").encode())

@@ -1,0 +1,25 @@
+"""Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
+
+import numpy as np
+
+from . import style
+from .plane import Plane
+
+
+@style.pinned()
+def draw(scene, lyapunov):
+    """Return the Figure of the exponents' histories, one hue an orbit, named at their ends.
+
+    `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
+    """
+    names = ("Number of impacts", "Lyapunov exponents")
+    plane = Plane(scene, ("impact", "exponent"), names, right=84)
+    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    _, orbits, indices = exponent.shape
+    for orbit in range(orbits):
+        hue = style.HUES[orbit % len(style.HUES)]
+        for index in range(indices):
+            plane.line(impact, exponent[:, orbit, index], color=hue, lw=0.8)
+    for index in range(indices):
+        plane.beside(np.median(exponent[-1, :, index]), rf"$\lambda_{index + 1}$")
+    return plane.figure

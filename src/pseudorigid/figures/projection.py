@@ -1,0 +1,58 @@
+"""A box of equal data scales seen from afar: orthographic projection in closed form."""
+
+from fractions import Fraction
+
+import numpy as np
+
+_PI = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
+
+
+class Projection:
+    """Where a point (x, y, z) of a box falls on a sheet.
+
+    `limits` are the three axes' ends and `view` has `elevation` and `azimuth` in degrees, as seen
+    from the middle of the box. `place` puts the projection so that the box fits a rectangle.
+    """
+
+    def __init__(self, limits, view):
+        self.limits = np.array(limits, dtype=float)
+        sin_a, cos_a = sincos_degrees(view["azimuth"])
+        sin_e, cos_e = sincos_degrees(view["elevation"])
+        self.right = (-sin_a, cos_a, 0.0)
+        self.up = (-sin_e * cos_a, -sin_e * sin_a, cos_e)
+        self.eye = (cos_e * cos_a, cos_e * sin_a, sin_e)
+        self.scale, self.shift = 1.0, (0.0, 0.0)
+
+    def corners(self):
+        """Return the box's eight corners as an (8, 3) array, z fastest."""
+        (x0, x1), (y0, y1), (z0, z1) = self.limits
+        return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+
+    def place(self, left, bottom, width, height):
+        """Scale and shift so that the box fits the rectangle and touches it, in the middle."""
+        self.scale, self.shift = 1.0, (0.0, 0.0)
+        across, up = self(*self.corners().T)
+        wide, high = across.max() - across.min(), up.max() - up.min()
+        self.scale = min(width / wide, height / high)
+        self.shift = (
+            left + (width - self.scale * (across.min() + across.max())) / 2,
+            bottom + (height - self.scale * (up.min() + up.max())) / 2,
+        )
+        return self
+
+    def __call__(self, x, y, z):
+        """Return (across, up) on the sheet for coordinates of any shape, NaN where one is NaN."""
+        across = x * self.right[0] + y * self.right[1] + z * self.right[2]
+        up = x * self.up[0] + y * self.up[1] + z * self.up[2]
+        return across * self.scale + self.shift[0], up * self.scale + self.shift[1]
+
+
+def sincos_degrees(degrees):
+    """Return (sin, cos) of an angle in degrees, correctly rounded: exact series, one rounding."""
+    angle = Fraction(degrees) % 360 * _PI / 180
+    sine, cosine, term, order = Fraction(0), Fraction(0), Fraction(1), 0
+    while order < 60:
+        cosine, sine = cosine + term, sine + term * angle / (order + 1)
+        term *= -angle * angle / ((order + 1) * (order + 2))
+        order += 2
+    return float(sine), float(cosine)

@@ -1,0 +1,28 @@
+"""Rows of a contiguous ragged array, and the unbroken pieces of a line."""
+
+from itertools import pairwise
+
+import numpy as np
+
+_LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
+
+
+def rows(row_size):
+    """Return one slice for each row: `row_size` samples each, one row after the other."""
+    ends = [0, *np.cumsum(row_size, dtype=np.int64).tolist()]
+    return [slice(start, end) for start, end in pairwise(ends)]
+
+
+def pieces(*coordinates):
+    """Yield the runs without NaN of a line as tuples of arrays, long ones cut where they join on.
+
+    The cut pieces share a vertex, so that they draw as one line.
+    """
+    gap = np.isnan(coordinates[0])
+    for coordinate in coordinates[1:]:
+        gap = gap | np.isnan(coordinate)
+    ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))
+    for start, stop in ends.reshape(-1, 2).tolist():
+        for first in range(start, max(stop - 1, start + 1), _LONGEST):
+            span = slice(first, min(first + _LONGEST + 1, stop))
+            yield tuple(coordinate[span] for coordinate in coordinates)

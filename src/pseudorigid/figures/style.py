@@ -1,0 +1,66 @@
+"""The one style: matplotlib's own defaults and fonts, the same whoever runs it."""
+
+from contextlib import contextmanager
+
+import matplotlib
+from matplotlib import font_manager
+
+DPI = 300
+COLUMN = 1050  # pixels: the width of a journal's column
+PLAIN = 8.0  # points: text in a picture of that width
+
+# Okabe and Ito's hues, which stay apart under every kind of colour blindness.
+BLUE, VERMILION, GREEN, ORANGE = "#0072b2", "#d55e00", "#009e73", "#e69f00"
+PURPLE, SKY, BLACK = "#cc79a7", "#56b4e9", "#000000"
+HUES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+SEA, BACKDROP = "#909090", "#b4b4b4"
+GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
+
+NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
+
+_SETTINGS = {
+    "mathtext.fontset": "stix",
+    # Simplifying a path, or rounding its joins, goes through comparisons and sines that may
+    # differ in the last bit between machines.
+    "path.simplify": False,
+    "lines.solid_joinstyle": "bevel",
+    "lines.solid_capstyle": "butt",
+    "lines.dash_joinstyle": "bevel",
+    "svg.hashsalt": "pseudorigid",
+    "svg.fonttype": "path",
+    "pdf.compression": 0,
+    "pdf.fonttype": 42,
+}
+
+
+@contextmanager
+def pinned():
+    """Matplotlib as it is delivered, plus this style: no matplotlibrc, no font of the system.
+
+    Everything that makes or renders a picture runs inside; also a decorator. What was set before
+    comes back afterwards.
+    """
+    manager = font_manager.fontManager
+    found = manager.ttflist
+    own = matplotlib.get_data_path()
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_SETTINGS)
+        try:
+            manager.ttflist = [font for font in found if font.fname.startswith(own)]
+            manager._findfont_cached.cache_clear()
+            yield
+        finally:
+            manager.ttflist = found
+            manager._findfont_cached.cache_clear()
+
+
+def pale(color):
+    """Return `color` (#rrggbb) mixed with twice as much white."""
+    parts = (int(color[at : at + 2], 16) for at in (1, 3, 5))
+    return "#" + "".join(f"{(part + 2 * 255) // 3:02x}" for part in parts)
+
+
+def number(value, power=0):
+    """Return value / 10**power as a tick label: shortest decimal form, a proper minus sign."""
+    return f"{value / 10**power:.10g}".replace("-", "\N{MINUS SIGN}")

@@ -1,0 +1,52 @@
+"""Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
+
+import numpy as np
+
+from . import style
+from .box import Box
+from .ragged import pieces, rows
+
+_BACKDROP, _BRANCH, _SADDLE = 0.5, 0.6, 3.6  # points
+
+
+@style.pinned()
+def draw(scene, orbits, manifolds, periodic):
+    """Return the Figure of a hyperbolic orbit's branches over a backdrop of orbits.
+
+    `orbits` (the backdrop), `manifolds` and `periodic` are artifacts of these stages; the saddles
+    marked are the points of the first orbit of `periodic` whose type is scene["type"]. Stable
+    branches are green, unstable ones blue; what lies on the surface's far side is pale.
+    """
+    box = Box(scene)
+    near = box.near(orbits)
+    for side in (False, True):
+        state = (orbits[name].values[near == side] for name in style.NAMES)
+        box.points(*state, style.BACKDROP if side else style.pale(style.BACKDROP), _BACKDROP)
+    _branches(box, manifolds)
+    _saddles(box, periodic, scene["type"])
+    return box.figure
+
+
+def _branches(box, manifolds):
+    near = box.near(manifolds)
+    spans = rows(manifolds["row_size"].values)
+    for side in (False, True):
+        for stable, hue in ((0, style.BLUE), (1, style.GREEN)):
+            for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
+                hide = near[span] != side
+                # Keep the first hidden vertex on each side, so that pale and full parts meet.
+                hide[1:-1] &= (near[span] != side)[2:] & (near[span] != side)[:-2]
+                state = [
+                    np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
+                ]
+                for piece in pieces(*state):
+                    box.line(*piece, hue if side else style.pale(hue), _BRANCH)
+
+
+def _saddles(box, periodic, kind):
+    chosen = np.flatnonzero(periodic["type"].values == kind)
+    if not len(chosen):
+        raise ValueError(f"no {kind} orbit among the {periodic.sizes['orbit']} given")
+    state = [periodic[name].values[chosen[0]] for name in style.NAMES]
+    box.points(*state, "white", _SADDLE + 1.2)
+    box.points(*state, style.VERMILION, _SADDLE)
