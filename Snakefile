@@ -24,6 +24,4 @@ include: "workflow/rules/publish.smk"
 rule all:
     default_target: True
     input:
-        ARTIFACTS,
-        DRAWN,
-        PUBLISHED,
+        sorted({file for figure, (_, behind) in FIGURES.items() for file in (figure, *behind)}),

@@ -1,4 +1,4 @@
-"""What ./reproduce does once .venv is ready: run the tests, or snakemake and a table of the figures."""
+"""What ./reproduce does once .venv is ready: pytest, or snakemake and a table of the figures."""
 
 import fcntl
 import os
@@ -79,19 +79,23 @@ def last_words(since: float) -> list[str]:
     return [line for _, line in sorted(found)]
 
 
-def figures() -> dict[str, tuple[str, Path]]:
-    """Every file of the config's figures as users name it -> (scene, the file drawn in results)."""
-    return {
-        config.shown(scene, extension): (scene, ROOT / config.drawn(scene, extension))
-        for scene, block in config.load(ROOT / "config.yaml")["scenes"].items()
-        for extension in block["formats"]
-    }
+def with_missing(arguments: list[str], figures) -> list[str]:
+    """The arguments, each figure followed by the files behind it that are missing.
+
+    A clone brings finished figures and no results: snakemake, asked for such a figure, would see
+    a file newer than everything it needs and do nothing.
+    """
+    complete = []
+    for argument in arguments:
+        _, behind = figures.get(argument, (None, []))
+        complete += [argument, *(file for file in behind if not (ROOT / file).exists())]
+    return complete
 
 
-def identity(path: Path) -> tuple[int, int] | None:
+def identity(file: str) -> tuple[int, int] | None:
     """Changes whenever the file is written anew; None where there is none."""
     try:
-        status = path.stat()
+        status = (ROOT / file).stat()
     except OSError:
         return None
     return status.st_ino, status.st_mtime_ns
@@ -100,9 +104,10 @@ def identity(path: Path) -> tuple[int, int] | None:
 def table(rows: list[tuple[str, str, str]]) -> None:
     """Print the figures of this run, one a line: figure, file, size, recomputed or current."""
     rows = [
-        (scene, name, f"{max(1, (ROOT / name).stat().st_size // 1000):,} kB", state)
+        (scene, name, f"{(ROOT / name).stat().st_size / 1000:,.0f} kB", state)
         for scene, name, state in rows
     ]
+    rows.insert(0, ("figure", "file", "size", "state"))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     print()
     for scene, name, size, state in rows:
@@ -111,25 +116,25 @@ def table(rows: list[tuple[str, str, str]]) -> None:
 
 def workflow(arguments: list[str]) -> int:
     """Check the config, run snakemake, and say what became of the figures."""
-    files = figures()
+    figures = config.figures(config.load(ROOT / "config.yaml")["scenes"])
     lock = hold_lock()
     if lock is None:
         print("reproduce: another ./reproduce is running in this folder", file=sys.stderr)
         return 1
-    before = {name: identity(path) for name, (_, path) in files.items()}
+    before = {name: identity(behind[-1]) for name, (_, behind) in figures.items()}
     start = time.time() - 1  # some file systems keep whole seconds only
-    status = run_snakemake(arguments, lock)
+    status = run_snakemake(with_missing(arguments, figures), lock)
     if status:
         for line in last_words(start):
             print(line, file=sys.stderr)
         return status
     # After a plain run the figures asked for, or all; with other options what was drawn on the way.
-    named = [argument for argument in arguments if argument in files]
-    options = [a for a in arguments if a not in files and not CORES.fullmatch(a)]
+    named = [argument for argument in arguments if argument in figures]
+    options = [a for a in arguments if a not in figures and not CORES.fullmatch(a)]
     rows = []
-    for name, (scene, path) in files.items():
-        drawn = identity(path) != before[name]
-        if drawn or not options and name in (named or files):
+    for name, (scene, behind) in figures.items():
+        drawn = identity(behind[-1]) != before[name]
+        if drawn or (not options and name in (named or figures)):
             rows.append((scene, name, "recomputed" if drawn else "current"))
     if rows:
         table(rows)

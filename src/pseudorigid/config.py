@@ -83,16 +83,16 @@ def load(path) -> dict:
 
 
 def check(document) -> dict:
-    """The complete config of a parsed YAML `document`; raises ConfigError where it is not allowed."""
+    """The complete config of a parsed YAML `document`; raises ConfigError where there is none."""
     _check_structure(document, "config", ())
     ball = document["ball"]
     _check_ball(ball, ("ball",))
     scenes = {}
-    for name, block in document["scenes"].items():
+    for name, given in document["scenes"].items():
         place = ("scenes", name)
-        _check_structure(block, "scene", place, extra_keys=True)
-        _check_structure(block, block["picture"], place)
-        block = {"ball": ball, "formats": ["png"]} | block
+        _check_structure(given, "scene", place, extra_keys=True)
+        _check_structure(given, given["picture"], place)
+        block = {"ball": ball, "formats": ["png"]} | given
         if "png" not in block["formats"]:
             raise _refusal((*place, "formats"), block["formats"], "a list that has png in it")
         _check_ball(block["ball"], (*place, "ball"))
@@ -266,11 +266,30 @@ def owners(scenes: dict[str, dict]) -> dict[tuple[str, str], str]:
     return serves
 
 
+def artifact(stage: str, owner: str, variant: str = "paper") -> str:
+    """Where the data of a stage are, from the project's root."""
+    return f"results/{variant}/{stage}_{owner}.nc"
+
+
 def drawn(scene: str, extension: str, variant: str = "paper") -> str:
-    """Where a figure is drawn, from the project's root."""
+    """Where a figure is drawn."""
     return f"results/{variant}/figures/{scene}.{extension}"
 
 
 def shown(scene: str, extension: str) -> str:
     """Where users look for the figure: in paper_figures/, or in results if it is not published."""
     return f"paper_figures/{scene}.{extension}" if extension in SHOWN else drawn(scene, extension)
+
+
+def figures(scenes: dict[str, dict]) -> dict[str, tuple[str, list[str]]]:
+    """Each figure, where users look for it -> its scene, its data files and last its drawing."""
+    serves = owners(scenes)
+    return {
+        shown(name, extension): (
+            name,
+            [artifact(stage, serves[name, stage]) for stage in STAGES[block["picture"]]]
+            + [drawn(name, extension)],
+        )
+        for name, block in scenes.items()
+        for extension in block["formats"]
+    }

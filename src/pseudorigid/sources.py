@@ -1,4 +1,4 @@
-"""Which files of this package a script needs, read from its import statements and never by running it.
+"""Which files of this package a script needs, read from import statements without running them.
 
 Snakemake does not look inside a script's imports; its rules name these files as inputs, so that
 editing a module reruns what uses it.
@@ -11,13 +11,13 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 def closure(*starts: str | Path) -> list[Path]:
-    """The package's files behind `starts`, sorted: what they import, and what that imports, and so on.
+    """The package's files behind `starts`, sorted: what they import, what that imports, and so on.
 
     A start is a module's dotted name ("pseudorigid.orbits"), whose own file is part of the answer,
     or the path of a script, which is not. Imports inside functions count; those under
-    `if TYPE_CHECKING` do not. A package's `__init__` runs when one of its modules is imported, so it
-    counts too. Raises ValueError for a module that is not there, and for `from package import name`
-    where the name is not a module: a lazy package does not tell where such a name comes from.
+    `if TYPE_CHECKING` do not. A package's `__init__` runs when one of its modules is imported, so
+    it counts too. Raises ValueError for a module that is not there, and for `from package import
+    name` where name is no module: a lazy package does not tell where such a name comes from.
     """
     found: set[Path] = set()
     pending = []

@@ -4,7 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from pseudorigid.config import SHOWN, STAGES, ConfigError, drawn, load, owners, shown, stages
+from pseudorigid.config import STAGES, ConfigError, artifact, figures, load, owners, stages
 from pseudorigid.sources import closure
 
 ROOT = Path(workflow.basedir)
@@ -20,16 +20,13 @@ except ConfigError as error:
     sys.exit(str(error))
 
 OWNERS = owners(SCENES)
-FIGURES = [(scene, x) for scene, block in SCENES.items() for x in block["formats"]]
-DRAWN = [drawn(scene, extension) for scene, extension in FIGURES]
-PUBLISHED = [shown(scene, extension) for scene, extension in FIGURES if extension in SHOWN]
-ARTIFACTS = sorted({f"results/paper/{stage}_{owner}.nc" for (_, stage), owner in OWNERS.items()})
+FIGURES = figures(SCENES)
 
 
 def artifacts(*stages):
     """Input function: the artifacts of some stages that serve the scene, in this order."""
     return lambda wildcards: [
-        f"results/{wildcards.variant}/{stage}_{OWNERS[wildcards.scene, stage]}.nc" for stage in stages
+        artifact(stage, OWNERS[wildcards.scene, stage], wildcards.variant) for stage in stages
     ]
 
 
@@ -60,12 +57,3 @@ def code(script, *modules):
     scripts = [ROOT / "workflow/scripts" / name for name in (script, "job.py")]
     files = [*scripts, *closure(*scripts, *modules), ROOT / "requirements/lock.txt"]
     return [os.path.relpath(file, ROOT) for file in files]
-
-
-# A clone brings finished figures and no results. Where the drawn file behind a published one is
-# missing, the published one counts as older than anything, so that it is made again whatever
-# the clone's file times are.
-for _scene, _extension in FIGURES:
-    _shown = ROOT / shown(_scene, _extension)
-    if _shown.exists() and not (ROOT / drawn(_scene, _extension)).exists():
-        os.utime(_shown, (-86400, -86400))

@@ -6,14 +6,14 @@ rule orbits:
         code=code("orbits.py"),
     output:
         "results/{variant}/orbits_{scene}.nc",
-    params:
-        block=stage_block("orbits"),
     log:
         "results/{variant}/logs/orbits_{scene}.log",
     wildcard_constraints:
         scene=scenes_with("orbits"),
     conda:
         "../envs/python.yaml"
+    params:
+        block=stage_block("orbits"),
     script:
         "../scripts/orbits.py"
 
@@ -23,14 +23,14 @@ rule periodic:
         code=code("periodic.py"),
     output:
         "results/{variant}/periodic_{scene}.nc",
-    params:
-        block=stage_block("periodic"),
     log:
         "results/{variant}/logs/periodic_{scene}.log",
     wildcard_constraints:
         scene=scenes_with("periodic"),
     conda:
         "../envs/python.yaml"
+    params:
+        block=stage_block("periodic"),
     script:
         "../scripts/periodic.py"
 
@@ -41,14 +41,14 @@ rule motion:
         code=code("motion.py"),
     output:
         "results/{variant}/motion_{scene}.nc",
-    params:
-        block=stage_block("motion"),
     log:
         "results/{variant}/logs/motion_{scene}.log",
     wildcard_constraints:
         scene=scenes_with("motion"),
     conda:
         "../envs/python.yaml"
+    params:
+        block=stage_block("motion"),
     script:
         "../scripts/motion.py"
 
@@ -59,14 +59,14 @@ rule manifolds:
         code=code("manifolds.py"),
     output:
         "results/{variant}/manifolds_{scene}.nc",
-    params:
-        block=stage_block("manifolds"),
     log:
         "results/{variant}/logs/manifolds_{scene}.log",
     wildcard_constraints:
         scene=scenes_with("manifolds"),
     conda:
         "../envs/python.yaml"
+    params:
+        block=stage_block("manifolds"),
     script:
         "../scripts/manifolds.py"
 
@@ -76,13 +76,13 @@ rule lyapunov:
         code=code("lyapunov.py"),
     output:
         "results/{variant}/lyapunov_{scene}.nc",
-    params:
-        block=stage_block("lyapunov"),
     log:
         "results/{variant}/logs/lyapunov_{scene}.log",
     wildcard_constraints:
         scene=scenes_with("lyapunov"),
     conda:
         "../envs/python.yaml"
+    params:
+        block=stage_block("lyapunov"),
     script:
         "../scripts/lyapunov.py"

@@ -7,14 +7,14 @@ rule draw_portrait:
         code=code("draw.py", "pseudorigid.figures.portrait"),
     output:
         "results/{variant}/figures/{scene}.{extension}",
-    params:
-        scene=drawn_block,
     log:
         "results/{variant}/logs/draw_{scene}_{extension}.log",
     wildcard_constraints:
         scene=scenes_of("portrait"),
     conda:
         "../envs/python.yaml"
+    params:
+        scene=drawn_block,
     script:
         "../scripts/draw.py"
 

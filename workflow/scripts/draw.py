@@ -3,7 +3,6 @@
 from importlib import import_module
 
 from job import one_line_errors
-
 from pseudorigid.artifacts import load
 from pseudorigid.figures.save import save
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def one_line_errors(snakemake):
-    """Turn an error into one line on stderr and exit status 1; its traceback goes to the job's log."""
+    """Turn an error into one line on stderr and exit status 1; the job's log has its traceback."""
     log = snakemake.log[0]
     try:
         yield

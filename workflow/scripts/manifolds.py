@@ -1,7 +1,6 @@
 """Manifolds of one periodic orbit: whole branches, or what lies in a window."""
 
 from job import save_stage
-
 from pseudorigid.artifacts import load
 from pseudorigid.manifolds import scene_manifolds, window_manifolds
 from pseudorigid.periodic import of_type

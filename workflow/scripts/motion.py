@@ -1,7 +1,6 @@
 """Position and strain in time along one periodic orbit."""
 
 from job import save_stage
-
 from pseudorigid.artifacts import load
 from pseudorigid.orbits import motion
 from pseudorigid.periodic import of_type

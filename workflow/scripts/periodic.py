@@ -1,7 +1,6 @@
 """All symmetric orbits of one period; an energy without any ends the job."""
 
 from job import save_stage
-
 from pseudorigid.periodic import symmetric_orbits
 
 
