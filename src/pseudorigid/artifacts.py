@@ -143,7 +143,7 @@ def _write(dataset, path):
         for name in sorted(dataset.variables):
             variable = dataset.variables[name]
             text = _is_text(variable)
-            kind = str if text else variable.dtype.newbyteorder("<")
+            kind = str if text else variable.dtype.newbyteorder("=")
             target = file.createVariable(name, kind, variable.dims, fill_value=False)
             target.set_auto_mask(False)
             target.setncatts({key: variable.attrs[key] for key in sorted(variable.attrs)})
