@@ -4,6 +4,7 @@ import numpy as np
 
 from . import style
 from .projection import Projection
+from .ragged import pieces
 from .sheet import POINT, Sheet
 
 _WIDE = 1500  # pixels: drawn at five inches, read at a column's width
@@ -14,8 +15,9 @@ _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
 class Box:
     """A figure with a box of equal data scales for scene["axes"] seen by scene["view"].
 
-    `points` and `line` draw data into it; `figure` is the result. Raises ValueError unless the
-    elevation is between 0 and 90 degrees: the panes behind the data suit a view from above.
+    `points` and `line` draw data into it, as far as they lie inside the box; `figure` is the
+    result. Raises ValueError unless the elevation is between 0 and 90 degrees: the panes behind
+    the data suit a view from above.
     """
 
     def __init__(self, scene):
@@ -31,11 +33,15 @@ class Box:
 
     def points(self, x, y, z, color, size):
         """Draw small opaque dots of `size` points across, in the order given."""
-        self._draw(x, y, z, ls="none", marker="o", ms=size, mew=0, color=color)
+        inside = self._inside(x, y, z)
+        across, up = self.view(x[inside], y[inside], z[inside])
+        self.sheet.draw(across, up, ls="none", marker="o", ms=size, mew=0, color=color)
 
     def line(self, x, y, z, color, width):
-        """Draw a line of `width` points."""
-        self._draw(x, y, z, lw=width, color=color)
+        """Draw a line of `width` points, broken where a coordinate is NaN."""
+        x = np.where(self._inside(x, y, z), x, np.nan)
+        for piece in pieces(*self.view(x, y, z)):
+            self.sheet.draw(*piece, lw=width, color=color)
 
     def near(self, dataset):
         """Return for each state of an artifact whether the energy surface faces the eye there.
@@ -49,17 +55,28 @@ class Box:
 
     def _fit(self):
         """Place the box on a sheet with room for the labels, and return the sheet."""
-        beside = {along: _TICK + _GAP + _SIZE * _ems(self.ticks[along]) for along in (1, 2)}
-        left, right, bottom, top = ((beside[2] + 4), (beside[1] + 18), 26, 8)
+        left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
+        right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
         inner = _WIDE - (left + right) * POINT
         across, up = self.view(*self.view.corners().T)
         inner_high = inner * float((up.max() - up.min()) / (across.max() - across.min()))
-        high = 75 * int(np.ceil((inner_high + (bottom + top) * POINT) / 75))
-        self.view.place(left * POINT, high - top * POINT - inner_high, inner, inner_high)
+        self.view.place(left * POINT, 0, inner, inner_high)
+        # A label reaches down by its height where it hangs, by half of it elsewhere.
+        edges = [0.0, inner_high]
+        for at, step, reach, _, size in self._labels():
+            middle = self.view(*at)[1] + step[1] * reach * POINT
+            edges += [middle - 1.5 * size * POINT, middle + 1.5 * size * POINT * (step[1] > 0.5)]
+        bottom, top = 4 * POINT - min(edges), 8 * POINT
+        high = 75 * int(np.ceil((bottom + max(edges) + top) / 75))
+        self.view.place(left * POINT, bottom, inner, inner_high)
         return Sheet(_WIDE, high)
 
-    def _draw(self, x, y, z, **how):
-        self.sheet.draw(*self.view(x, y, z), **how)
+    def _inside(self, *state):
+        checks = [
+            (low <= value) & (value <= high)
+            for value, (low, high) in zip(state, self.spans, strict=True)
+        ]
+        return checks[0] & checks[1] & checks[2]
 
     def _edge(self, start, along, color, width):
         """Draw the box's line through `start` in the direction of one axis."""
@@ -79,27 +96,21 @@ class Box:
                     start[fixed] = value
                     self._edge(start, along, color, 0.6)
 
-    def _edges(self):
-        """Draw each axis on an edge that nothing stands before."""
-        (x0, x1), (y0, y1), (z0, z1) = self.spans
+    def _axes(self):
+        """Return for each axis where it starts and the direction of its ticks on the sheet.
+
+        An axis is an edge of the box that nothing stands before: two on the floor, one upright.
+        """
+        (x0, x1), (y0, y1), (z0, _) = self.spans
         east, north, _ = self.view.eye
         front = (x1 if east > 0 else x0), (y1 if north > 0 else y0)
-        self._axis(0, [x0, front[1], z0], self._towards(1, north))
-        self._axis(1, [front[0], y0, z0], self._towards(0, east))
         corners = [(x, y) for x in (x0, x1) for y in (y0, y1)]
         leftmost = min(corners, key=lambda corner: float(self.view(*corner, z0)[0]))
-        self._axis(2, [*leftmost, z0], (-1.0, 0.0))
-        # The vertical axis has its name above its end, the others beside their middle.
-        across, up = self.view(*leftmost, z1)
-        name = style.NAMES["udot"]
-        self.sheet.text(across, up + 2 * _GAP * POINT, name, ha="center", va="bottom", size=_NAME)
-        for along, name in enumerate(list(style.NAMES.values())[:2]):
-            middle = [(x0 + x1) / 2, (y0 + y1) / 2, z0]
-            middle[1 - along] = front[1 - along]
-            step = self._towards(1 - along, (east, north)[1 - along])
-            size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
-            reach = _TICK + 2 * _GAP + _SIZE * size
-            self._beside(middle, step, reach, name, _NAME)
+        return [
+            ([x0, front[1], z0], self._towards(1, north)),
+            ([front[0], y0, z0], self._towards(0, east)),
+            ([*leftmost, z0], (-1.0, 0.0)),
+        ]
 
     def _towards(self, along, sign):
         """Return the unit step on the sheet along an axis, forwards or backwards."""
@@ -107,27 +118,36 @@ class Box:
         length = float(np.sqrt(across * across + up * up)) * (1 if sign > 0 else -1)
         return across / length, up / length
 
-    def _axis(self, along, start, step):
-        """Draw one axis with its ticks in the direction of `step`, and their labels."""
-        self._edge(start, along, style.FRAME, 0.8)
-        for tick in self.ticks[along]:
-            at = list(start)
-            at[along] = tick
-            across, up = self.view(*at)
-            ends = np.array(
-                [(across + step[0] * far, up + step[1] * far) for far in (0, _TICK * POINT)]
-            )
-            self.sheet.draw(*ends.T, color=style.FRAME, lw=0.8)
-            self._beside(at, step, _TICK + _GAP, style.number(tick), _SIZE)
+    def _labels(self):
+        """Yield (place in the box, direction from there, points in it, text, size)."""
+        for along, (start, step) in enumerate(self._axes()):
+            for tick in self.ticks[along]:
+                at = [*start[:along], tick, *start[along + 1 :]]
+                yield at, step, _TICK + _GAP, style.number(tick), _SIZE
+            low, high = self.spans[along]
+            name = list(style.NAMES.values())[along]
+            if along == 2:  # its name stands above its end, the others' beside their middle
+                yield [*start[:2], high], (0.0, 1.0), 2 * _GAP, name, _NAME
+                continue
+            size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
+            at = [*start[:along], (low + high) / 2, *start[along + 1 :]]
+            yield at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME
 
-    def _beside(self, at, step, reach, text, size):
-        """Write `text` so many points from a place of the box in the direction of `step`."""
-        across, up = self.view(*at)
-        ha = "center" if abs(step[0]) < 0.25 else ("left" if step[0] > 0 else "right")
-        va = "center_baseline" if abs(step[1]) < 0.5 else ("bottom" if step[1] > 0 else "top")
-        pixels = reach * POINT
-        across, up = across + step[0] * pixels, up + step[1] * pixels
-        self.sheet.text(across, up, text, ha=ha, va=va, size=size)
+    def _edges(self):
+        """Draw the axes with their ticks and labels."""
+        for along, (start, step) in enumerate(self._axes()):
+            self._edge(start, along, style.FRAME, 0.8)
+            for tick in self.ticks[along]:
+                across, up = self.view(*start[:along], tick, *start[along + 1 :])
+                far = _TICK * POINT
+                ends = [across, across + step[0] * far], [up, up + step[1] * far]
+                self.sheet.draw(*ends, color=style.FRAME, lw=0.8)
+        for at, step, reach, text, size in self._labels():
+            across, up = self.view(*at)
+            across, up = across + step[0] * reach * POINT, up + step[1] * reach * POINT
+            ha = "center" if abs(step[0]) < 0.25 else ("left" if step[0] > 0 else "right")
+            va = "center_baseline" if abs(step[1]) < 0.5 else ("bottom" if step[1] > 0 else "top")
+            self.sheet.text(across, up, text, ha=ha, va=va, size=size)
 
 
 def _ems(ticks):

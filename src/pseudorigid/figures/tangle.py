@@ -4,7 +4,7 @@ import numpy as np
 
 from . import style
 from .box import Box
-from .ragged import pieces, rows
+from .ragged import rows
 
 _BACKDROP, _BRANCH, _SADDLE = 0.5, 0.6, 3.6  # points
 
@@ -39,8 +39,7 @@ def _branches(box, manifolds):
                 state = [
                     np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
                 ]
-                for piece in pieces(*state):
-                    box.line(*piece, hue if side else style.pale(hue), _BRANCH)
+                box.line(*state, hue if side else style.pale(hue), _BRANCH)
 
 
 def _saddles(box, periodic, kind):
