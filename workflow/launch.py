@@ -3,8 +3,6 @@
 import fcntl
 import os
 import re
-import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -17,20 +15,17 @@ from pseudorigid import config  # noqa: E402  (needs the path above; imports not
 CORES = re.compile(r"--(cores|jobs)(=.*)?|-[cj](all|\d*)|all|\d+")
 
 
-def environment() -> dict[str, str]:
+def set_environment() -> None:
     """The tree's own package wherever the folder was moved, and caches that need no home folder."""
     caches = ROOT / ".venv" / "cache"
-    return os.environ | {
-        "PYTHONPATH": str(ROOT / "src"),
-        "XDG_CACHE_HOME": str(caches),
-        "MPLCONFIGDIR": str(caches / "matplotlib"),
-    }
+    os.environ["PYTHONPATH"] = str(ROOT / "src")
+    os.environ["XDG_CACHE_HOME"] = str(caches)
+    os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
 
 
 def test(arguments: list[str]) -> int:
     """Hand over to pytest; its exit status is ours."""
-    os.chdir(ROOT)
-    os.execve(sys.executable, [sys.executable, "-m", "pytest", *arguments], environment())
+    os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
 
 
 WORDS = {"test": test}
@@ -46,26 +41,22 @@ def hold_lock():
     return lock
 
 
-def run_snakemake(arguments: list[str], lock) -> int:
-    """Run snakemake to its end and return its exit status."""
-    command = [sys.executable, "-m", "snakemake", "--nolock"]
-    command += ["--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
+def run_snakemake(arguments: list[str]) -> int:
+    """Run snakemake to its end, in this process, and return its exit status."""
+    from snakemake.cli import main as snakemake
+
+    # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
+    command = ["--nolock", "--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
     command += arguments
     if not any(a.startswith("-") and CORES.fullmatch(a) for a in arguments):
         command += ["--cores", "all"]
-    # snakemake keeps the lock too, in case it outlives this process.
-    child = subprocess.Popen(command, cwd=ROOT, env=environment(), pass_fds=[lock.fileno()])
-
-    def pass_on(number, _frame):
-        # Ctrl-C in a terminal reaches snakemake and its jobs by itself; a second one would cut
-        # their tidying up short.
-        if number != signal.SIGINT or not sys.stdin or not sys.stdin.isatty():
-            child.send_signal(signal.SIGINT)
-
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, pass_on)
-    status = child.wait()
-    return 128 - status if status < 0 else status
+    try:
+        snakemake(command)
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    except KeyboardInterrupt:
+        return 130
+    return 0
 
 
 def last_words(since: float) -> list[str]:
@@ -123,7 +114,7 @@ def workflow(arguments: list[str]) -> int:
         return 1
     before = {name: identity(behind[-1]) for name, (_, behind) in figures.items()}
     start = time.time() - 1  # some file systems keep whole seconds only
-    status = run_snakemake(with_missing(arguments, figures), lock)
+    status = run_snakemake(with_missing(arguments, figures))
     if status:
         for line in last_words(start):
             print(line, file=sys.stderr)
@@ -143,6 +134,8 @@ def workflow(arguments: list[str]) -> int:
 
 def main(arguments: list[str]) -> int:
     """Run one word, or snakemake."""
+    os.chdir(ROOT)
+    set_environment()
     if arguments and arguments[0] in WORDS:
         return WORDS[arguments[0]](arguments[1:])
     try:

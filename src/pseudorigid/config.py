@@ -8,6 +8,7 @@ import difflib
 import json
 import math
 import sys
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -109,14 +110,18 @@ def _check_ball(ball, place):
 
 
 def _check_energy(block, place):
-    k, g = block["ball"]["k"], block["ball"]["g"]
+    ball = block["ball"]
+    # The decimals as written: as floats 0.2 / 2 - 0.04 is a little more than 0.06.
+    k, g, energy = (Fraction(str(x)) for x in (ball["k"], ball["g"], block["energy"]))
     lowest, highest = -g * g / (2 * k), k / 2 - g
     place = (*place, "energy")
-    if not block["energy"] > lowest:
-        what = f"a number above -g^2/(2k) = {lowest:.6g}, where the ball rests on the floor"
+    if not energy > lowest:
+        what = f"a number above -g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
         raise _refusal(place, block["energy"], what)
-    if not block["energy"] < highest:
-        what = f"a number below k/2 - g = {highest:.6g}, where the ball could flatten to nothing"
+    if not energy < highest:
+        what = (
+            f"a number below k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
+        )
         raise _refusal(place, block["energy"], what)
 
 

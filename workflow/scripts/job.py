@@ -5,6 +5,14 @@ import traceback
 from contextlib import contextmanager
 
 
+def _uncaught(kind, error, trace):
+    if not issubclass(kind, KeyboardInterrupt):
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = _uncaught  # Ctrl-C is no reason for a traceback
+
+
 @contextmanager
 def one_line_errors(snakemake):
     """Turn an error into one line on stderr and exit status 1; the job's log has its traceback."""
