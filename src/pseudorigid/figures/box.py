@@ -67,7 +67,9 @@ class Box:
             middle = self.view(*at)[1] + step[1] * reach * POINT
             edges += [middle - 1.5 * size * POINT, middle + 1.5 * size * POINT * (step[1] > 0.5)]
         bottom, top = 4 * POINT - min(edges), 8 * POINT
-        high = 75 * int(np.ceil((bottom + max(edges) + top) / 75))
+        needed = bottom + max(edges) + top
+        high = 75 * int(np.ceil(needed / 75))
+        bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner, inner_high)
         return Sheet(_WIDE, high)
 

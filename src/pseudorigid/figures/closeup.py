@@ -15,14 +15,14 @@ def draw(scene, manifolds):
     names = (style.NAMES["x"], style.NAMES["xdot"])
     plane = Plane(scene, ("x", "xdot"), names, high=900, right=75)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
-    hues = {0: style.BLUE, 1: style.GREEN}
+    hues = {0: style.UNSTABLE, 1: style.STABLE}
     for branch, span in enumerate(rows(manifolds["row_size"].values)):
         hue = hues[int(manifolds["stable"].values[branch])]
         plane.line(x[span], xdot[span], color=hue, lw=0.7)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
     plane.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
     plane.legend(
-        ("stable", 26, {"color": style.GREEN, "lw": 1.0}),
-        ("unstable", 36, {"color": style.BLUE, "lw": 1.0}),
+        ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
+        ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )
     return plane.figure

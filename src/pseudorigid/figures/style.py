@@ -12,7 +12,10 @@ PLAIN = 8.0  # points: text in a picture of that width
 # Okabe and Ito's hues, which stay apart under every kind of colour blindness.
 BLUE, VERMILION, GREEN, ORANGE = "#0072b2", "#d55e00", "#009e73", "#e69f00"
 PURPLE, SKY, BLACK = "#cc79a7", "#56b4e9", "#000000"
-HUES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+# The paper's green and blue for the two kinds of manifold, the one light and yellowish, the other
+# dark, so that they too stay apart.
+STABLE, UNSTABLE = "#4fa82a", "#123fb0"
 SEA, BACKDROP = "#909090", "#b4b4b4"
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 

@@ -6,7 +6,9 @@ from . import style
 from .box import Box
 from .ragged import rows
 
-_BACKDROP, _BRANCH, _SADDLE = 0.5, 0.6, 3.6  # points
+_BACKDROP, _SADDLE = 0.5, 3.6  # points
+# Stable branches first and broader: both show where they all but coincide.
+_BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
 
 @style.pinned()
@@ -31,7 +33,7 @@ def _branches(box, manifolds):
     near = box.near(manifolds)
     spans = rows(manifolds["row_size"].values)
     for side in (False, True):
-        for stable, hue in ((0, style.BLUE), (1, style.GREEN)):
+        for stable, hue, width in _BRANCHES:
             for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
                 hide = near[span] != side
                 # Keep the first hidden vertex on each side, so that pale and full parts meet.
@@ -39,7 +41,7 @@ def _branches(box, manifolds):
                 state = [
                     np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
                 ]
-                box.line(*state, hue if side else style.pale(hue), _BRANCH)
+                box.line(*state, hue if side else style.pale(hue), width)
 
 
 def _saddles(box, periodic, kind):
