@@ -1,0 +1,26 @@
+"""Dynamics of a pseudo-rigid ball bouncing on a rigid foundation (Kanso & Papadopoulos).
+
+The names below are loaded when they are first used, so that a program pays for what it uses.
+"""
+
+import importlib
+
+_HOMES = {
+    "Ball": "ball",
+    "orbit": "orbits",
+    "symmetric_orbits": "periodic",
+    "trace_manifold": "manifolds",
+    "lyapunov_spectrum": "lyapunov",
+}
+
+__all__ = list(_HOMES)
+
+
+def __getattr__(name):
+    if name in _HOMES:
+        return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted([*globals(), *__all__])

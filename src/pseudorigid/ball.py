@@ -1,0 +1,160 @@
+"""The ball: its two parameters, its energy, its section, and the impact map on plain numbers or arrays."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import impact as kernel
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A pseudo-rigid ball, dimensionless: lengths in R, times in 1/omega.
+
+    Args:
+        k: Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
+        g: gravity, eq. (20), g > 0.
+
+    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on the
+    section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast, and return
+    numbers for scalars and arrays of the broadcast shape otherwise; each element has the bits of the
+    scalar call. Input that is NaN or infinite gives NaN.
+
+    Raises:
+        ValueError: k or g outside its range, or a state with xdot + udot < 0.
+    """
+
+    k: float
+    g: float
+
+    def __post_init__(self):
+        for name in ("k", "g"):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+                raise ValueError(f"{name} = {value!r} is not a number")
+            object.__setattr__(self, name, float(value))
+        if not 0.0 < self.k <= 1.0:
+            raise ValueError(f"k = {self.k!r} is not allowed: 0 < k <= 1")
+        if not 0.0 < self.g < math.inf:
+            raise ValueError(f"g = {self.g!r} is not allowed: g > 0, finite")
+
+    def energy(self, x, xdot, udot):
+        """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
+        x, xdot, udot = _floats(x, xdot, udot)
+        return _plain(
+            0.5 * xdot * xdot + 0.5 * self.k * udot * udot - self.g * x + 0.5 * self.k * x * x
+        )
+
+    def energy_bounds(self):
+        """(lowest, highest) energy: rest on the floor, -g^2/(2k), and u > -1 at impact, eq. (31), k/2 - g."""
+        return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
+
+    def section(self, energy):
+        """(centre, radius) of the section along y = 0: x from centre - radius to centre + radius.
+
+        The energy surface's half is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
+        Raises ValueError below the lowest energy.
+        """
+        square = (2.0 * energy + self.g * self.g / self.k) / self.k
+        if not square >= 0.0:
+            raise ValueError(
+                f"energy = {energy!r} is not allowed: at least {self.energy_bounds()[0]:.6g}"
+            )
+        return self.g / self.k, math.sqrt(square)
+
+    def state(self, x, xdot, energy, branch=1):
+        """The state (x, xdot, udot) with this energy, eq. (29): the larger udot, or with branch=-1 the other.
+
+        Raises ValueError where the energy surface has no such point with xdot + udot >= 0.
+        """
+        if branch not in (1, -1):
+            raise ValueError(f"branch = {branch!r} is not allowed: 1 or -1")
+        x, xdot, energy = _floats(x, xdot, energy)
+        square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
+        if not np.all(square >= 0.0):
+            raise ValueError("no state with this x, xdot and energy: the kinetic energy is too small")
+        udot = branch * np.sqrt(square)
+        if not np.all(xdot + udot >= 0.0):
+            raise ValueError("no state with this x, xdot and energy on the section xdot + udot >= 0")
+        return _plain(x), _plain(xdot), _plain(udot)
+
+    def state_xy(self, x, y, energy):
+        """The state (x, xdot, udot) at the point (x, y = xdot - k udot) of the canonical chart.
+
+        Raises ValueError outside the section's disk.
+        """
+        x, y, energy = _floats(x, y, energy)
+        k = self.k
+        # s = xdot + udot from 2E + 2 g x - k x^2 = (y^2 + k s^2)/(1 + k)
+        square = ((1.0 + k) * (2.0 * energy + 2.0 * self.g * x - k * x * x) - y * y) / k
+        if not np.all(square >= 0.0):
+            raise ValueError("no state with this x, y and energy: the point is outside the section")
+        s = np.sqrt(square)
+        return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
+
+    def start(self, fraction, energy):
+        """The state at this fraction of the section's radius along y = 0, -1 to 1, the form starts have in config.yaml."""
+        centre, radius = self.section(energy)
+        return self.state_xy(centre + np.asarray(fraction, dtype=float) * radius, 0.0, energy)
+
+    def reflect(self, x, xdot, udot):
+        """The reversor R, (x, y) -> (x, -y): the state with the post-impact velocities, eq. (25), reversed."""
+        x, xdot, udot = self.on_section(x, xdot, udot)
+        b, c, _ = kernel.rebound.py_func(xdot, udot, self.k, *kernel.transfer(self.k))
+        return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
+
+    def time_to_impact(self, x, xdot, udot):
+        """Time tau to the next impact: the smallest positive root of eq. (21) with (26).
+
+        0 where the ball does not leave the floor (at rest on it, or on the rim xdot + udot = 0 and
+        pressed down).
+        """
+        return self.impact(x, xdot, udot)[3]
+
+    def impact(self, x, xdot, udot):
+        """The impact map, eq. (28): (x, xdot, udot, tau), the state just before the next impact and the flight time."""
+        return self._each(kernel.steps, x, xdot, udot)
+
+    def inverse_impact(self, x, xdot, udot):
+        """The state (x, xdot, udot) just before the previous impact and the flight time tau since: F^-1 = R F R."""
+        return self._each(kernel.steps_back, x, xdot, udot)
+
+    def jacobian(self, x, xdot, udot, impacts=1):
+        """The Jacobian of the map with respect to (x, xdot, udot), eq. (33), shape (..., 3, 3), analytic.
+
+        With `impacts` that of the map's iterate, by the chain rule.
+
+        Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite where
+        the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
+        """
+        state = self.on_section(x, xdot, udot)
+        x, xdot, udot = (a.flatten() for a in state)
+        out = np.empty((x.size, 3, 3))
+        kernel.jacobians(x, xdot, udot, self.k, self.g, impacts, out)
+        return out.reshape(*state[0].shape, 3, 3)
+
+    def _each(self, loop, x, xdot, udot):
+        state = self.on_section(x, xdot, udot)
+        shape = state[0].shape
+        x, xdot, udot = (a.flatten() for a in state)
+        tau = np.empty(x.size)
+        loop(x, xdot, udot, self.k, self.g, 1, tau)
+        return tuple(_plain(a.reshape(shape)) for a in (x, xdot, udot, tau))
+
+    def on_section(self, x, xdot, udot):
+        """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
+        x, xdot, udot = _floats(x, xdot, udot)
+        if np.any(xdot + udot < 0.0):
+            raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
+        return x, xdot, udot
+
+
+def _floats(*values):
+    return np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
+
+
+def _plain(array):
+    """A 0-dimensional result as a Python float."""
+    array = np.asarray(array)
+    return float(array) if array.ndim == 0 else array

@@ -1,0 +1,27 @@
+"""The one way a function is compiled: strict arithmetic, one thread, cached by the kernel's own text.
+
+Numba notices an edit of the file a function stands in, but not of the files it calls into; so the cache
+lives in a folder named after the text of every kernel module and a stale machine code is never loaded.
+"""
+
+import hashlib
+import os
+from pathlib import Path
+
+import numba
+
+_HERE = Path(__file__).parent
+_KERNEL = ("arithmetic.py", "compiled.py", "flight.py", "impact.py")
+
+
+def _kernel_digest() -> str:
+    text = b"\0".join((_HERE / name).read_bytes() for name in _KERNEL)
+    return hashlib.sha256(text).hexdigest()[:16]
+
+
+if "NUMBA_CACHE_DIR" not in os.environ:
+    numba.config.CACHE_DIR = str(_HERE / "__pycache__" / f"compiled-{_kernel_digest()}")
+
+# No fastmath, no parallel: every + - * / and sqrt is rounded once, in the order written.
+# error_model="numpy" turns 1/0 into inf, as the processor does, instead of a Python exception.
+jit = numba.njit(cache=True, error_model="numpy", fastmath=False, nogil=True)

@@ -1,0 +1,186 @@
+"""The time to the next impact: the smallest root of the gap, with a certificate.
+
+After an impact at x with velocities b, c the gap is f(t) = X(t) + U(t), eq. (21) with (26):
+
+    f   = x + b t + g t^2/2 - P        P = x cos t - c sin t
+    f'  = b + g t + Q                  Q = x sin t + c cos t
+    f'' = g + P,  f''' = -Q,  f'''' = -P,  |P|, |Q| <= A = sqrt(x^2 + c^2)
+
+While the ball flies f < 0. From a point t before the first root, f lies below
+
+    f + f' h + M h^2/2,  0 < h <= S,  M = min(g + A, f'' + max(-Q, 0) S/3 + A S^2/12),
+
+so a step to the root of that parabola, or to S where that is nearer, cannot pass the first root of f.
+The march ends where f' > 0 and f'^2 >= 2 |f| max(0, A - g), or the sharper bound of f'' over the step,
+shows that f rises all the way to its root: that root is then the next one and the only one in reach.
+"""
+
+import math
+
+from .arithmetic import sincos_tails
+from .compiled import jit
+
+# A flight takes 2 or 3 looks, a hard one some tens; past this cap something is wrong, and it raises.
+MOST_LOOKS = 10_000
+# What a last step may leave of tau: a tenth of a rounding.
+_SLACK = 1e-17
+
+
+@jit
+def _launch(x, c, s, g, amplitude):
+    """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above f/t."""
+    h = 0.5 * (g + x)
+    root = math.sqrt(h * h + (2.0 / 3.0) * amplitude * s)
+    if h < 0.0:
+        return 3.0 * (root - h) / amplitude
+    if h + root > 0.0 and s > 0.0:
+        return 2.0 * s / (h + root)
+    if h == 0.0 and c > 0.0:  # at rest on the floor without weight: f = -c t^3/6 + ...
+        return 4.0 * c / amplitude
+    return 0.0
+
+
+@jit
+def _look(t, x, b, c, s, g):
+    """f, f', P, Q at t. Up to t = pi/4 the terms of f that cancel at 0 are left out by hand."""
+    sine, cosine, n, sine_tail, cosine_tail = sincos_tails(t)
+    p = x * cosine - c * sine
+    q = x * sine + c * cosine
+    if n == 0.0:
+        f = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
+        df = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
+    else:
+        f = (x + t * (b + 0.5 * g * t)) - p
+        df = b + g * t + q
+    return f, df, p, q
+
+
+@jit
+def _rises_to_its_root(depth, df, p, q, g, amplitude):
+    """Whether f' > 0 from here to the root, depth = -f > 0 below it."""
+    if not df > 0.0:
+        return False
+    square = df * df
+    if square >= 2.0 * depth * (amplitude - g):
+        return True
+    # f'' >= g + P - max(Q, 0) h - A h^2/2 for h up to 2 depth/f', the bound times f'^2
+    bend = (g + p) * square - 2.0 * depth * (max(q, 0.0) * df + amplitude * depth)
+    return square * square + 2.0 * depth * bend >= 0.0
+
+
+@jit
+def _stride(depth, df, p, q, g, amplitude):
+    """A step from a point depth = -f > 0 below the root that cannot pass it."""
+    most = g + amplitude
+    root = math.sqrt(df * df + 2.0 * most * depth)
+    sure = 2.0 * depth / (df + root) if df > 0.0 else (root - df) / most
+    reach = 2.0 * sure
+    while True:
+        bend = min(most, g + p + reach * (max(-q, 0.0) / 3.0 + amplitude * reach / 12.0))
+        square = df * df + 2.0 * bend * depth
+        step = reach
+        if square >= 0.0:
+            if df > 0.0:
+                step = 2.0 * depth / (df + math.sqrt(square))
+            elif bend > 0.0:
+                step = (math.sqrt(square) - df) / bend
+        if step < reach:
+            return max(sure, step)
+        reach *= 8.0  # near x = -g the gap bends far less than g + A: do not crawl
+
+
+@jit
+def _correction(f, df, p, q, t, g, amplitude):
+    """The step from t to the root nearby, and whether what it leaves is below the rounding of tau."""
+    inverse = 1.0 / df
+    u = -f * inverse
+    a2 = 0.5 * (g + p) * inverse
+    spread = 4.0 * (a2 * u) * (a2 * u) + amplitude * u * u * inverse
+    if spread < 0.25:  # the inverse series of f, to fourth order
+        a3 = (-1.0 / 6.0) * q * inverse
+        a4 = (-1.0 / 24.0) * p * inverse
+        tail = (2.0 * a2 * a2 - a3) + u * (a2 * (5.0 * a3 - 5.0 * a2 * a2) - a4)
+        return u - u * (a2 * u - u * u * tail), spread * spread * abs(u) <= _SLACK * t
+    # the parabola, and one Newton step on the sixth-order Taylor polynomial
+    h = -2.0 * f / (df + math.sqrt(max(0.0, df * df - 2.0 * (g + p) * f)))
+    rest = h * h * h * (-q / 6.0 + h * (-p / 24.0 + h * (q / 120.0 + h * p / 720.0)))
+    slope = df + h * (g + p + h * (-0.5 * q + h * (-p / 6.0 + h * q / 24.0)))
+    if slope > 0.5 * df:
+        h -= rest / slope
+    return h, False
+
+
+@jit
+def _turn(p, q, h):
+    """P and Q a small step h later."""
+    h2 = h * h
+    versine = h2 * (-0.5 + h2 * (1.0 / 24.0 - h2 / 720.0))
+    sine = h * (1.0 - h2 * (1.0 / 6.0 - h2 * (1.0 / 120.0 - h2 / 5040.0)))
+    return p + (p * versine - q * sine), q + (q * versine + p * sine)
+
+
+@jit
+def first_impact(x, b, c, s, g):
+    """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
+
+    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there, and how
+    often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for input that is not
+    finite. Raises ArithmeticError at MOST_LOOKS.
+    """
+    amplitude = math.sqrt(x * x + c * c)
+    if not (amplitude + abs(b) + s + g < math.inf):
+        return math.nan, math.nan, math.nan, 0
+    s = max(s, 0.0)  # a grazing impact's s is 0 to rounding, of either sign
+    t = _launch(x, c, s, g, amplitude)
+    if t == 0.0:
+        return 0.0, x, c, 0
+    # f < b t + g t^2/2 + x + A: between that parabola's roots there is no impact
+    enter = math.inf
+    leave = 0.0
+    square = b * b - 2.0 * g * (x + amplitude)
+    if b < 0.0 and square > 0.0:
+        fast = math.sqrt(square) - b
+        leave = fast / g
+        enter = 2.0 * (x + amplitude) / fast
+        if enter <= t < leave:
+            t = leave
+    f, df, p, q = _look(t, x, b, c, s, g)
+    looks = 1
+    low = t
+    while f < 0.0 and not _rises_to_its_root(-f, df, p, q, g, amplitude):
+        after = t + _stride(-f, df, p, q, g, amplitude)
+        if after == t:
+            return t, p, q, looks
+        t = after
+        if enter <= t < leave:
+            t = leave
+        f, df, p, q = _look(t, x, b, c, s, g)
+        looks += 1
+        if looks > MOST_LOOKS:
+            raise ArithmeticError("the march to the next impact does not end")
+        low = t
+    high = math.inf
+    while df > 0.0:
+        h, last = _correction(f, df, p, q, t, g, amplitude)
+        if last:
+            p, q = _turn(p, q, h)
+            return t + h, p, q, looks
+        after = t + h
+        if not low < after < high:
+            after = 0.5 * (low + high)
+        if after == t or after == low or after == high:
+            break
+        t = after
+        f, df, p, q = _look(t, x, b, c, s, g)
+        looks += 1
+        if looks > MOST_LOOKS:
+            raise ArithmeticError("the landing on the next impact does not end")
+        if f < 0.0:
+            low = t
+        else:
+            high = t
+    if df < 0.0 and g + p < 0.0:  # a double root, to rounding: at the top f' = 0, the impact is grazing
+        h = -df / (g + p)
+        p, q = _turn(p, q, h)
+        return t + h, p, q, looks
+    return t, p, q, looks
