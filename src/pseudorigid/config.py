@@ -28,7 +28,7 @@ STAGES = {
     },
     "closeup": {
         "periodic": ("period",),
-        "manifolds": ("period", "type", "point", "window", "resolution"),
+        "manifolds": ("period", "type", "point", "window", "resolution", "length"),
     },
     "exponents": {"lyapunov": ("starts", "impacts", "records")},
 }

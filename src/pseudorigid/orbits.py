@@ -111,7 +111,7 @@ def motion(ball, orbit, duration):
 
     Returns:
         Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included, where
-        position = -strain exactly; impact_time and impact_position on `impact`.
+        position = -strain exactly; impact_t and impact_position on `impact`.
     """
     states = [orbit[name].values for name in ("x", "xdot", "udot", "tau")]
     period = states[0].size
@@ -140,5 +140,5 @@ def motion(ball, orbit, duration):
         flight += 1
     names = {"t": "time", "position": "position of the mass centre, downwards", "strain": "strain"}
     data = variables("sample", [np.concatenate(c) for c in columns], names)
-    names = {"impact_time": "time of impact", "impact_position": "position at impact, downwards"}
+    names = {"impact_t": "time of impact", "impact_position": "position at impact, downwards"}
     return xr.Dataset(data | variables("impact", [np.array(c) for c in impacts], names))
