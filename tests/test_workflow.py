@@ -1,0 +1,271 @@
+"""The workflow as a user runs it, in a copy whose scenes are tiny."""
+
+import fcntl
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+from conftest import ROOT, fresh_tree
+
+FIG3 = {
+    "results/paper/periodic_fig3.nc",
+    "results/paper/motion_fig3.nc",
+    "results/paper/figures/fig3.png",
+    "paper_figures/fig3.png",
+}
+FIG7 = {
+    *(f"results/paper/figures/fig7.{extension}" for extension in ("png", "svg")),
+    *(f"paper_figures/fig7.{extension}" for extension in ("png", "svg")),
+}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A copy in which everything was made once, from the state of a fresh clone."""
+    tree = fresh_tree(tmp_path_factory.mktemp("workflow") / "a folder with spaces")
+    tree.first = tree.run()
+    assert tree.first.returncode == 0, tree.first.stdout
+    return tree
+
+
+@pytest.fixture
+def done(finished):
+    """The finished copy, its config and sources put back afterwards."""
+    config = (finished.path / "config.yaml").read_text()
+    yield finished
+    (finished.path / "config.yaml").write_text(config)
+    shutil.copytree(ROOT / "src", finished.path / "src", dirs_exist_ok=True, ignore=_caches)
+    for rules in (ROOT / "workflow" / "rules").iterdir():
+        shutil.copy(rules, finished.path / "workflow" / "rules")
+
+
+_caches = shutil.ignore_patterns("__pycache__", "*.egg-info")
+
+
+def rows(result):
+    """File -> recomputed or current, from the table at the end."""
+    lines = (line.split() for line in result.stdout.splitlines())
+    return {line[1]: line[-1] for line in lines if line and line[-1] in ("recomputed", "current")}
+
+
+def no_traceback(result):
+    assert "Traceback" not in result.stdout
+    return result.stdout.splitlines()[-1]
+
+
+def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
+    table = rows(finished.first)
+    assert set(table.values()) == {"recomputed"}
+    assert {f"paper_figures/{name}" for name in finished.published()} == set(table)
+    assert b"committed" not in {content for content, _, _ in finished.published().values()}
+
+
+def test_a_second_run_has_nothing_to_do(finished):
+    before = finished.published()
+    start = time.monotonic()
+    again = finished.run()
+    assert time.monotonic() - start < 20
+    assert "Nothing to be done" in again.stdout
+    assert set(rows(again).values()) == {"current"}
+    assert finished.published() == before
+
+
+def test_a_figure_of_a_fresh_clone_needs_only_its_orbit(tree):
+    assert tree.planned("paper_figures/fig3.png") == FIG3
+
+
+def test_everything_of_a_fresh_clone_is_planned(tree, finished):
+    for file in sorted(p for p in tree.path.rglob("*") if p.is_file()):
+        if "paper_figures" not in file.parts:
+            os.utime(file, (0, 0))
+    made = {p for p in (finished.path / "results").rglob("*.*") if p.suffix != ".log"}
+    made |= set((finished.path / "paper_figures").iterdir())
+    assert tree.planned() == {str(p.relative_to(finished.path)) for p in made}
+
+
+def test_editing_the_exponents_reruns_them_alone(done):
+    done.edit("fig7", impacts=61)
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_editing_axes_only_draws_again(done):
+    axes = {"limits": [-0.5, 0.5], "ticks": [0]}
+    done.edit("fig7", axes={"impact": {"limits": [0, 200000], "ticks": [0]}, "exponent": axes})
+    assert done.planned() == FIG7
+
+
+def test_adding_a_format_makes_that_file_alone(done):
+    done.edit("fig7", formats=["png", "svg", "pdf"])
+    assert done.planned() == {"results/paper/figures/fig7.pdf"}
+
+
+def test_editing_a_module_reruns_what_uses_it(done):
+    with (done.path / "src" / "pseudorigid" / "lyapunov.py").open("a") as file:
+        file.write("# edited\n")
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_touching_a_module_reruns_nothing(done):
+    (done.path / "src" / "pseudorigid" / "lyapunov.py").touch()
+    assert done.planned() == set()
+
+
+def test_what_was_deleted_comes_back(done):
+    shutil.rmtree(done.path / "results" / "paper" / "figures")
+    artifact = done.path / "results" / "paper" / "periodic_fig3.nc"
+    content = artifact.read_bytes()
+    artifact.unlink()
+    before = {name: content for name, (content, _, _) in done.published().items()}
+    single = done.run("paper_figures/fig3.png")
+    assert single.returncode == 0
+    assert rows(single) == {"paper_figures/fig3.png": "recomputed"}
+    assert artifact.read_bytes() == content
+    assert set(rows(done.run()).values()) == {"recomputed", "current"}
+    assert {name: content for name, (content, _, _) in done.published().items()} == before
+    assert done.planned() == set()
+
+
+def test_an_orbit_that_does_not_exist_ends_in_one_line(done):
+    before = done.published()
+    done.edit("fig3", type="inverse hyperbolic")
+    result = done.run("paper_figures/fig3.png")
+    assert result.returncode == 1
+    last = no_traceback(result)
+    assert last.startswith("pseudorigid: fig3: ")
+    assert "inverse hyperbolic" in last
+    assert done.published() == before
+
+
+def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
+    before = done.published()
+    with (done.path / "src" / "pseudorigid" / "lyapunov.py").open("a") as file:
+        file.write("\n\ndef scene_exponents(*_, **__):\n    return 1 / 0\n")
+    result = done.run("paper_figures/fig7.png")
+    assert result.returncode == 1
+    last = no_traceback(result)
+    log = "results/paper/logs/lyapunov_fig7.log"
+    assert last == f"pseudorigid: fig7: ZeroDivisionError: division by zero (traceback in {log})"
+    assert "Traceback" in (done.path / log).read_text()
+    assert done.published() == before
+    (done.path / "src" / "pseudorigid" / "lyapunov.py").unlink()
+    shutil.copy(ROOT / "src" / "pseudorigid" / "lyapunov.py", done.path / "src" / "pseudorigid")
+    assert done.run().returncode == 0
+
+
+def test_a_failing_publication_leaves_the_figures_as_they_were(done):
+    before = {name: content for name, (content, _, _) in done.published().items()}
+    rule = done.path / "workflow" / "rules" / "publish.smk"
+    rule.write_text(rule.read_text().replace("(cp ", "(false; cp "))
+    assert done.run("paper_figures/fig3.png").returncode == 1
+    assert {name: content for name, (content, _, _) in done.published().items()} == before
+    shutil.copy(ROOT / "workflow" / "rules" / "publish.smk", rule)
+    assert done.run().returncode == 0
+
+
+@pytest.mark.parametrize("everyone", [False, True])
+def test_a_killed_run_leaves_whole_files_and_no_lock(done, everyone):
+    before = {name: content for name, (content, _, _) in done.published().items()}
+    shutil.rmtree(done.path / "results")
+    command = done.command()
+    run = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    try:
+        for _ in range(600):
+            if list((done.path / "results" / "paper").glob("figures/*.png")):
+                break
+            time.sleep(0.1)
+        assert run.poll() is None
+        (os.killpg if everyone else os.kill)(run.pid, signal.SIGKILL)
+        run.wait()
+        assert {name: content for name, (content, _, _) in done.published().items()} == before
+        again = done.run()
+        assert again.returncode == 0, again.stdout
+    finally:
+        if run.poll() is None:
+            os.killpg(run.pid, signal.SIGKILL)
+    assert {name: content for name, (content, _, _) in done.published().items()} == before
+
+
+def test_two_runs_do_not_meet(done):
+    with (done.path / ".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        result = done.run("-n")
+    assert result.returncode == 1
+    assert result.stdout == "reproduce: another ./reproduce is running in this folder\n"
+    assert done.run("-n").returncode == 0  # the file is still there, and locks nothing
+
+
+def test_a_bad_config_is_one_line_and_starts_nothing(tree):
+    tree.edit("fig5", energy=0.9)
+    line = (
+        "config.yaml: scenes.fig5.energy: 0.9 is not allowed: expected a number below "
+        "k/2 - g = 0.06, where the ball could flatten to nothing\n"
+    )
+    result = tree.run()
+    assert (result.returncode, result.stdout) == (1, line)
+    bare = subprocess.run(
+        [*tree.command()[:1], "-m", "snakemake", "-n"],
+        cwd=tree.path,
+        env=os.environ | {"PYTHONPATH": str(tree.path / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (bare.returncode, bare.stderr) == (1, line)
+    assert not (tree.path / "results").exists()
+
+
+def test_settings_on_the_command_line_are_refused(tree):
+    result = tree.run("-n", "--config", "energy=0.3")
+    assert result.returncode == 1
+    assert result.stdout.splitlines()[-1].endswith("not used here: edit config.yaml")
+
+
+def test_the_graph_is_printed(tree):
+    result = tree.run("paper_figures/fig3.png", "--dag")
+    assert result.returncode == 0
+    assert "digraph snakemake_dag" in result.stdout
+
+
+def shell_tools(folder, *tools):
+    """A folder with nothing on it but these tools."""
+    folder.mkdir()
+    for tool in ("dirname", "cat", "cksum", "uname", "cut", "tail", "mkdir", "rm", *tools):
+        (folder / tool).symlink_to(shutil.which(tool))
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("python", "line"),
+    [
+        (None, "reproduce: no python3 found: please install Python 3.11 or newer\n"),
+        (
+            "#!/bin/sh\ncase $2 in *platform*) echo 3.9.2;; *) exit 1;; esac\n",
+            "reproduce: needs Python 3.11 or newer, but python3 is 3.9.2\n",
+        ),
+        (
+            "#!/bin/sh\ncase $2 in *ensurepip*) exit 1;; *) exit 0;; esac\n",
+            "reproduce: python3 lacks the venv module: "
+            "please install it (Debian, Ubuntu: apt install python3-venv)\n",
+        ),
+    ],
+)
+def test_an_unsuitable_python_is_one_line(tree, tmp_path, python, line):
+    path = shell_tools(tmp_path / "bin", "sh")
+    if python:
+        (path / "python3").write_text(python)
+        (path / "python3").chmod(0o755)
+    result = subprocess.run(
+        [str(tree.path / "reproduce")],
+        env={"PATH": str(path)},
+        cwd="/",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (result.returncode, result.stdout, result.stderr) == (1, "", line)
+    assert not (tree.path / ".venv").exists()
