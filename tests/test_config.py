@@ -55,6 +55,7 @@ SCENES = {
         "type": "hyperbolic",
         "point": 5,
         "window": {"x": [-0.1, 0.1], "xdot": [-0.1, 0.1]},
+        "length": 2,
         "resolution": RESOLUTION,
         "axes": {"x": AXES, "xdot": AXES},
     },

@@ -53,7 +53,10 @@ def run_snakemake(arguments: list[str]) -> int:
     try:
         snakemake(command)
     except SystemExit as end:
-        return end.code if isinstance(end.code, int) else int(end.code is not None)
+        if isinstance(end.code, str):
+            print(end.code, file=sys.stderr)
+            return 1
+        return end.code or 0
     except KeyboardInterrupt:
         return 130
     return 0
