@@ -138,7 +138,7 @@ def _collect(ball, energy, orbit, requests, resolution):
         trace_manifold(ball, energy, orbit, saddle, stable=stable, side=side, **how, **resolution)
         for saddle, side, stable, how in requests
     ]
-    whole = xr.concat(traced, "vertex", combine_attrs="drop")
+    whole = xr.concat(traced, "vertex", combine_attrs="override")
     whole.attrs["start_error"] = max(branch.attrs["start_error"] for branch in traced)
     return whole.assign(
         row_size=(

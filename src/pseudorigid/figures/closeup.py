@@ -18,7 +18,7 @@ def draw(scene, manifolds):
     hues = {0: style.UNSTABLE, 1: style.STABLE}
     for branch, span in enumerate(rows(manifolds["row_size"].values)):
         hue = hues[int(manifolds["stable"].values[branch])]
-        plane.line(x[span], xdot[span], color=hue, lw=0.7)
+        plane.line(x[span], xdot[span], color=hue, lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
     plane.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
     plane.legend(
