@@ -10,6 +10,8 @@ import time
 import pytest
 from conftest import ROOT, fresh_tree
 
+from pseudorigid import sources
+
 FIG3 = {
     "results/paper/periodic_fig3.nc",
     "results/paper/motion_fig3.nc",
@@ -229,6 +231,43 @@ def test_the_graph_is_printed(tree):
     result = tree.run("paper_figures/fig3.png", "--dag")
     assert result.returncode == 0
     assert "digraph snakemake_dag" in result.stdout
+
+
+def used(script):
+    """Names of the package's files behind a script of the workflow."""
+    files = sources.closure(ROOT / "workflow" / "scripts" / script)
+    return {str(file.relative_to(sources.PACKAGE)) for file in files}
+
+
+def test_a_script_depends_on_what_it_imports_and_no_more():
+    assert {"__init__.py", "lyapunov.py", "impact.py", "arithmetic.py"} <= used("lyapunov.py")
+    assert not used("lyapunov.py") & {"manifolds.py", "periodic.py", "config.py"}
+    assert not {name for name in used("orbits.py") if name.startswith("figures")}
+    assert "figures/portrait.py" not in used("draw.py")
+
+
+def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
+    package = tmp_path / "pseudorigid"
+    (package / "inner").mkdir(parents=True)
+    for name, text in {
+        "__init__.py": "",
+        "a.py": "def f():\n    from .inner import b\n",
+        "inner/__init__.py": "HERE = 1",
+        "inner/b.py": "from ..c import value\nimport os, pseudorigid.d",
+        "c.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from . import unused",
+        "d.py": "from . import a\nfrom .inner import HERE",
+        "unused.py": "",
+        "lazy.py": "from . import Ball",
+        "lost.py": "from .nowhere import x",
+    }.items():
+        (package / name).write_text(text)
+    monkeypatch.setattr(sources, "PACKAGE", package)
+    found = [str(file.relative_to(package)) for file in sources.closure("pseudorigid.a")]
+    assert found == ["__init__.py", "a.py", "c.py", "d.py", "inner/__init__.py", "inner/b.py"]
+    with pytest.raises(ValueError, match="import Ball from its module"):
+        sources.closure("pseudorigid.lazy")
+    with pytest.raises(ValueError, match=r"no module pseudorigid\.nowhere"):
+        sources.closure("pseudorigid.lost")
 
 
 def shell_tools(folder, *tools):
