@@ -1,8 +1,8 @@
 """sincos and log from + - * / alone, so that their bits are the same on every machine.
 
-The C library's sin, cos and log differ in the last bit between processors and versions; a chaotic orbit
-turns one bit into a difference of order one within about 130 impacts. Both functions here are within
-0.8 ulp of the exact value for every finite argument.
+The C library's sin, cos and log differ in the last bit between processors and versions; a chaotic
+orbit turns one bit into a difference of order one within about 130 impacts. Both functions here
+are within 0.8 ulp of the exact value for every finite argument.
 """
 
 import math
@@ -21,8 +21,9 @@ _ROUND = 1.5 * 2.0**52  # adding and subtracting it rounds to the nearest intege
 _HALVE = 1.5 * 2.0**26  # adding and subtracting it keeps 26 bits of a number below 1
 WIDE = 2.0**20  # larger arguments go through the integer reduction
 
-# Minimax polynomials on |r| <= pi/4, z = r^2: (sin r - r)/r^3 and (cos r - 1 + z/2)/z^2, each with a first
-# coefficient that is -1/6 and 1/24 rounded: small flights live on the tails, not on the sums.
+# Minimax polynomials on |r| <= pi/4, z = r^2: (sin r - r)/r^3 and (cos r - 1 + z/2)/z^2, each with
+# a first coefficient that is -1/6 and 1/24 rounded: small flights live on the tails, not on the
+# sums.
 _S0 = float.fromhex("-0x1.5555555555555p-3")
 _S1 = float.fromhex("0x1.1111111110a05p-7")
 _S2 = float.fromhex("-0x1.a01a019e1ec1ep-13")
@@ -36,7 +37,8 @@ _C3 = float.fromhex("-0x1.27e4fa04fd240p-22")
 _C4 = float.fromhex("0x1.1eeb59bb136b0p-29")
 _C5 = float.fromhex("-0x1.9074bbdd55b66p-37")
 
-# (2 atanh(s) - 2 s) / s^3 on the reduced range of log, and ln 2 in two parts (the first has 32 bits).
+# (2 atanh(s) - 2 s) / s^3 on the reduced range of log, and ln 2 in two parts (the first has 32
+# bits).
 _L0 = float.fromhex("0x1.5555555555558p-1")
 _L1 = float.fromhex("0x1.9999999995273p-2")
 _L2 = float.fromhex("0x1.2492492dfd86cp-2")
@@ -78,7 +80,9 @@ def _reduce(t):
 
 @jit
 def _reduce_wide(t):
-    """The same for any finite t > 0, n modulo 4: an exact product with the digits of 2/pi that matter."""
+    """The same for any finite t > 0, n modulo 4: an exact product with the digits of 2/pi that
+    matter.
+    """
     bits = np.float64(t).view(np.int64)
     mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000
     exponent = (bits >> 52) - 1075
@@ -95,7 +99,6 @@ def _reduce_wide(t):
     hi = 0.0
     lo = 0.0
     n = 0
-    flip = 0
     product = np.zeros(8, np.int64)
     for i in range(7, -1, -1):
         d2 = (((_DIGITS[entry + i] << 24) | _DIGITS[entry + i + 1]) >> shift) & 0xFFFFFF
@@ -108,7 +111,6 @@ def _reduce_wide(t):
     product[0] &= 0x3FFFFF
     if product[0] & 0x200000:  # past a half: count from the next quadrant down
         n += 1
-        flip = 1
         product[0] -= 0x400000
     scale = 2.0**-22
     for i in range(8):
@@ -163,11 +165,12 @@ def sincos_tails(t):
     else:
         return math.nan, math.nan, 0.0, math.nan, math.nan
     sine, cosine, sine_tail, cosine_tail = _kernel(r, low)
-    quadrant = int(n) & 3
-    if quadrant & 1:
-        sine, cosine = cosine, -sine
-    if quadrant & 2:
-        sine, cosine = -sine, -cosine
+    quadrant = int(n)
+    odd = quadrant & 1 != 0
+    first = cosine if odd else sine
+    second = sine if odd else cosine
+    sine = -first if quadrant & 2 else first
+    cosine = -second if (quadrant + 1) & 2 else second
     return sine, cosine, n, sine_tail, cosine_tail
 
 

@@ -1,4 +1,4 @@
-"""The ball: its two parameters, its energy, its section, and the impact map on plain numbers or arrays."""
+"""The ball: its parameters, energy and section, and the impact map on numbers or arrays."""
 
 import math
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ class Ball:
         k: Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
         g: gravity, eq. (20), g > 0.
 
-    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on the
-    section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast, and return
-    numbers for scalars and arrays of the broadcast shape otherwise; each element has the bits of the
-    scalar call. Input that is NaN or infinite gives NaN.
+    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on
+    the section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast,
+    and return numbers for scalars and arrays of the broadcast shape otherwise; each element has
+    the bits of the scalar call. Input that is NaN or infinite gives NaN.
 
     Raises:
         ValueError: k or g outside its range, or a state with xdot + udot < 0.
@@ -47,7 +47,7 @@ class Ball:
         )
 
     def energy_bounds(self):
-        """(lowest, highest) energy: rest on the floor, -g^2/(2k), and u > -1 at impact, eq. (31), k/2 - g."""
+        """(lowest, highest) energy: at rest on the floor, -g^2/(2k), and k/2 - g, eq. (31)."""
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     def section(self, energy):
@@ -64,7 +64,9 @@ class Ball:
         return self.g / self.k, math.sqrt(square)
 
     def state(self, x, xdot, energy, branch=1):
-        """The state (x, xdot, udot) with this energy, eq. (29): the larger udot, or with branch=-1 the other.
+        """The state (x, xdot, udot) with this energy, eq. (29).
+
+        Of two, that with the larger udot, or with branch=-1 the other.
 
         Raises ValueError where the energy surface has no such point with xdot + udot >= 0.
         """
@@ -73,10 +75,14 @@ class Ball:
         x, xdot, energy = _floats(x, xdot, energy)
         square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
         if not np.all(square >= 0.0):
-            raise ValueError("no state with this x, xdot and energy: the kinetic energy is too small")
+            raise ValueError(
+                "no state with this x, xdot and energy: the kinetic energy is too small"
+            )
         udot = branch * np.sqrt(square)
         if not np.all(xdot + udot >= 0.0):
-            raise ValueError("no state with this x, xdot and energy on the section xdot + udot >= 0")
+            raise ValueError(
+                "no state with this x, xdot and energy on the section xdot + udot >= 0"
+            )
         return _plain(x), _plain(xdot), _plain(udot)
 
     def state_xy(self, x, y, energy):
@@ -94,12 +100,14 @@ class Ball:
         return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
 
     def start(self, fraction, energy):
-        """The state at this fraction of the section's radius along y = 0, -1 to 1, the form starts have in config.yaml."""
+        """The state on y = 0 at this fraction, -1 to 1, of the section's radius."""
         centre, radius = self.section(energy)
         return self.state_xy(centre + np.asarray(fraction, dtype=float) * radius, 0.0, energy)
 
     def reflect(self, x, xdot, udot):
-        """The reversor R, (x, y) -> (x, -y): the state with the post-impact velocities, eq. (25), reversed."""
+        """The reversor R, (x, y) -> (x, -y): the velocities after the impact, eq. (25),
+        reversed.
+        """
         x, xdot, udot = self.on_section(x, xdot, udot)
         b, c, _ = kernel.rebound.py_func(xdot, udot, self.k, *kernel.transfer(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
@@ -113,20 +121,28 @@ class Ball:
         return self.impact(x, xdot, udot)[3]
 
     def impact(self, x, xdot, udot):
-        """The impact map, eq. (28): (x, xdot, udot, tau), the state just before the next impact and the flight time."""
+        """The impact map, eq. (28): the state just before the next impact, and the flight time.
+
+        Returns (x, xdot, udot, tau). At a double root, where the ball just touches the floor, tau
+        is only defined to the square root of a rounding.
+        """
         return self._each(kernel.steps, x, xdot, udot)
 
     def inverse_impact(self, x, xdot, udot):
-        """The state (x, xdot, udot) just before the previous impact and the flight time tau since: F^-1 = R F R."""
+        """The state just before the previous impact, and the flight time since: F^-1 = R F R.
+
+        Returns (x, xdot, udot, tau).
+        """
         return self._each(kernel.steps_back, x, xdot, udot)
 
     def jacobian(self, x, xdot, udot, impacts=1):
-        """The Jacobian of the map with respect to (x, xdot, udot), eq. (33), shape (..., 3, 3), analytic.
+        """The analytic Jacobian of the map with respect to (x, xdot, udot), eq. (33).
 
-        With `impacts` that of the map's iterate, by the chain rule.
+        Returns an array of shape (..., 3, 3). With `impacts` that of the map's iterate, by the
+        chain rule.
 
-        Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite where
-        the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
+        Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite
+        where the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
         """
         state = self.on_section(x, xdot, udot)
         x, xdot, udot = (a.flatten() for a in state)

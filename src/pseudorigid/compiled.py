@@ -1,7 +1,9 @@
-"""The one way a function is compiled: strict arithmetic, one thread, cached by the kernel's own text.
+"""The one way a function is compiled: strict arithmetic, one thread, cached by the kernel's own
+text.
 
-Numba notices an edit of the file a function stands in, but not of the files it calls into; so the cache
-lives in a folder named after the text of every kernel module and a stale machine code is never loaded.
+Numba notices an edit of the file a function stands in, but not of the files it calls into; so the
+cache lives in a folder named after the text of every kernel module and a stale machine code is
+never loaded.
 """
 
 import hashlib

@@ -4,15 +4,17 @@ After an impact at x with velocities b, c the gap is f(t) = X(t) + U(t), eq. (21
 
     f   = x + b t + g t^2/2 - P        P = x cos t - c sin t
     f'  = b + g t + Q                  Q = x sin t + c cos t
-    f'' = g + P,  f''' = -Q,  f'''' = -P,  |P|, |Q| <= A = sqrt(x^2 + c^2)
+    f'' = g + P,  f''' = -Q,  f'''' = -P,  |P|, |Q| <= A, A >= sqrt(x^2 + c^2)
 
 While the ball flies f < 0. From a point t before the first root, f lies below
 
     f + f' h + M h^2/2,  0 < h <= S,  M = min(g + A, f'' + max(-Q, 0) S/3 + A S^2/12),
 
-so a step to the root of that parabola, or to S where that is nearer, cannot pass the first root of f.
-The march ends where f' > 0 and f'^2 >= 2 |f| max(0, A - g), or the sharper bound of f'' over the step,
-shows that f rises all the way to its root: that root is then the next one and the only one in reach.
+so a step to the root of that parabola, or to S where that is nearer, cannot pass the first root of
+f. The march ends where f' > 0 and f'^2 >= 2 |f| max(0, A - g), or the sharper bound of f'' over
+the step, shows that f rises all the way to its root: that root is then the next one and the only
+one in reach. A is the octagon's bound max + (sqrt(2) - 1) min of |x|, |c|: it needs no square
+root, and any bound will do.
 """
 
 import math
@@ -20,24 +22,25 @@ import math
 from .arithmetic import sincos_tails
 from .compiled import jit
 
-# A flight takes 2 or 3 looks, a hard one some tens; past this cap something is wrong, and it raises.
+# A flight takes 2 or 3 looks, a hard one some tens; past this cap something is wrong, and it
+# raises.
 MOST_LOOKS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
+# sqrt(2) - 1 rounded up: the octagon around the circle, sqrt(a^2 + b^2) <= max + (sqrt(2) - 1) min.
+_OCTAGON = 0.4142135623730952
 
 
 @jit
 def _launch(x, c, s, g, amplitude):
-    """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above f/t."""
+    """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above
+    f/t.
+    """
     h = 0.5 * (g + x)
     root = math.sqrt(h * h + (2.0 / 3.0) * amplitude * s)
-    if h < 0.0:
-        return 3.0 * (root - h) / amplitude
-    if h + root > 0.0 and s > 0.0:
-        return 2.0 * s / (h + root)
-    if h == 0.0 and c > 0.0:  # at rest on the floor without weight: f = -c t^3/6 + ...
-        return 4.0 * c / amplitude
-    return 0.0
+    if h == 0.0 and s == 0.0:
+        return 4.0 * c / amplitude if c > 0.0 else 0.0
+    return 2.0 * s / (h + root) if h >= 0.0 else 3.0 * (root - h) / amplitude
 
 
 @jit
@@ -46,12 +49,13 @@ def _look(t, x, b, c, s, g):
     sine, cosine, n, sine_tail, cosine_tail = sincos_tails(t)
     p = x * cosine - c * sine
     q = x * sine + c * cosine
-    if n == 0.0:
-        f = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
-        df = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
-    else:
-        f = (x + t * (b + 0.5 * g * t)) - p
-        df = b + g * t + q
+    near = n == 0.0
+    f_near = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
+    df_near = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
+    f_far = (x + t * (b + 0.5 * g * t)) - p
+    df_far = b + g * t + q
+    f = f_near if near else f_far
+    df = df_near if near else df_far
     return f, df, p, q
 
 
@@ -63,9 +67,12 @@ def _rises_to_its_root(depth, df, p, q, g, amplitude):
     square = df * df
     if square >= 2.0 * depth * (amplitude - g):
         return True
-    # f'' >= g + P - max(Q, 0) h - A h^2/2 for h up to 2 depth/f', the bound times f'^2
-    bend = (g + p) * square - 2.0 * depth * (max(q, 0.0) * df + amplitude * depth)
-    return square * square + 2.0 * depth * bend >= 0.0
+    if (g + p) * square >= depth * (max(q, 0.0) * df + 0.5 * amplitude * depth):
+        return True
+    # f'' >= m = g + P - max(Q, 0) h - A h^2/2 for steps up to h. The root is within h = depth/f'
+    # where m >= 0, and within h = 3/2 depth/f' where m >= -8/9 f'^2/(2 depth); both times f'^2.
+    bend = (g + p) * square - 1.5 * depth * (max(q, 0.0) * df + 0.75 * amplitude * depth)
+    return square * square + 2.25 * depth * bend >= 0.0
 
 
 @jit
@@ -91,12 +98,14 @@ def _stride(depth, df, p, q, g, amplitude):
 
 @jit
 def _correction(f, df, p, q, t, g, amplitude):
-    """The step from t to the root nearby, and whether what it leaves is below the rounding of tau."""
+    """The step from t to the root nearby, and whether what it leaves is below the rounding of
+    tau.
+    """
     inverse = 1.0 / df
     u = -f * inverse
     a2 = 0.5 * (g + p) * inverse
     spread = 4.0 * (a2 * u) * (a2 * u) + amplitude * u * u * inverse
-    if spread < 0.25:  # the inverse series of f, to fourth order
+    if spread < 0.1:  # the inverse series of f, to fourth order
         a3 = (-1.0 / 6.0) * q * inverse
         a4 = (-1.0 / 24.0) * p * inverse
         tail = (2.0 * a2 * a2 - a3) + u * (a2 * (5.0 * a3 - 5.0 * a2 * a2) - a4)
@@ -123,11 +132,11 @@ def _turn(p, q, h):
 def first_impact(x, b, c, s, g):
     """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
 
-    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there, and how
-    often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for input that is not
-    finite. Raises ArithmeticError at MOST_LOOKS.
+    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there,
+    and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for
+    input that is not finite. Raises ArithmeticError at MOST_LOOKS.
     """
-    amplitude = math.sqrt(x * x + c * c)
+    amplitude = max(abs(x), abs(c)) + _OCTAGON * min(abs(x), abs(c))
     if not (amplitude + abs(b) + s + g < math.inf):
         return math.nan, math.nan, math.nan, 0
     s = max(s, 0.0)  # a grazing impact's s is 0 to rounding, of either sign
@@ -168,7 +177,7 @@ def first_impact(x, b, c, s, g):
         after = t + h
         if not low < after < high:
             after = 0.5 * (low + high)
-        if after == t or after == low or after == high:
+        if after in (t, low, high):
             break
         t = after
         f, df, p, q = _look(t, x, b, c, s, g)
@@ -179,7 +188,8 @@ def first_impact(x, b, c, s, g):
             low = t
         else:
             high = t
-    if df < 0.0 and g + p < 0.0:  # a double root, to rounding: at the top f' = 0, the impact is grazing
+    # a double root, to rounding: at the top f' = 0, the impact is grazing
+    if df < 0.0 and g + p < 0.0:
         h = -df / (g + p)
         p, q = _turn(p, q, h)
         return t + h, p, q, looks

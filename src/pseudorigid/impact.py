@@ -1,12 +1,8 @@
 """The impact map, eqs. (25)-(28), and its Jacobian, eq. (33): one step, and loops over it.
 
-Everything here is compiled. A state is (x, v, w), that is (x, xdot, udot) just before an impact, and a
-loop gives each state the bits it would have alone.
+Everything here is compiled. A state is (x, v, w), that is (x, xdot, udot) just before an impact,
+and a loop gives each state the bits it would have alone.
 """
-
-import math
-
-import numpy as np
 
 from .arithmetic import sincos_tails
 from .compiled import jit
@@ -32,7 +28,7 @@ def transfer(k):
 
 @jit
 def rebound(v, w, k, head, low):
-    """Velocities (b, c) just after an impact, eq. (25), written so that b + c = -(v + w) stands in s."""
+    """Velocities (b, c) just after an impact, eq. (25), and s = v + w = -(b + c), exact."""
     s = v + w
     e = s * head + s * low
     return v - k * e, w - e, s
@@ -44,15 +40,16 @@ def step(x, v, w, k, g, head, low):
     b, c, s = rebound(v, w, k, head, low)
     tau, p, q, looks = first_impact(x, b, c, s, g)
     v = b + g * tau
-    return p, v, max(q, -v), tau, looks  # on the section to the last bit, also where the impact grazes
+    # on the section to the last bit, also where the impact grazes
+    return p, v, max(q, -v), tau, looks
 
 
 @jit
 def flight_derivatives(x, c, tau, p, q, speed):
     """What the Jacobian needs of a flight: sin, cos, and the derivatives of tau.
 
-    f = 0 gives tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f' with f' = v' + w',
-    where s = v + w and c are varied separately; each is free of cancellation at small tau.
+    f = 0 gives tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f' with f' = v'
+    + w', where s = v + w and c are varied separately; each is free of cancellation at small tau.
     """
     sine, cosine, n, sine_tail, cosine_tail = sincos_tails(tau)
     if n == 0.0:
@@ -88,7 +85,7 @@ def step_with_flight(x, v, w, k, g, head, low):
 
 @jit
 def steps(x, v, w, k, g, impacts, tau):
-    """Advance each state of the arrays x, v, w (n,) in place by `impacts` impacts; tau (n,) is the last flight's."""
+    """Advance the states x, v, w (n,) in place by `impacts`; tau (n,) is the last flight's."""
     head, low = transfer(k)
     for i in range(x.size):
         a, b, c, t = x[i], v[i], w[i], tau[i]
@@ -123,7 +120,7 @@ def history(x, v, w, k, g, out):
 
 @jit
 def jacobians(x, v, w, k, g, impacts, out):
-    """The 3 x 3 Jacobian of `impacts` impacts at each state (n,), by the chain rule: out (n, 3, 3)."""
+    """The Jacobian of `impacts` impacts at each state (n,), by the chain rule: out (n, 3, 3)."""
     head, low = transfer(k)
     for i in range(x.size):
         a, b, c = x[i], v[i], w[i]
@@ -131,7 +128,9 @@ def jacobians(x, v, w, k, g, impacts, out):
             for j in range(3):
                 out[i, m, j] = 1.0 if m == j else 0.0
         for _ in range(impacts):
-            a, b, c, _, sine, cosine, tau_x, tau_s, tau_c = step_with_flight(a, b, c, k, g, head, low)
+            a, b, c, _, sine, cosine, tau_x, tau_s, tau_c = step_with_flight(
+                a, b, c, k, g, head, low
+            )
             for j in range(3):
                 out[i, 0, j], out[i, 1, j], out[i, 2, j] = tangent(
                     out[i, 0, j], out[i, 1, j], out[i, 2, j],

@@ -1,7 +1,8 @@
-"""The three Lyapunov exponents of an orbit, eq. (32) with its missing factor 1/i, by Benettin's method.
+"""The three Lyapunov exponents of an orbit, eq. (32) with the factor 1/i it lacks.
 
-An orthonormal frame is carried along by the analytic Jacobian, eq. (33), in the same loop as the orbit,
-and made orthonormal again at each impact (Benettin et al. 1980, reference [18] of the paper).
+Benettin's method: an orthonormal frame is carried along by the analytic Jacobian, eq. (33), in the
+same loop as the orbit, and made orthonormal again at each impact (Benettin et al. 1980, reference
+[18] of the paper).
 """
 
 import math
@@ -24,8 +25,8 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
         records: after how many equal stretches the exponents so far are kept.
 
     Returns:
-        Dataset of exponent, dims (impact, ..., index), largest first; its last entry the final value.
-        `impact` holds the number of impacts. A state of one dimension has the dim `orbit`.
+        Dataset of exponent, dims (impact, ..., index), largest first; its last entry the final
+        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`.
         NaN from a grazing impact on, where the map has no derivative.
 
     Raises:
@@ -52,7 +53,7 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
 
 
 def scene_exponents(ball, energy, starts, impacts, records):
-    """The exponents of a scene's orbits: `lyapunov_spectrum` from fractions of the section's radius."""
+    """`lyapunov_spectrum` of a scene: starts are fractions of the section's radius on y = 0."""
     states = ball.start(np.asarray(starts, dtype=float), energy)
     spectrum = lyapunov_spectrum(ball, states, impacts, records)
     attributes = {"long_name": "start along y = 0, in section radii from the centre", "units": "1"}
@@ -95,22 +96,24 @@ def _spectrum(x, v, w, k, g, at, out):
                 y0, y1, y2, _, sine, cosine, tau_x, tau_s, tau_c = kernel.step_with_flight(
                     y0, y1, y2, k, g, head, low
                 )
-                a = kernel.tangent(
-                    *a, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c
-                )
-                b = kernel.tangent(
-                    *b, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c
-                )
-                c = kernel.tangent(
-                    *c, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c
-                )
+                a = kernel.tangent(*a, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
+                b = kernel.tangent(*b, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
+                c = kernel.tangent(*c, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
                 p, q, r, a, b, c = _orthonormal(a, b, c)
                 grown_a *= p
                 grown_b *= q
                 grown_c *= r
                 done += 1
-                if not (1e-100 < grown_a < 1e100 and 1e-100 < grown_b < 1e100 and 1e-100 < grown_c < 1e100):
-                    sum_a, sum_b, sum_c = sum_a + log(grown_a), sum_b + log(grown_b), sum_c + log(grown_c)
+                if not (
+                    1e-100 < grown_a < 1e100
+                    and 1e-100 < grown_b < 1e100
+                    and 1e-100 < grown_c < 1e100
+                ):
+                    sum_a, sum_b, sum_c = (
+                        sum_a + log(grown_a),
+                        sum_b + log(grown_b),
+                        sum_c + log(grown_c),
+                    )
                     grown_a, grown_b, grown_c = 1.0, 1.0, 1.0
             sum_a, sum_b, sum_c = sum_a + log(grown_a), sum_b + log(grown_b), sum_c + log(grown_c)
             out[j, i, 0], out[j, i, 1], out[j, i, 2] = sum_a / done, sum_b / done, sum_c / done

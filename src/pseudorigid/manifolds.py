@@ -1,11 +1,11 @@
 """Stable and unstable manifolds of a hyperbolic periodic orbit, as ordered polylines.
 
 An unstable branch of a point z of period n starts as the segment z + sigma e, sigma_0 <= sigma <=
-lambda sigma_0, along the unstable direction e, and its images under P^n continue it: a branch has one
-parameter u, whose whole part counts the images and whose rest walks along the segment. Where two
-neighbours are too far apart or the line bends too much, a point is inserted at the middle of u and
-mapped from the segment. The reversor makes the stable branches: they are unstable ones of the mirrored
-point, mirrored.
+lambda sigma_0, along the unstable direction e, and its images under P^n continue it: a branch has
+one parameter u, whose whole part counts the images and whose rest walks along the segment. Where
+two neighbours are too far apart or the line bends too much, a point is inserted at the middle of u
+and mapped from the segment. The reversor makes the stable branches: they are unstable ones of the
+mirrored point, mirrored.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ def trace_manifold(
     bend=10.0,
     window=None,
 ):
-    """One branch of the stable or unstable manifold of a hyperbolic orbit's point, from the point outwards.
+    """One branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
 
     Args:
         ball: a Ball.
@@ -50,19 +50,23 @@ def trace_manifold(
         stable: the stable branch instead of the unstable one.
         side: "outer", which leaves the point away from the middle of the orbit, or "inner".
         length: arc length in (x, xdot, udot), in section radii.
-        distance: largest side of the polyline, in section radii, or within a window in units of its size.
-        bend: largest bend from side to side, degrees, where a side is longer than FINEST * distance.
+        distance: largest side of the polyline, in section radii, or within a window in units of
+        its size.
+        bend: largest bend from side to side, degrees, where a side is longer than FINEST *
+        distance.
         window: (x_low, x_high, xdot_low, xdot_high); then only what passes through it is kept.
 
     Returns:
-        Dataset of x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where the line
-        is interrupted, by the window's edge or by a jump of the map. Attribute start_error: by how much,
-        in section radii, the image of the first segment misses it.
+        Dataset of x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where
+        the line is interrupted, by the window's edge or by a jump of the map. Attribute
+        start_error: by how much, in section radii, the image of the first segment misses it.
 
     Raises:
         ValueError: an orbit that is not hyperbolic, or a branch of more than MOST_VERTICES points.
     """
-    points = np.stack([np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")])
+    points = np.stack(
+        [np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")]
+    )
     period = points.shape[1]
     if side not in ("inner", "outer"):
         raise ValueError(f"side = {side!r} is not allowed: 'inner' or 'outer'")
@@ -91,8 +95,8 @@ def scene_manifolds(ball, energy, orbit, branches, resolution):
     """Both manifolds of every point of an orbit: `branches` gives {side: {"length": L}}.
 
     Returns:
-        Dataset of x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0 or 1),
-        saddle and side.
+        Dataset of x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0
+        or 1), saddle and side.
     """
     requests = [
         (saddle, side, stable, {"length": branches[side]["length"]})
@@ -211,7 +215,7 @@ class _Branch:
         return np.array(state)[:, None]
 
     def start_error(self):
-        """Distance between the end of the first segment and the image of its start, in section radii."""
+        """By how much the image of the segment's start misses its end, in section radii."""
         ends = self(np.array([np.nextafter(1.0, 0.0), 1.0]))
         return float(np.max(np.abs(ends[:, 1] - ends[:, 0])) / self.radius)
 
@@ -252,7 +256,9 @@ def _trace(branch, length, distance, bend, window):
             u = np.insert(u, at, middle)
             states = np.insert(states, at, branch(middle), axis=1)
             if u.size > MOST_VERTICES:
-                raise ValueError(f"a manifold of more than {MOST_VERTICES} points: make length shorter")
+                raise ValueError(
+                    f"a manifold of more than {MOST_VERTICES} points: make length shorter"
+                )
         sides = _sides(states) / branch.radius
         jumps = _is_jump(u) & (sides > 1e-6)
         travelled = np.cumsum(np.where(jumps, 0.0, sides))

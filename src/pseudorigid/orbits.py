@@ -1,4 +1,6 @@
-"""Orbits of the impact map: impact by impact, the starts of a scene, and the motion in time between impacts."""
+"""Orbits of the impact map: impact by impact, the starts of a scene, and the motion in time
+between impacts.
+"""
 
 import numpy as np
 import xarray as xr
@@ -32,12 +34,13 @@ def orbit(ball, state, impacts, keep="all"):
         ball: a Ball.
         state: (x, xdot, udot) just before an impact, scalars or arrays that broadcast.
         impacts: how many impacts, at least 1.
-        keep: "all", or "last" for the final state alone, in memory that does not grow with `impacts`.
+        keep: "all", or "last" for the final state alone, in memory that does not grow with
+        `impacts`.
 
     Returns:
-        Dataset of x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded; tau is
-        the flight that ends there. A state of one dimension has the dim `orbit`, of more `orbit_0`, ...
-        With keep="last" there is no dim `impact`.
+        Dataset of x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded;
+        tau is the flight that ends there. A state of one dimension has the dim `orbit`, of more
+        `orbit_0`, ... With keep="last" there is no dim `impact`.
 
     Raises:
         ValueError: a state with xdot + udot < 0, impacts < 1, or another `keep`.
@@ -110,8 +113,8 @@ def motion(ball, orbit, duration):
         duration: the length of time.
 
     Returns:
-        Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included, where
-        position = -strain exactly; impact_t and impact_position on `impact`.
+        Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
+        where position = -strain exactly; impact_t and impact_position on `impact`.
     """
     states = [orbit[name].values for name in ("x", "xdot", "udot", "tau")]
     period = states[0].size

@@ -1,8 +1,9 @@
 """Symmetric periodic orbits: one-dimensional root searches on the symmetry lines of the map.
 
 With the reversor R, (x, y) -> (x, -y), and the map P, a symmetric orbit of even period 2m starts on
-Fix R (y = 0) and is back there after m impacts, or does so on Fix RP; one of odd period 2m + 1 starts on
-Fix R and is on Fix RP after m impacts. On Fix R y = 0; on Fix RP the flight that follows is symmetric in
+Fix R (y = 0) and is back there after m impacts, or does so on Fix RP; one of odd period 2m + 1
+starts on Fix R and is on Fix RP after m impacts. On Fix R y = 0; on Fix RP the flight that follows
+is symmetric in
 time: b + g tau/2 = 0. Orbits without that symmetry are not looked for.
 """
 
@@ -19,7 +20,8 @@ RESOLUTION = 20_000
 # Two points nearer than this, in section radii, are one.
 SAME = 1e-9
 TURN = float.fromhex("0x1.921fb54442d18p+2")  # 2 pi
-# Largest |P^n z - z| of a solution, times |multiplier|/50 where that is larger; a jump of the map exceeds it.
+# Largest |P^n z - z| of a solution, times |multiplier|/50 where that is larger; a jump of the map
+# exceeds it.
 CLOSURE = 1e-14
 
 
@@ -32,8 +34,8 @@ def symmetric_orbits(ball, energy, period):
         period: the number of impacts, at least 1.
 
     Returns:
-        Dataset, dims (orbit, point), the orbits in the order of |multiplier|: x, xdot, udot just before
-        each impact, tau the flight from that point to the next; per orbit
+        Dataset, dims (orbit, point), the orbits in the order of |multiplier|: x, xdot, udot just
+        before each impact, tau the flight from that point to the next; per orbit
         type: elliptic, hyperbolic or inverse hyperbolic;
         trace: of the Jacobian of P^n on the energy surface;
         multiplier: its eigenvalue of largest modulus; for an elliptic orbit that modulus, 1;
@@ -64,13 +66,15 @@ def symmetric_orbits(ball, energy, period):
 
 
 def of_type(orbits, kind):
-    """The first orbit of this type, a Dataset on `point`; ValueError, saying what there is, where there is none."""
+    """The first orbit of this type, a Dataset on `point`; ValueError, saying what there is, where
+    there is none.
+    """
     (matches,) = np.nonzero(orbits["type"].values == kind)
     if matches.size == 0:
         there = ", ".join(sorted(set(orbits["type"].values.tolist()))) or "none at all"
         raise ValueError(
-            f"no {kind} orbit of period {orbits.sizes['point']} at energy {orbits.attrs['energy']:g} "
-            f"(found: {there})"
+            f"no {kind} orbit of period {orbits.sizes['point']} "
+            f"at energy {orbits.attrs['energy']:g} (found: {there})"
         )
     return orbits.isel(orbit=int(matches[0]))
 
@@ -80,8 +84,8 @@ def _dataset(ball, energy, period, found):
     traces = np.array([t for t, _ in found])
     names = NAMES | {"tau": "time of flight to the next point"}
     data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
-    kinds = ["elliptic" if abs(t) < 2.0 else "hyperbolic" if t > 0.0 else "inverse hyperbolic" for t in traces]
-    data["type"] = ("orbit", np.array(kinds, dtype=object), {"long_name": "type of stability"})
+    kinds = np.array([_kind(t) for t in traces], dtype=object)
+    data["type"] = ("orbit", kinds, {"long_name": "type of stability"})
     names = {
         "trace": "trace of the Jacobian of P^n on the energy surface",
         "multiplier": "multiplier of largest modulus; the modulus, 1, of elliptic orbits",
@@ -95,12 +99,14 @@ def _dataset(ball, energy, period, found):
         points[:, 3].sum(axis=1),
     ]
     data |= variables("orbit", values, names)
-    attributes = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period, "resolution": RESOLUTION}
-    return xr.Dataset(data, attrs=attributes)
+    attributes = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
+    return xr.Dataset(data, attrs=attributes | {"resolution": RESOLUTION})
 
 
 def _lines(ball, energy, period):
-    """(start, parameters, defect) of each search: states along a line, and what is 0 at an orbit."""
+    """(start, parameters, defect) of each search: states along a line, and what is 0 at an
+    orbit.
+    """
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
@@ -121,8 +127,8 @@ def _lines(ball, energy, period):
     yield on_r, inside, (half if period % 2 == 0 else symmetric_flight)
     if period % 2:
         return
-    # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a from
-    # E = g^2 theta^2/2 + k a^2/2 - g a cos theta.
+    # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a
+    # from E = g^2 theta^2/2 + k a^2/2 - g a cos theta.
     longest = radius * np.sqrt(k) / g
     for sign in (1.0, -1.0):
 
@@ -130,9 +136,7 @@ def _lines(ball, energy, period):
             sine, cosine = _sincos(theta)
             square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
             a = (g * cosine + sign * np.sqrt(np.where(square >= 0.0, square, np.nan))) / k
-            xdot, udot, _ = kernel.rebound.py_func(
-                -g * theta, -a * sine, k, *kernel.transfer(k)
-            )
+            xdot, udot, _ = kernel.rebound.py_func(-g * theta, -a * sine, k, *kernel.transfer(k))
             good = xdot + udot >= 0.0
             x, xdot, udot = (np.where(good, u, np.nan) for u in (a * cosine, xdot, udot))
             tau = ball.time_to_impact(x, xdot, udot)
@@ -152,7 +156,8 @@ def _sincos(theta):
 
 
 def _roots(ball, start, parameters, defect, impacts):
-    """(low, high): the ends, neighbouring doubles, of each sign change of the defect after `impacts` impacts.
+    """(low, high): the ends, neighbouring doubles, of each sign change of the defect after
+    `impacts` impacts.
 
     A jump of the map changes sign too: what it leaves does not close and is sorted out afterwards.
     """
@@ -173,7 +178,8 @@ def _roots(ball, start, parameters, defect, impacts):
     values = value(parameters)
     there = ~np.isnan(values)
     low, high = parameters[:-1].copy(), parameters[1:].copy()
-    # Where a line ends between two parameters, the last point on it takes the place of the one beyond.
+    # Where a line ends between two parameters, the last point on it takes the place of the one
+    # beyond.
     (leaves,) = np.nonzero(there[:-1] & ~there[1:])
     high[leaves] = halve(low[leaves], high[leaves], lambda v: ~np.isnan(v))[0]
     (enters,) = np.nonzero(~there[:-1] & there[1:])
@@ -187,15 +193,16 @@ def _roots(ball, start, parameters, defect, impacts):
 def _solve(ball, line, period):
     """(orbit, closure): orbits (4, period) that close after `period` impacts, x, xdot, udot, tau.
 
-    The root's two ends are known to the last bit of the line's parameter; of their neighbours among the
-    doubles, two units in the last place each way, the state that closes best is taken.
+    The root's two ends are known to the last bit of the line's parameter; of their neighbours
+    among the doubles, two units in the last place each way, the state that closes best is taken.
     """
     start, parameters, defect = line
     steps = np.arange(-2, 3)
     shift = np.stack(np.meshgrid(steps, steps, steps, indexing="ij")).reshape(3, -1)
     for end in zip(*_roots(ball, start, parameters, defect, period // 2), strict=True):
         centres = np.stack(start(np.array(end)), axis=0)
-        near = (centres[:, :, None] + shift[:, None, :] * np.spacing(centres)[:, :, None]).reshape(3, -1)
+        near = centres[:, :, None] + shift[:, None, :] * np.spacing(centres)[:, :, None]
+        near = near.reshape(3, -1)
         near = near[:, near[1] + near[2] >= 0.0]
         after = near.copy()
         kernel.steps(*after, ball.k, ball.g, period, np.empty(near.shape[1]))
@@ -206,7 +213,9 @@ def _solve(ball, line, period):
 
 
 def _follow(ball, state, period):
-    """x, xdot, udot and the time of flight after it, (4, period), of the orbit from `state`, which comes first."""
+    """x, xdot, udot and the time of flight after it, (4, period), of the orbit from `state`, which
+    comes first.
+    """
     out = np.empty((4, period, 1))
     kernel.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
     out = out[:, :, 0]
@@ -220,9 +229,17 @@ def _distance(a, b):
 
 
 def _trace(ball, points):
-    """Trace of the Jacobian of P^n on the energy surface: the third eigenvalue of eq. (33)'s product is 1."""
+    """Trace of the Jacobian of P^n on the energy surface: the third eigenvalue of eq. (33)'s
+    product is 1.
+    """
     jacobian = ball.jacobian(*points[:3, 0], impacts=points.shape[1])
     return float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
+
+
+def _kind(trace):
+    if abs(trace) < 2.0:
+        return "elliptic"
+    return "hyperbolic" if trace > 0.0 else "inverse hyperbolic"
 
 
 def _multiplier(trace):
