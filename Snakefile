@@ -24,4 +24,6 @@ include: "workflow/rules/publish.smk"
 rule all:
     default_target: True
     input:
-        sorted({file for figure, (_, behind) in FIGURES.items() for file in (figure, *behind)}),
+        sorted(FIGURES),
+        sorted({file for _, behind in FIGURES.values() for file in behind}),
+        sorted({record_path(file) for _, behind in FIGURES.values() for file in behind}),

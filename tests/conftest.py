@@ -51,10 +51,10 @@ class Tree:
         )
 
     def planned(self, *targets):
-        """The outputs of the jobs that a run would start now."""
+        """The outputs of the jobs that a run would start now, without their records."""
         result = self.run(*targets, "-n", "--quiet", "host")
         assert result.returncode == 0, result.stdout
-        return set(re.findall(r"^    output: (\S+)", result.stdout, re.MULTILINE))
+        return set(re.findall(r"^    output: ([^\s,]+)", result.stdout, re.MULTILINE))
 
     def edit(self, scene, **fields):
         """Change fields of a scene in config.yaml; None removes one."""

@@ -261,6 +261,11 @@ def stages(block: dict) -> dict[str, dict]:
     }
 
 
+def drawing(block: dict) -> dict:
+    """What decides how a scene is drawn."""
+    return {key: value for key, value in block.items() if key != "formats"}
+
+
 def owners(scenes: dict[str, dict]) -> dict[tuple[str, str], str]:
     """(scene, stage) -> the scene whose artifact serves it: the first with the same parameters."""
     first, serves = {}, {}

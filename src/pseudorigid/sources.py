@@ -5,9 +5,30 @@ editing a module reruns what uses it.
 """
 
 import ast
+import os
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
+ROOT = PACKAGE.parents[1]
+
+
+def code(script: str, *modules: str) -> list[str]:
+    """The project's files that a script of workflow/scripts runs, from the root, itself included.
+
+    `modules` are those that the script imports by a name it is given.
+    """
+    scripts = [ROOT / "workflow" / "scripts" / name for name in (script, "job.py")]
+    return [os.path.relpath(file, ROOT) for file in (*scripts, *closure(*scripts, *modules))]
+
+
+def stage_code(stage: str) -> list[str]:
+    """The project's files that make the data of a stage."""
+    return code(f"{stage}.py")
+
+
+def drawing_code(picture: str) -> list[str]:
+    """The project's files that draw a kind of picture."""
+    return code("draw.py", f"pseudorigid.figures.{picture}")
 
 
 def closure(*starts: str | Path) -> list[Path]:

@@ -1,11 +1,20 @@
 # The checked config, and what the rules ask of it.
-import os
 import shlex
 import sys
 from pathlib import Path
 
-from pseudorigid.config import STAGES, ConfigError, artifact, figures, load, owners, stages
-from pseudorigid.sources import closure
+from pseudorigid import sources
+from pseudorigid.config import (
+    STAGES,
+    ConfigError,
+    artifact,
+    drawing,
+    figures,
+    load,
+    owners,
+    stages,
+)
+from pseudorigid.provenance import record_path
 
 ROOT = Path(workflow.basedir)
 
@@ -37,8 +46,7 @@ def stage_block(stage):
 
 def drawn_block(wildcards):
     """Params function: what decides how a scene is drawn."""
-    block = SCENES[wildcards.scene]
-    return {key: value for key, value in block.items() if key != "formats"}
+    return drawing(SCENES[wildcards.scene])
 
 
 def scenes_of(*pictures):
@@ -54,6 +62,4 @@ def scenes_with(stage):
 
 def code(script, *modules):
     """Every file of the project that a script runs, and the lock of the packages behind them."""
-    scripts = [ROOT / "workflow/scripts" / name for name in (script, "job.py")]
-    files = [*scripts, *closure(*scripts, *modules), ROOT / "requirements/lock.txt"]
-    return [os.path.relpath(file, ROOT) for file in files]
+    return [*sources.code(script, *modules), "requirements/lock.txt"]

@@ -6,6 +6,7 @@ rule orbits:
         code=code("orbits.py"),
     output:
         "results/{variant}/orbits_{scene}.nc",
+        record="results/{variant}/provenance/orbits_{scene}.nc.json",
     log:
         "results/{variant}/logs/orbits_{scene}.log",
     wildcard_constraints:
@@ -23,6 +24,7 @@ rule periodic:
         code=code("periodic.py"),
     output:
         "results/{variant}/periodic_{scene}.nc",
+        record="results/{variant}/provenance/periodic_{scene}.nc.json",
     log:
         "results/{variant}/logs/periodic_{scene}.log",
     wildcard_constraints:
@@ -41,6 +43,7 @@ rule motion:
         code=code("motion.py"),
     output:
         "results/{variant}/motion_{scene}.nc",
+        record="results/{variant}/provenance/motion_{scene}.nc.json",
     log:
         "results/{variant}/logs/motion_{scene}.log",
     wildcard_constraints:
@@ -59,6 +62,7 @@ rule manifolds:
         code=code("manifolds.py"),
     output:
         "results/{variant}/manifolds_{scene}.nc",
+        record="results/{variant}/provenance/manifolds_{scene}.nc.json",
     log:
         "results/{variant}/logs/manifolds_{scene}.log",
     wildcard_constraints:
@@ -76,6 +80,7 @@ rule lyapunov:
         code=code("lyapunov.py"),
     output:
         "results/{variant}/lyapunov_{scene}.nc",
+        record="results/{variant}/provenance/lyapunov_{scene}.nc.json",
     log:
         "results/{variant}/logs/lyapunov_{scene}.log",
     wildcard_constraints:

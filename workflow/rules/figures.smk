@@ -7,6 +7,7 @@ rule draw_portrait:
         code=code("draw.py", "pseudorigid.figures.portrait"),
     output:
         "results/{variant}/figures/{scene}.{extension}",
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     log:
         "results/{variant}/logs/draw_{scene}_{extension}.log",
     wildcard_constraints:

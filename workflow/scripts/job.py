@@ -30,13 +30,25 @@ def one_line_errors(snakemake):
         sys.exit(1)
 
 
+@contextmanager
+def recorded(snakemake, config):
+    """Write the record of what made the output, `config` being the block behind it."""
+    from pseudorigid import provenance
+
+    sources = [path for path in snakemake.input.code if path.endswith(".py")]
+    inputs = set(snakemake.input) - set(snakemake.input.code)
+    record = provenance.begin(config=config, inputs=inputs, sources=sources)
+    yield
+    provenance.finish(record, snakemake.output[0], snakemake.output.record)
+
+
 def save_stage(snakemake, compute):
     """Save what `compute(ball, energy, **fields of the stage's block)` returns."""
     from pseudorigid import artifacts
     from pseudorigid.ball import Ball
 
-    with one_line_errors(snakemake):
-        block = snakemake.params.block
+    block = snakemake.params.block
+    with one_line_errors(snakemake), recorded(snakemake, block):
         fields = {key: value for key, value in block.items() if key not in ("ball", "energy")}
         ball = Ball(**block["ball"])
         dataset = compute(ball, block["energy"], **fields)
