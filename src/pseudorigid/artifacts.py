@@ -85,19 +85,35 @@ def content_hash(dataset):
     order of variables, not byte order. All NaN count as one value; 0.0 and -0.0 differ.
     """
     digest = hashlib.sha256()
-    _feed(digest, sorted(dataset.sizes.items()), _plain(dataset.attrs))
+    _feed(digest, sorted(dataset.sizes.items()), plain_attributes(dataset))
     for name in sorted(dataset.variables):
         variable = dataset.variables[name]
-        kind = "str" if _is_text(variable) else variable.dtype.newbyteorder("<").str
-        _feed(digest, name, variable.dims, variable.shape, kind, _plain(variable.attrs))
+        kind, values = canonical_values(variable)
+        _feed(digest, name, variable.dims, variable.shape, kind, plain_attributes(variable))
         if kind == "str":
-            _feed(digest, [str(value) for value in variable.values.ravel()])
+            _feed(digest, values)
         else:
-            values = np.ascontiguousarray(variable.values, dtype=kind)
-            if values.dtype.kind == "f":
-                values = np.where(np.isnan(values), np.array(np.nan, dtype=kind), values)
             digest.update(values.tobytes())
     return digest.hexdigest()
+
+
+def canonical_values(variable):
+    """Return (kind, values in one row): little-endian numbers with one NaN, or ("str", a list)."""
+    if _is_text(variable):
+        return "str", [str(value) for value in variable.values.ravel()]
+    kind = variable.dtype.newbyteorder("<").str
+    values = np.ascontiguousarray(variable.values, dtype=kind).ravel()
+    if values.dtype.kind == "f":
+        values = np.where(np.isnan(values), np.array(np.nan, dtype=kind), values)
+    return kind, values
+
+
+def plain_attributes(source):
+    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike."""
+    arrays = {name: np.asarray(value) for name, value in sorted(source.attrs.items())}
+    return {
+        name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
+    }
 
 
 def canonical_json(value):
@@ -156,14 +172,6 @@ def _attributes(source):
 
 def _is_text(variable):
     return variable.dtype.kind in "UOT"
-
-
-def _plain(attrs):
-    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike."""
-    arrays = {name: np.asarray(value) for name, value in sorted(attrs.items())}
-    return {
-        name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
-    }
 
 
 def _feed(digest, *items):
