@@ -34,6 +34,18 @@ class Tree:
                 shutil.copytree(source, path / part, ignore=ignored)
             else:
                 shutil.copy(source, path / part)
+        self.original = {
+            file: file.read_bytes()
+            for part in PARTS
+            for file in [path / part, *(path / part).rglob("*")]
+            if file.is_file()
+        }
+
+    def restore(self):
+        """Undo every edit of the copied files."""
+        for file, content in self.original.items():
+            if file.read_bytes() != content:
+                file.write_bytes(content)
 
     def command(self, *arguments):
         return [sys.executable, str(self.path / "workflow" / "launch.py"), *arguments]
@@ -103,6 +115,7 @@ def fresh_tree(path):
     path.mkdir()
     tree = Tree(path)
     tree.shrink()
+    tree.original[path / "config.yaml"] = (path / "config.yaml").read_bytes()
     figures = path / "paper_figures"
     figures.mkdir()
     for scene, block in yaml.safe_load((path / "config.yaml").read_text())["scenes"].items():
