@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+START = Path.cwd()
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "src"))
 
@@ -28,7 +29,26 @@ def test(arguments: list[str]) -> int:
     os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
 
 
-WORDS = {"test": test}
+def verify(arguments: list[str]) -> int:
+    """Say for each figure whether it is the committed one, or what differs."""
+    from pseudorigid.verify import verify
+
+    return verify(ROOT, arguments, START)
+
+
+def accept(arguments: list[str]) -> int:
+    """Make the figures as they are now the committed ones."""
+    from pseudorigid.verify import accept
+
+    lock = hold_lock()
+    if lock is None:
+        print(BUSY, file=sys.stderr)
+        return 1
+    return accept(ROOT, arguments)
+
+
+WORDS = {"test": test, "verify": verify, "accept": accept}
+BUSY = "reproduce: another ./reproduce is running in this folder"
 
 
 def hold_lock():
@@ -113,7 +133,7 @@ def workflow(arguments: list[str]) -> int:
     figures = config.figures(config.load(ROOT / "config.yaml")["scenes"])
     lock = hold_lock()
     if lock is None:
-        print("reproduce: another ./reproduce is running in this folder", file=sys.stderr)
+        print(BUSY, file=sys.stderr)
         return 1
     before = {name: identity(behind[-1]) for name, (_, behind) in figures.items()}
     start = time.time() - 1  # some file systems keep whole seconds only
@@ -139,10 +159,9 @@ def main(arguments: list[str]) -> int:
     """Run one word, or snakemake."""
     os.chdir(ROOT)
     set_environment()
-    if arguments and arguments[0] in WORDS:
-        return WORDS[arguments[0]](arguments[1:])
+    word, *rest = arguments or [None]
     try:
-        return workflow(arguments)
+        return WORDS[word](rest) if word in WORDS else workflow(arguments)
     except config.ConfigError as error:
         print(error, file=sys.stderr)
         return 1
