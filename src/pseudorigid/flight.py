@@ -45,45 +45,49 @@ def _launch(x, c, s, g, amplitude):
 
 @jit
 def _look(t, x, b, c, s, g):
-    """f, f', P, Q at t. Up to t = pi/4 the terms of f that cancel at 0 are left out by hand."""
+    """f, f', f'', P, Q at t. Up to t = pi/4 the terms of f that cancel at 0 are left out by
+    hand.
+    """
     sine, cosine, n, sine_tail, cosine_tail = sincos_tails(t)
     p = x * cosine - c * sine
     q = x * sine + c * cosine
     near = n == 0.0
     f_near = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
     df_near = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
+    ddf_near = (g + x) + (x * (cosine_tail - 0.5 * t * t) - c * sine)
     f_far = (x + t * (b + 0.5 * g * t)) - p
     df_far = b + g * t + q
     f = f_near if near else f_far
     df = df_near if near else df_far
-    return f, df, p, q
+    ddf = ddf_near if near else g + p
+    return f, df, ddf, p, q
 
 
 @jit
-def _rises_to_its_root(depth, df, p, q, g, amplitude):
+def _rises_to_its_root(depth, df, ddf, q, g, amplitude):
     """Whether f' > 0 from here to the root, depth = -f > 0 below it."""
     if not df > 0.0:
         return False
     square = df * df
     if square >= 2.0 * depth * (amplitude - g):
         return True
-    if (g + p) * square >= depth * (max(q, 0.0) * df + 0.5 * amplitude * depth):
+    if ddf * square >= depth * (max(q, 0.0) * df + 0.5 * amplitude * depth):
         return True
-    # f'' >= m = g + P - max(Q, 0) h - A h^2/2 for steps up to h. The root is within h = depth/f'
+    # f'' >= m = f''(t) - max(Q, 0) h - A h^2/2 for steps up to h. The root is within h = depth/f'
     # where m >= 0, and within h = 3/2 depth/f' where m >= -8/9 f'^2/(2 depth); both times f'^2.
-    bend = (g + p) * square - 1.5 * depth * (max(q, 0.0) * df + 0.75 * amplitude * depth)
+    bend = ddf * square - 1.5 * depth * (max(q, 0.0) * df + 0.75 * amplitude * depth)
     return square * square + 2.25 * depth * bend >= 0.0
 
 
 @jit
-def _stride(depth, df, p, q, g, amplitude):
+def _stride(depth, df, ddf, q, g, amplitude):
     """A step from a point depth = -f > 0 below the root that cannot pass it."""
     most = g + amplitude
     root = math.sqrt(df * df + 2.0 * most * depth)
     sure = 2.0 * depth / (df + root) if df > 0.0 else (root - df) / most
     reach = 2.0 * sure
     while True:
-        bend = min(most, g + p + reach * (max(-q, 0.0) / 3.0 + amplitude * reach / 12.0))
+        bend = min(most, ddf + reach * (max(-q, 0.0) / 3.0 + amplitude * reach / 12.0))
         square = df * df + 2.0 * bend * depth
         step = reach
         if square >= 0.0:
@@ -97,13 +101,13 @@ def _stride(depth, df, p, q, g, amplitude):
 
 
 @jit
-def _correction(f, df, p, q, t, g, amplitude):
+def _correction(f, df, ddf, p, q, t, amplitude):
     """The step from t to the root nearby, and whether what it leaves is below the rounding of
     tau.
     """
     inverse = 1.0 / df
     u = -f * inverse
-    a2 = 0.5 * (g + p) * inverse
+    a2 = 0.5 * ddf * inverse
     spread = 4.0 * (a2 * u) * (a2 * u) + amplitude * u * u * inverse
     if spread < 0.1:  # the inverse series of f, to fourth order
         a3 = (-1.0 / 6.0) * q * inverse
@@ -111,9 +115,9 @@ def _correction(f, df, p, q, t, g, amplitude):
         tail = (2.0 * a2 * a2 - a3) + u * (a2 * (5.0 * a3 - 5.0 * a2 * a2) - a4)
         return u - u * (a2 * u - u * u * tail), spread * spread * abs(u) <= _SLACK * t
     # the parabola, and one Newton step on the sixth-order Taylor polynomial
-    h = -2.0 * f / (df + math.sqrt(max(0.0, df * df - 2.0 * (g + p) * f)))
+    h = -2.0 * f / (df + math.sqrt(max(0.0, df * df - 2.0 * ddf * f)))
     rest = h * h * h * (-q / 6.0 + h * (-p / 24.0 + h * (q / 120.0 + h * p / 720.0)))
-    slope = df + h * (g + p + h * (-0.5 * q + h * (-p / 6.0 + h * q / 24.0)))
+    slope = df + h * (ddf + h * (-0.5 * q + h * (-p / 6.0 + h * q / 24.0)))
     if slope > 0.5 * df:
         h -= rest / slope
     return h, False
@@ -153,24 +157,24 @@ def first_impact(x, b, c, s, g):
         enter = 2.0 * (x + amplitude) / fast
         if enter <= t < leave:
             t = leave
-    f, df, p, q = _look(t, x, b, c, s, g)
+    f, df, ddf, p, q = _look(t, x, b, c, s, g)
     looks = 1
     low = t
-    while f < 0.0 and not _rises_to_its_root(-f, df, p, q, g, amplitude):
-        after = t + _stride(-f, df, p, q, g, amplitude)
+    while f < 0.0 and not _rises_to_its_root(-f, df, ddf, q, g, amplitude):
+        after = t + _stride(-f, df, ddf, q, g, amplitude)
         if after == t:
             return t, p, q, looks
         t = after
         if enter <= t < leave:
             t = leave
-        f, df, p, q = _look(t, x, b, c, s, g)
+        f, df, ddf, p, q = _look(t, x, b, c, s, g)
         looks += 1
         if looks > MOST_LOOKS:
             raise ArithmeticError("the march to the next impact does not end")
         low = t
     high = math.inf
     while df > 0.0:
-        h, last = _correction(f, df, p, q, t, g, amplitude)
+        h, last = _correction(f, df, ddf, p, q, t, amplitude)
         if last:
             p, q = _turn(p, q, h)
             return t + h, p, q, looks
@@ -180,7 +184,7 @@ def first_impact(x, b, c, s, g):
         if after in (t, low, high):
             break
         t = after
-        f, df, p, q = _look(t, x, b, c, s, g)
+        f, df, ddf, p, q = _look(t, x, b, c, s, g)
         looks += 1
         if looks > MOST_LOOKS:
             raise ArithmeticError("the landing on the next impact does not end")
@@ -189,8 +193,8 @@ def first_impact(x, b, c, s, g):
         else:
             high = t
     # a double root, to rounding: at the top f' = 0, the impact is grazing
-    if df < 0.0 and g + p < 0.0:
-        h = -df / (g + p)
+    if df < 0.0 and ddf < 0.0:
+        h = -df / ddf
         p, q = _turn(p, q, h)
         return t + h, p, q, looks
     return t, p, q, looks

@@ -45,17 +45,20 @@ def step(x, v, w, k, g, head, low):
 
 
 @jit
-def flight_derivatives(x, c, tau, p, q, speed):
-    """What the Jacobian needs of a flight: sin, cos, and the derivatives of tau.
+def flight_derivatives(x, b, c, s, g, tau):
+    """sin tau, cos tau, and the derivatives of tau by x, s and c, from f = 0.
 
-    f = 0 gives tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f' with f' = v'
-    + w', where s = v + w and c are varied separately; each is free of cancellation at small tau.
+    tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f', where s = v + w and c
+    are varied separately: so nothing cancels where tau is small. f' is the speed v' + w' of the
+    impact.
     """
     sine, cosine, n, sine_tail, cosine_tail = sincos_tails(tau)
     if n == 0.0:
         versine = 0.5 * tau * tau - cosine_tail
+        speed = ((g + x) * tau - s) + (x * sine_tail - c * versine)
     else:
         versine = 1.0 - cosine
+        speed = b + g * tau + (x * sine + c * cosine)
         sine_tail = sine - tau
     return sine, cosine, -versine / speed, tau / speed, -sine_tail / speed
 
@@ -79,7 +82,7 @@ def step_with_flight(x, v, w, k, g, head, low):
     tau, p, q, _ = first_impact(x, b, c, s, g)
     v = b + g * tau
     q = max(q, -v)
-    sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, c, tau, p, q, v + q)
+    sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, g, tau)
     return p, v, q, tau, sine, cosine, tau_x, tau_s, tau_c
 
 

@@ -20,9 +20,10 @@ RESOLUTION = 20_000
 # Two points nearer than this, in section radii, are one.
 SAME = 1e-9
 TURN = float.fromhex("0x1.921fb54442d18p+2")  # 2 pi
-# Largest |P^n z - z| of a solution, times |multiplier|/50 where that is larger; a jump of the map
-# exceeds it.
+# Largest |P^n z - z| of a solution in section radii, times |multiplier|/50 where that is larger.
 CLOSURE = 1e-14
+# A sign change that leaves more than this, in section radii, is a jump of the map.
+JUMP = 1e-6
 
 
 def symmetric_orbits(ball, energy, period):
@@ -41,7 +42,9 @@ def symmetric_orbits(ball, energy, period):
         multiplier: its eigenvalue of largest modulus; for an elliptic orbit that modulus, 1;
         rotation_number: the argument of the multiplier over 2 pi, 0 to 1/2, arccos(trace/2)/(2 pi);
         total_time: the sum of tau.
-        Length 0 where none is found. The first point lies on a symmetry line.
+        Length 0 where none is found. The first point lies on a symmetry line, unless the orbit is
+        too sensitive there to be closed. Attribute resolution: the cells of each line; unsolved:
+        how many orbits were seen, but close to no better than CLOSURE allows.
 
     Raises:
         ValueError: an energy below the bound or a period below 1.
@@ -51,18 +54,25 @@ def symmetric_orbits(ball, energy, period):
     period = int(period)
     _, radius = ball.section(energy)
     near = SAME * radius
-    found = []
+    seen, found = [], []
     for line in _lines(ball, energy, period):
-        for points, gap in _solve(ball, line, period):
-            if any(np.any(_distance(points[:3, :1], p[:3]) < near) for _, p in found):
+        for state in _solutions(ball, line, period, radius):
+            points = _follow(ball, state, period)
+            if any(np.any(_distance(points[:3, :1], p) < near) for p in seen):
                 continue
             if period > 1 and np.any(_distance(points[:3, :1], points[:3, 1:]) < near):
                 continue  # its prime period is a divisor
+            seen.append(points[:3])
             trace = _trace(ball, points)
-            if gap <= CLOSURE * max(1.0, abs(_multiplier(trace)) / 50.0):
-                found.append((trace, points))
+            limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
+            # Where the orbit is too sensitive at its first point, another one serves as the first.
+            for point in points[:3].T:
+                first, gap = _closest(ball, point, period)
+                if gap <= limit:
+                    found.append((trace, _follow(ball, first, period)))
+                    break
     found.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
-    return _dataset(ball, energy, period, found)
+    return _dataset(ball, energy, period, found).assign_attrs(unsolved=len(seen) - len(found))
 
 
 def of_type(orbits, kind):
@@ -190,26 +200,28 @@ def _roots(ball, start, parameters, defect, impacts):
     return halve(low[change], high[change], lambda v: at_low * v > 0.0)
 
 
-def _solve(ball, line, period):
-    """(orbit, closure): orbits (4, period) that close after `period` impacts, x, xdot, udot, tau.
-
-    The root's two ends are known to the last bit of the line's parameter; of their neighbours
-    among the doubles, two units in the last place each way, the state that closes best is taken.
-    """
+def _solutions(ball, line, period, radius):
+    """States on one symmetry line that are back after `period` impacts, jumps left out."""
     start, parameters, defect = line
+    for end in zip(*_roots(ball, start, parameters, defect, period // 2), strict=True):
+        for side in np.stack(start(np.array(end)), axis=1):
+            state, gap = _closest(ball, side, period)
+            if gap < JUMP * radius:
+                yield state
+                break
+
+
+def _closest(ball, state, period):
+    """(state, gap): of the doubles up to two units in the last place away, the one closing best."""
     steps = np.arange(-2, 3)
     shift = np.stack(np.meshgrid(steps, steps, steps, indexing="ij")).reshape(3, -1)
-    for end in zip(*_roots(ball, start, parameters, defect, period // 2), strict=True):
-        centres = np.stack(start(np.array(end)), axis=0)
-        near = centres[:, :, None] + shift[:, None, :] * np.spacing(centres)[:, :, None]
-        near = near.reshape(3, -1)
-        near = near[:, near[1] + near[2] >= 0.0]
-        after = near.copy()
-        kernel.steps(*after, ball.k, ball.g, period, np.empty(near.shape[1]))
-        gaps = _distance(after, near)
-        best = int(np.argmin(gaps))
-        if gaps[best] < 1e-6:  # else a jump of the map
-            yield _follow(ball, near[:, best], period), gaps[best]
+    near = state[:, None] + shift * np.spacing(state)[:, None]
+    near = near[:, near[1] + near[2] >= 0.0]
+    after = near.copy()
+    kernel.steps(*after, ball.k, ball.g, period, np.empty(near.shape[1]))
+    gaps = _distance(after, near)
+    best = int(np.argmin(gaps))
+    return near[:, best], gaps[best]
 
 
 def _follow(ball, state, period):
