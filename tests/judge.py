@@ -1,0 +1,282 @@
+"""The judge: the next impact to 60 digits, proved to be the first by a method that is not ours.
+
+The gap f(t) = x + b t + g t^2/2 - x cos t + c sin t has f'' = g + x cos t - c sin t, whose zeros
+are known in closed form. Between two of them f' is monotone and has at most one zero; between two
+zeros of f' the gap is monotone and has at most one root. So all candidates can be listed and none
+be missed. Doubles are used only to pass over pieces on which f stays far below zero, far being a
+millionth of its largest term.
+
+A state is taken exactly as its doubles are; b and c are computed from them with 60 digits.
+"""
+
+import math
+from dataclasses import dataclass
+
+import mpmath
+import numpy as np
+from mpmath import mp, mpf
+
+mp.dps = 60
+
+# Below this depth, relative to the terms of f, doubles cannot tell a near miss from a touch.
+UNDECIDABLE = 1e-15
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is true of one flight: 60-digit numbers, and what a double can be asked to know."""
+
+    tau: mpf
+    slope: mpf  # f'(tau)
+    state: tuple  # (x', v', w')
+    depth: float  # least |f| / terms at a local maximum that decides which root is first, or inf
+    rival: mpf | None  # the other candidate for tau where depth < UNDECIDABLE
+    condition: float  # terms / (tau |f'(tau)|): by how many roundings of its terms tau may be off
+
+
+class Gap:
+    """f and its derivatives for one flight, from exact x, b, c, s = -(b + c) and g."""
+
+    def __init__(self, x, b, c, s, g, size_b=None):
+        self.x, self.b, self.c, self.s, self.g = x, b, c, s, g
+        self.size_b = abs(b) if size_b is None else size_b  # of what b is the difference
+        self.amplitude = mpmath.sqrt(x * x + c * c)
+
+    def __call__(self, t):
+        if t == 0:
+            return mpf(0)
+        cosine, sine = mpmath.cos_sin(t)
+        return self.x * (1 - cosine) + t * (self.b + self.g * t / 2) + self.c * sine
+
+    def slope(self, t):
+        if t == 0:
+            return -self.s
+        cosine, sine = mpmath.cos_sin(t)
+        return self.b + self.g * t + self.x * sine + self.c * cosine
+
+    def bend(self, t):
+        cosine, sine = mpmath.cos_sin(t)
+        return self.g + self.x * cosine - self.c * sine
+
+    def terms(self, t):
+        """The size of what f is the sum of; for small t with its equal terms taken out."""
+        if t < mpmath.pi / 4:
+            rest = abs(self.c) * t / 6 + abs(self.x) * t * t / 24
+            return self.s * t + (abs(self.g + self.x) / 2 + rest) * t * t
+        return abs(self.x) + self.size_b * t + self.g * t * t / 2 + self.amplitude
+
+    def starts_below(self):
+        """Whether f < 0 just after 0, exactly: the sign of its first derivative that is not 0."""
+        for derivative in (-self.s, self.g + self.x, -self.c, -self.x):
+            if derivative != 0:
+                return derivative < 0
+        raise AssertionError("the gap is zero throughout")
+
+
+def _solve(f, slope, low, high, guess):
+    """The root of f in [low, high], where f changes sign once: Newton in a shrinking bracket."""
+    rising = f(high) > 0
+    t = mpf(guess)
+    if not low < t < high:
+        t = (low + high) / 2
+    for _ in range(400):
+        value = f(t)
+        if value == 0:
+            return t
+        if (value > 0) == rising:
+            high = t
+        else:
+            low = t
+        steep = slope(t)
+        after = t - value / steep if steep != 0 else low
+        if not low < after < high:
+            after = (low + high) / 2
+        if abs(after - t) <= abs(after) * mpf(10) ** -45:
+            return after
+        t = after
+    raise AssertionError("the judge does not converge")
+
+
+def _inflections(gap, until):
+    """All zeros of f'' in (0, until), in order: as doubles, and by index to 60 digits.
+
+    f'' = g + A cos(t + phi), phi = atan2(c, x), so t = 2 pi n - phi -+ acos(-g/A).
+    """
+    if gap.amplitude <= gap.g:
+        return np.empty(0), None
+    phi = mpmath.atan2(gap.c, gap.x)
+    angle = mpmath.acos(-gap.g / gap.amplitude)
+    turn = 2 * mpmath.pi
+    first = sorted((-phi + sign * angle) % turn for sign in (1, -1))
+
+    def exact(i):
+        return first[i % 2] + (i // 2) * turn
+
+    # where g + x = 0 one of them is 0 itself, up to the last of the 60 digits
+    floor = mpf(10) ** -40 if gap.g + gap.x == 0 else mpf(0)
+    begin = next(i for i in range(4) if exact(i) > floor)
+    end = 2 * int(until / turn) + 4
+    while end > begin and not exact(end - 1) < until:
+        end -= 1
+    numbers = np.arange(begin, end)
+    grid = 2 * math.pi * (numbers // 2) + np.where(numbers % 2, float(first[1]), float(first[0]))
+    return grid, lambda i: exact(begin + i)
+
+
+def _float_screen(gap, edges):
+    """Which pieces [edges[i], edges[i+1]] may hold f >= 0: all but those far below zero."""
+    x, b, c, g = (float(a) for a in (gap.x, gap.b, gap.c, gap.g))
+    amplitude = math.hypot(x, c)
+
+    def f(t):
+        return x + t * (b + 0.5 * g * t) - x * np.cos(t) + c * np.sin(t)
+
+    def slope(t):
+        return b + g * t + x * np.sin(t) + c * np.cos(t)
+
+    low, high = edges[:-1].copy(), edges[1:].copy()
+    margin = 1e-6 * (abs(x) + amplitude + (abs(b) + g * high) * (1.0 + high))
+    ends = np.maximum(f(low), f(high))
+    # where f' falls from + to - within the piece, its maximum is inside
+    inside = (slope(low) > -margin) & (slope(high) < margin)
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        up = slope(middle) > 0.0
+        low, high = np.where(up, middle, low), np.where(up, high, middle)
+    top = np.where(inside, np.maximum(ends, f(0.5 * (low + high))), ends)
+    return top > -margin
+
+
+def _monotone_pieces(gap):
+    """(low, high, f(low), f(high)) of the monotone pieces of f that may hold a root, in order."""
+    below = gap.b * gap.b - 2 * gap.g * (gap.x - gap.amplitude)
+    last = (-gap.b + mpmath.sqrt(below)) / gap.g + 1  # f > x + b t + g t^2/2 - A > 0 from here on
+    grid, exact = _inflections(gap, last)
+    edges = np.array([0.0, *grid, float(last)])
+
+    def edge(i):
+        if i == 0:
+            return mpf(0)
+        return last if i == len(edges) - 1 else exact(i - 1)
+
+    for i in np.flatnonzero(_float_screen(gap, edges)):
+        low, high = edge(int(i)), edge(int(i) + 1)
+        f_low, f_high = gap(low), gap(high)
+        d_low, d_high = gap.slope(low), gap.slope(high)
+        if d_low * d_high < 0:
+            at = _solve(gap.slope, gap.bend, low, high, _float_critical(gap, low, high))
+            f_at = gap(at)
+            yield low, at, f_low, f_at
+            yield at, high, f_at, f_high
+        else:
+            yield low, high, f_low, f_high
+
+
+def _float_critical(gap, low, high):
+    """A double near the zero of f' in (low, high)."""
+    x, b, c, g = (float(a) for a in (gap.x, gap.b, gap.c, gap.g))
+    low, high = float(low), float(high)
+    up = b + g * high + x * math.sin(high) + c * math.cos(high) > 0.0
+    for _ in range(60):
+        t = 0.5 * (low + high)
+        if (b + g * t + x * math.sin(t) + c * math.cos(t) > 0.0) == up:
+            high = t
+        else:
+            low = t
+    return 0.5 * (low + high)
+
+
+def _guess(gap, low, high, f_low, f_high):
+    """A start for Newton: from the end that is nearer to zero, by its parabola."""
+    near, value, side = (low, f_low, 1) if abs(f_low) < abs(f_high) else (high, f_high, -1)
+    steep, bend = gap.slope(near), gap.bend(near)
+    square = steep * steep - 2 * bend * value
+    if square < 0 or value == 0:
+        return (low + high) / 2
+    other = steep + side * mpmath.sqrt(square) if side * steep >= 0 else steep - mpmath.sqrt(square)
+    return near - 2 * value / other if other != 0 else (low + high) / 2
+
+
+def first_root(gap):
+    """(tau, depth, rival) of a Gap: see Verdict."""
+    if not gap.starts_below():
+        return mpf(0), math.inf, None
+    tau, depth, rival = None, math.inf, None
+    for low, high, f_low, f_high in _monotone_pieces(gap):
+        rises = f_high > f_low
+        if rises and tau is not None:
+            # the next root after a peak that barely came out of the floor
+            if f_high > 0:
+                if depth < UNDECIDABLE and rival is None and f_low < 0:
+                    rival = _solve(gap, gap.slope, low, high, _guess(gap, low, high, f_low, f_high))
+                break
+            continue
+        if rises and f_high >= 0 and (f_low < 0 or low == 0):
+            tau = high
+            if f_high > 0:
+                tau = _solve(gap, gap.slope, low, high, _guess(gap, low, high, f_low, f_high))
+        if rises and gap.bend(high) < 0:
+            # `high` is a local maximum, or an inflection on the way up to it
+            peak = float(abs(f_high) / gap.terms(high))
+            if peak < depth and abs(gap.slope(high)) < mpf(10) ** -30 * gap.terms(high):
+                depth = peak
+                if tau is None and depth < UNDECIDABLE and rival is None:
+                    rival = high
+        if tau is not None and not depth < UNDECIDABLE:
+            break
+    if tau is None:
+        raise AssertionError("the judge found no root")
+    return tau, depth, rival
+
+
+def judge(k, g, x, v, w):
+    """The Verdict on the next impact of a state just before an impact; v + w >= 0."""
+    k, g, x, v, w = (mpf(float(a)) for a in (k, g, x, v, w))
+    with mpmath.workdps(_digits(g, x, v, w)):
+        gap, b, c = flight(k, g, x, v, w)
+        tau, depth, rival = first_root(gap)
+        cosine, sine = mpmath.cos_sin(tau)
+        slope = gap.slope(tau)
+        state = (x * cosine - c * sine, b + g * tau, x * sine + c * cosine)
+        condition = math.inf if slope == 0 else 1.0
+        if tau > 0 and slope != 0:
+            condition = float(gap.terms(tau) / (tau * abs(slope)))
+    return Verdict(tau, slope, state, depth, rival, condition)
+
+
+def _digits(g, x, v, w):
+    """60 digits, and more where a flight is so short that f = x (1 - cos t) + ... loses them."""
+    size, s = abs(x) + abs(v) + abs(w) + g, v + w
+    smallest = min(a for a in (s, abs(g + x), size) if a > 0)
+    return 60 + 4 * max(0, int(mpmath.log10(size / smallest)))
+
+
+def flight(k, g, x, v, w):
+    """(Gap, b, c) of the flight that follows the impact of a 60-digit state."""
+    s = v + w
+    e = 2 * s / (1 + k)
+    b, c = v - k * e, w - e
+    return Gap(x, b, c, s, g, max(abs(v), k * e, abs(b))), b, c
+
+
+def exact_map(k, g, x, v, w):
+    """(x', v', w', tau) for 60-digit numbers, as judge() finds them."""
+    gap, b, c = flight(k, g, x, v, w)
+    tau = first_root(gap)[0]
+    cosine, sine = mpmath.cos_sin(tau)
+    return x * cosine - c * sine, b + g * tau, x * sine + c * cosine, tau
+
+
+def exact_jacobian(k, g, x, v, w, step=1e-20):
+    """The 3 x 3 Jacobian by central differences of exact_map, to step^2: a list of rows."""
+    k, g = mpf(float(k)), mpf(float(g))
+    at = [mpf(float(a)) for a in (x, v, w)]
+    columns = []
+    for j in range(3):
+        ends = []
+        for sign in (1, -1):
+            moved = list(at)
+            moved[j] += sign * step
+            ends.append(exact_map(k, g, *moved)[:3])
+        columns.append([(p - m) / (2 * step) for p, m in zip(*ends, strict=True)])
+    return [list(row) for row in zip(*columns, strict=True)]

@@ -1,0 +1,200 @@
+"""Ball: its plain algebra, and how it takes and gives numbers and arrays."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pseudorigid.ball import Ball
+
+BALL = Ball(k=0.2, g=0.04)
+METHODS = ("impact", "inverse_impact", "jacobian", "time_to_impact", "energy", "reflect")
+
+every = settings(derandomize=True, deadline=None)
+numbers = st.floats(-2.0, 2.0)
+balls = st.builds(Ball, k=st.floats(0.01, 1.0), g=st.floats(1e-4, 1.0))
+
+
+def states(count, seed=0):
+    """x, v, w of `count` states with v + w >= 0."""
+    x, v, w = np.random.default_rng(seed).uniform(-0.5, 0.5, (3, count))
+    turn = np.where(v + w < 0, -1.0, 1.0)
+    return x, turn * v, turn * w
+
+
+def parts(result):
+    return result if isinstance(result, tuple) else (result,)
+
+
+@pytest.mark.parametrize("k", [0.0, -0.1, 1.0000001, math.nan, math.inf, "0.2", None, True])
+def test_k_outside_its_range(k):
+    with pytest.raises(ValueError, match=r"^k = "):
+        Ball(k=k, g=0.04)
+
+
+@pytest.mark.parametrize("g", [0.0, -1.0, math.nan, math.inf, "0.04", None, False])
+def test_g_outside_its_range(g):
+    with pytest.raises(ValueError, match=r"^g = "):
+        Ball(k=0.2, g=g)
+
+
+def test_the_ends_of_the_ranges():
+    for k, g in ((1, 1), (5e-324, 1e308), (1.0, 5e-324), (np.float64(0.2), np.float32(0.5))):
+        ball = Ball(k, g)
+        assert type(ball.k) is type(ball.g) is float
+
+
+def test_a_ball_is_a_value():
+    assert Ball(0.2, 0.04) == BALL
+    assert hash(Ball(0.2, 0.04)) == hash(BALL)
+    with pytest.raises(AttributeError):
+        BALL.k = 0.3
+
+
+def test_energy_of_a_worked_example():
+    # 0.3^2/2 + 0.2 0.5^2/2 - 0.04 0.1 + 0.2 0.1^2/2
+    assert BALL.energy(0.1, 0.3, 0.5) == pytest.approx(0.067, rel=1e-15)
+
+
+def test_energy_bounds():
+    low, high = BALL.energy_bounds()
+    assert low == pytest.approx(-0.004, rel=1e-15)
+    assert high == pytest.approx(0.06, rel=1e-15)
+    assert BALL.energy(0.2, 0.0, 0.0) == pytest.approx(low, rel=1e-14)
+
+
+def test_section():
+    centre, radius = BALL.section(0.01)
+    assert centre == 0.04 / 0.2
+    assert radius == pytest.approx(math.sqrt(0.14), rel=1e-15)
+    assert BALL.section(BALL.energy_bounds()[0])[1] == pytest.approx(0.0, abs=1e-8)
+    with pytest.raises(ValueError, match=r"energy = -0\.005"):
+        BALL.section(-0.005)
+
+
+@every
+@given(balls, numbers, numbers, numbers)
+def test_state_and_state_xy_give_the_energy_back(ball, x, v, w):
+    v, w = (v, w) if v + w >= 0 else (-v, -w)
+    energy = ball.energy(x, v, w)
+    size = v * v + w * w + 2 * ball.g * abs(x) + x * x + 1e-300
+    s = v + w
+    try:
+        again = ball.state_xy(x, v - ball.k * w, energy)
+    except ValueError:
+        assert ball.k * s * s <= 1e-14 * size  # on the rim
+    else:
+        assert again[0] == x
+        assert again[1] + again[2] >= 0.0 or math.isclose(again[1], -again[2], rel_tol=1e-15)
+        assert abs(ball.energy(*again) - energy) <= 1e-15 * size
+        assert abs((again[1] - ball.k * again[2]) - (v - ball.k * w)) <= 1e-15 * (abs(v) + abs(w))
+    try:
+        again = ball.state(x, v, energy, branch=1 if w >= 0 else -1)
+    except ValueError:
+        assert ball.k * w * w <= 1e-14 * size or s <= 1e-7
+    else:
+        assert again[:2] == (x, v)
+        assert abs(ball.energy(*again) - energy) <= 1e-15 * size
+
+
+def test_both_branches_of_a_state():
+    upper = BALL.state(0.2, 0.16, 0.01)
+    lower = BALL.state(0.2, 0.16, 0.01, branch=-1)
+    assert upper[2] > 0.0 > lower[2]
+    assert upper[2] == -lower[2]
+
+
+def test_no_such_state():
+    with pytest.raises(ValueError, match="no state"):
+        BALL.state(0.9, 0.0, 0.01)
+    with pytest.raises(ValueError, match="section"):
+        BALL.state(0.2, -0.01, 0.01, branch=-1)
+    with pytest.raises(ValueError, match="section"):
+        BALL.state_xy(0.2, 0.9, 0.01)
+    with pytest.raises(ValueError, match="branch = 2"):
+        BALL.state(0.2, 0.0, 0.01, branch=2)
+    with pytest.raises(ValueError, match="no state"):
+        BALL.state(math.nan, 0.0, 0.01)
+
+
+@every
+@given(balls, numbers, numbers, numbers)
+def test_reflect_is_an_involution_of_the_chart(ball, x, v, w):
+    v, w = (v, w) if v + w >= 0 else (-v, -w)
+    there = ball.reflect(x, v, w)
+    size = 1e-15 * (abs(v) + abs(w))
+    assert there[0] == x
+    assert there[1] + there[2] == pytest.approx(v + w, abs=size)
+    assert there[1] - ball.k * there[2] == pytest.approx(ball.k * w - v, abs=size)
+    again = ball.reflect(x, there[1], max(there[2], -there[1]))
+    assert again[1:] == pytest.approx((v, w), abs=2 * size)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_arrays_have_the_bits_of_scalars(method):
+    state = states(200)
+    whole = parts(getattr(BALL, method)(*state))
+    for i, one in enumerate(zip(*state, strict=True)):
+        for all_of, single in zip(whole, parts(getattr(BALL, method)(*one)), strict=True):
+            assert np.array_equal(all_of[i], single)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_shapes(method):
+    call = getattr(BALL, method)
+    tail = (3, 3) if method == "jacobian" else ()
+    x = np.linspace(-0.3, 0.3, 3)[:, None]
+    w = np.linspace(0.1, 0.3, 4)
+    for result in parts(call(x, 0.1, w)):
+        assert result.shape == (3, 4, *tail)
+        assert result.dtype == np.float64
+    rows = [call(float(a), 0.1, w) for a in x[:, 0]]
+    for i, result in enumerate(parts(call(x, 0.1, w))):
+        assert np.array_equal(result, np.stack([parts(row)[i] for row in rows]))
+    for result in parts(call(np.empty((0, 2)), 0.1, 0.1)):
+        assert result.shape == (0, 2, *tail)
+    for scalar in (0.1, np.float64(0.1), np.array(0.1)):
+        for result in parts(call(scalar, 0.1, 0.1)):
+            assert result.shape == (3, 3) if tail else type(result) is float
+    assert np.array_equal(parts(call(1, 2, 3))[0], parts(call(1.0, 2.0, 3.0))[0])
+    with pytest.raises(ValueError, match="broadcast"):
+        call(np.zeros(2), np.zeros(3), 0.1)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_arguments_are_left_alone(method):
+    state = states(20, seed=1)
+    copies = [a.copy() for a in state]
+    getattr(BALL, method)(*state)
+    assert all(np.array_equal(a, b) for a, b in zip(state, copies, strict=True))
+    for a in state:
+        a.flags.writeable = False
+    getattr(BALL, method)(state[0][::2], state[1][::2], state[2][::2])
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("place", [0, 1, 2])
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_not_finite_gives_nan(method, bad, place):
+    state = np.array(states(5, seed=2))
+    state[place, 2] = bad
+    if method != "energy" and bad == -math.inf and place > 0:
+        with pytest.raises(ValueError, match=r"xdot \+ udot"):
+            getattr(BALL, method)(*state)
+        return
+    clean = getattr(BALL, method)(*states(5, seed=2))
+    for result, other in zip(parts(getattr(BALL, method)(*state)), parts(clean), strict=True):
+        if method not in ("energy", "reflect"):
+            assert np.isnan(result[2]).all()
+        assert np.array_equal(np.delete(result, 2, axis=0), np.delete(other, 2, axis=0))
+
+
+@pytest.mark.parametrize("method", [m for m in METHODS if m != "energy"])
+def test_off_the_section(method):
+    with pytest.raises(ValueError, match="xdot \\+ udot"):
+        getattr(BALL, method)(0.1, 0.1, -0.2)
+    with pytest.raises(ValueError, match="xdot \\+ udot"):
+        getattr(BALL, method)(0.1, np.array([0.1, 0.1]), np.array([0.2, -0.2]))

@@ -1,0 +1,298 @@
+"""The impact map: what it preserves, its inverse, scaling and Jacobian, and its machine code."""
+
+import math
+import re
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from judge import exact_jacobian, judge
+
+from pseudorigid import arithmetic, flight, impact
+from pseudorigid.ball import Ball
+
+# About 1.4 times the worst that was measured over 20,000 states a ball (by the judge: 300 and 40).
+ONE_ENERGY = 1.2e-15
+STATE = 2.5e-16
+DETERMINANT = 6e-15
+GRADIENT = 1.6e-14
+JACOBIAN = 8e-16
+INVERSE = 1.4e-16
+ENERGY = 1e-11  # over a million impacts, relative; the worst of these orbits reaches 7.8e-12
+
+BALL = Ball(k=0.2, g=0.04)
+BALLS = (BALL, Ball(0.01, 0.003), Ball(1 / 3, 0.3), Ball(1.0, 1e-4), Ball(1.0, 1.0))
+
+
+def section_states(ball, count, seed=0, energy=None):
+    """States spread over the section's disk, by default at E/g^2 = 6.25 as in Figure 2."""
+    energy = 6.25 * ball.g**2 if energy is None else energy
+    rng = np.random.default_rng(seed)
+    centre, radius = ball.section(energy)
+    x, y = rng.uniform(-1.0, 1.0, (2, 2 * count))
+    keep = x * x + y * y < 0.999
+    height = radius * math.sqrt(ball.k * (1.0 + ball.k))
+    return ball.state_xy(centre + radius * x[keep][:count], height * y[keep][:count], energy)
+
+
+def sizes(ball, x, v, w):
+    return np.abs(x) + np.abs(v) + np.abs(w) + ball.g
+
+
+def spread(matrices):
+    """The largest entry of each matrix, at least 1."""
+    return np.maximum(1.0, np.abs(matrices).max(axis=(-1, -2)))
+
+
+def determinant(j):
+    """Of (..., 3, 3), by cofactors, and the sum of its terms' sizes: the scale of its rounding."""
+    terms = [
+        (j[..., 0, i], (j[..., 1, p] * j[..., 2, q], j[..., 1, q] * j[..., 2, p]))
+        for i, p, q in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    ]
+    return (
+        sum(first * (plus - minus) for first, (plus, minus) in terms),
+        sum(np.abs(first) * (np.abs(plus) + np.abs(minus)) for first, (plus, minus) in terms),
+    )
+
+
+def test_energy_over_a_million_impacts():
+    """The chaotic sea, an island and a nested one of Figure 2, looked at every 5,000 impacts."""
+    state = list(BALL.state_xy(np.array([0.40, 0.0735, 0.2532]), 0.0, 0.01))
+    state = [a.copy() for a in np.broadcast_arrays(*state)]
+    tau = np.empty(3)
+    worst = 0.0
+    for _ in range(200):
+        impact.steps(*state, BALL.k, BALL.g, 5_000, tau)
+        worst = max(worst, np.max(np.abs(BALL.energy(*state) / 0.01 - 1.0)))
+    assert worst < ENERGY
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_energy_of_one_impact(ball):
+    state = section_states(ball, 3000)
+    x, v, w, _ = ball.impact(*state)
+    kinetic = v * v + ball.k * w * w + ball.k * x * x + np.abs(ball.g * x)
+    assert np.max(np.abs(ball.energy(x, v, w) - ball.energy(*state)) / kinetic) < ONE_ENERGY
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_the_map_stays_on_the_section(ball):
+    _, v, w, tau = ball.impact(*section_states(ball, 3000))
+    assert np.all(v + w >= 0.0)
+    assert np.all(tau > 0.0)
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_state_against_the_judge(ball):
+    state = section_states(ball, 60, seed=1)
+    found = np.array(ball.impact(*state)).T
+    for start, (*end, tau) in zip(zip(*state, strict=True), found, strict=True):
+        true = judge(ball.k, ball.g, *start)
+        slack = STATE * max(1.0, true.condition) * max(1.0, tau)
+        for a, b in zip(end, true.state, strict=True):
+            assert abs(a - float(b)) <= slack * sizes(ball, *end), start
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_area_is_kept(ball):
+    """det = 1 in the chart (x, y) at one energy; in (x, v, w) that is (v + w)/(v' + w')."""
+    state = section_states(ball, 3000, seed=2)
+    _, v, w, _ = ball.impact(*state)
+    det, scale = determinant(ball.jacobian(*state))
+    ratio = (v + w) / (state[1] + state[2])
+    assert np.max(np.abs(det * ratio - 1.0) / (scale * ratio)) < DETERMINANT
+
+
+def test_area_is_kept_by_the_chart_map():
+    """The 2 x 2 matrix itself, along two tangents of the energy surface."""
+    k, g = BALL.k, BALL.g
+    state = section_states(BALL, 3000, seed=3)
+    x, v, w = state
+    j = BALL.jacobian(*state)
+    columns = []
+    for dx, dy in ((1.0, 0.0), (0.0, 1.0)):
+        dw = -(v * dy + (k * x - g) * dx) / (k * (v + w))
+        moved = np.einsum("nij,nj->ni", j, np.stack([dx + 0 * dw, dy + k * dw, dw], axis=-1))
+        columns.append((moved[:, 0], moved[:, 1] - k * moved[:, 2]))
+    (a, c), (b, d) = columns
+    assert np.max(np.abs(a * d - b * c - 1.0) / (1.0 + np.abs(a * d) + np.abs(b * c))) < 1e-12
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_energy_gradient_is_kept(ball):
+    """E o F = E: the gradient at the end times the Jacobian is the gradient at the start."""
+    state = section_states(ball, 3000, seed=4)
+    j = ball.jacobian(*state)
+    grad = [
+        np.stack([ball.k * x - ball.g, v, ball.k * w], axis=-1)
+        for x, v, w in (state, ball.impact(*state)[:3])
+    ]
+    back = (grad[1][:, :, None] * j).sum(axis=1)
+    scale = (np.abs(grad[1])[:, :, None] * np.abs(j)).sum(axis=1)
+    assert np.max(np.abs(back - grad[0]) / (scale + np.abs(grad[0]))) < GRADIENT
+
+
+@pytest.mark.parametrize("ball", BALLS[:4], ids=str)
+def test_jacobian_against_the_judge(ball):
+    for state in zip(*section_states(ball, 12, seed=5), strict=True):
+        exact = np.array(exact_jacobian(ball.k, ball.g, *state), dtype=float)
+        found = ball.jacobian(*state)
+        speed = sum(ball.impact(*state)[1:3])
+        slack = 1.0 + sizes(ball, *state) / speed
+        assert np.abs(found - exact).max() <= JACOBIAN * slack * spread(exact), state
+
+
+@pytest.mark.parametrize("s", [1e-12, 1e-6])
+@pytest.mark.parametrize("share", [-0.9, 0.0, 2.0])
+def test_jacobian_of_tiny_flights(share, s):
+    """Where x > -g a grazing flight is tiny: no entry is lost to cancellation."""
+    state = (share * BALL.g, 0.1, s - 0.1)
+    exact = np.array(exact_jacobian(BALL.k, BALL.g, *state, step=s * 1e-20), dtype=float)
+    assert np.allclose(BALL.jacobian(*state), exact, rtol=1e-14, atol=1e-14)
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_inverse(ball):
+    """F^-1 F = F F^-1 = identity, to roundings times what the way back stretches them by."""
+    state = section_states(ball, 3000, seed=6)
+    size = sizes(ball, *state)
+    for there, back in ((ball.impact, ball.inverse_impact), (ball.inverse_impact, ball.impact)):
+        *middle, tau = there(*state)
+        *again, tau_again = back(*middle)
+        # the way back undoes `there`, so it stretches by the inverse of its Jacobian
+        begin = state if there == ball.impact else middle
+        j = ball.jacobian(*begin)
+        stretch = spread(np.linalg.inv(j)) if there == ball.impact else spread(j)
+        speed = np.minimum(state[1] + state[2], middle[1] + middle[2])
+        slack = INVERSE * stretch * (1.0 + tau) * (1.0 + size / speed)
+        for a, b in zip(again, state, strict=True):
+            assert np.all(np.abs(a - b) <= slack * size)
+        assert np.all(np.abs(tau_again - tau) <= slack * (1.0 + tau))
+
+
+@pytest.mark.parametrize("ball", BALLS, ids=str)
+def test_reversor(ball):
+    """P R P R = identity, through the public map and reflection only."""
+    state = section_states(ball, 3000, seed=7)
+    there = ball.impact(*ball.reflect(*state))[:3]
+    again = ball.impact(*ball.reflect(*there))[:3]
+    # the rounding of `there` is stretched by the flight from R(there)
+    stretch = spread(ball.jacobian(*ball.reflect(*there)))
+    size = sizes(ball, *state)
+    speed = np.minimum(state[1] + state[2], there[1] + there[2])
+    slack = INVERSE * stretch * (1.0 + size / speed) * (1.0 + ball.impact(*ball.reflect(*state))[3])
+    for a, b in zip(again, state, strict=True):
+        assert np.all(np.abs(a - b) <= slack * size)
+
+
+@settings(derandomize=True, deadline=None)
+@given(
+    st.integers(-60, 60), st.floats(0.01, 1.0), st.floats(1e-4, 1.0),
+    *[st.floats(-2.0, 2.0, allow_subnormal=False)] * 3,
+)  # fmt: skip
+def test_scaling_by_a_power_of_two(power, k, g, x, v, w):
+    """(x, v, w, g) -> L (...) leaves tau alone, in every bit."""
+    small = any(0 < abs(a) < 1e-30 for a in (x, v, w, v + w))
+    if small:
+        return
+    v, w = (v, w) if v + w >= 0 else (-v, -w)
+    scale = 2.0**power
+    one, two = Ball(k, g), Ball(k, g * scale)
+    *state, tau = one.impact(x, v, w)
+    *scaled, tau_scaled = two.impact(x * scale, v * scale, w * scale)
+    assert tau == tau_scaled
+    assert scaled == [a * scale for a in state]
+    before, before_scaled = (
+        one.inverse_impact(x, v, w), two.inverse_impact(x * scale, v * scale, w * scale)
+    )  # fmt: skip
+    assert before_scaled == (*[a * scale for a in before[:3]], before[3])
+    assert np.array_equal(
+        one.jacobian(x, v, w), two.jacobian(x * scale, v * scale, w * scale), equal_nan=True
+    )
+
+
+def test_scaling_over_the_section():
+    for ball in BALLS:
+        state = section_states(ball, 2000, seed=8)
+        large = Ball(ball.k, ball.g * 2.0**40)
+        *end, tau = ball.impact(*state)
+        *far, tau_far = large.impact(*(a * 2.0**40 for a in state))
+        assert np.array_equal(tau, tau_far)
+        assert all(np.array_equal(a * 2.0**40, b) for a, b in zip(end, far, strict=True))
+
+
+def test_loops_agree_with_single_steps():
+    state = section_states(BALL, 50, seed=9)
+    many = [a.copy() for a in state]
+    tau = np.empty(50)
+    impact.steps(*many, BALL.k, BALL.g, 7, tau)
+    out = np.empty((4, 7, 50))
+    impact.history(*state, BALL.k, BALL.g, out)
+    assert np.array_equal(out[:, -1], [*many, tau])
+    one = state
+    for i in range(7):
+        one = BALL.impact(*one[:3])
+        assert np.array_equal(out[:, i], one)
+
+
+def test_a_march_has_few_looks():
+    """O(1) looks a flight, also at thousands of vibrations: a crawl or a scan would show here."""
+    looks = []
+    for g in (1e-4, 1e-2, 1.0):
+        rng = np.random.default_rng(10)
+        for x, b, c in rng.uniform(-1.0, 1.0, (4000, 3)):
+            if b + c < 0:
+                looks.append(flight.first_impact(x, b, c, -(b + c), g)[3])
+    assert np.mean(looks) < 3.5
+    assert max(looks) < 60
+
+
+# A fused multiply-add changes bits from processor to processor, and so does a library's sine.
+FUSED = re.compile(r"\bv?fn?m(?:add|sub)\w*|\bfml[as]\b|llvm\.fma|llvm\.fmuladd")
+LIBRARY = re.compile(
+    r"(?:callq?|bl|jmp|movabsq|leaq|ldr)\s[^\n]*?"
+    r"(?<![.\w])(?:sin|cos|sincos|tan|atan2?|asin|acos|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|fmod|cbrt)f?\b"
+    r"|@(?:llvm\.)?(?:sin|cos|sincos|tan|exp2?|log(?:2|10)?|pow)(?:\.f64)?\("
+)
+
+
+def code(function, *arguments):
+    """The machine and LLVM code of a kernel, compiled anew: numba cannot show what is cached."""
+    fresh = numba.njit(error_model="numpy")(function.py_func)
+    fresh(*arguments)
+    return "\n".join([*fresh.inspect_asm().values(), *fresh.inspect_llvm().values()])
+
+
+def test_machine_code_is_strict():
+    assert impact.steps.targetoptions["fastmath"] is False
+    assert not impact.steps.targetoptions.get("parallel")
+    state = section_states(BALL, 2)
+    for kernel, arguments in (
+        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2))),
+        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2))),
+        (impact.history, (*state, 0.2, 0.04, np.empty((4, 1, 2)))),
+        (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)))),
+        (arithmetic.log, (2.0,)),
+    ):
+        text = code(kernel, *arguments)
+        assert text.count("fmul double") > 10
+        assert not FUSED.findall(text), kernel
+        assert not LIBRARY.findall(text), kernel
+        assert not re.search(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)", text), kernel
+
+
+def test_the_search_of_machine_code_finds():
+    """A positive control of the test above."""
+
+    @numba.njit(fastmath=True)
+    def loose(a, b):
+        return math.sin(a) * b + math.log(b)
+
+    loose(1.0, 2.0)
+    text = "\n".join([*loose.inspect_asm().values(), *loose.inspect_llvm().values()])
+    assert LIBRARY.findall(text)
+    assert re.search(r"\bfmul (?:fast|reassoc|contract)", text)
+    assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
