@@ -152,10 +152,8 @@ class Comparison:
             for candidate in candidates:
                 if candidate is not None and file_hash(candidate) == entry["sha256"]:
                     image = f"results/paper/differences/{name}"
-                    words = difference(self.root / path, candidate, self.root / image)
-                    return (
-                        f"{words}: see {image}" if words.endswith(("differ", "differs")) else words
-                    )
+                    words, drawn = difference(self.root / path, candidate, self.root / image)
+                    return f"{words}: see {image}" if drawn else words
         return "another picture; no copy of the committed one is at hand to count what differs"
 
 
