@@ -6,6 +6,7 @@ editing a module reruns what uses it.
 
 import ast
 import os
+from functools import cache
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
@@ -71,13 +72,7 @@ def _file(parts: tuple[str, ...]) -> Path | None:
 def _imports(file: Path, package: tuple[str, ...]) -> list[tuple[str, ...]]:
     """The modules of this package that `file`, a member of `package`, imports anywhere."""
     modules = []
-    pending: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"), str(file))]
-    while pending:
-        node = pending.pop()
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            pending += node.orelse
-            continue
-        pending += ast.iter_child_nodes(node)
+    for node in _statements(file.read_text(encoding="utf-8"), str(file)):
         if isinstance(node, ast.Import):
             modules += [tuple(alias.name.split(".")) for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -88,6 +83,22 @@ def _imports(file: Path, package: tuple[str, ...]) -> list[tuple[str, ...]]:
             for alias in node.names:
                 modules.append(_module_or_name(base, alias.name, file))
     return [module for module in modules if module[0] == PACKAGE.name]
+
+
+@cache
+def _statements(text: str, name: str) -> list[ast.Import | ast.ImportFrom]:
+    """The import statements of a file that run."""
+    found = []
+    pending: list[ast.AST] = [ast.parse(text, name)]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            pending += node.orelse
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            found.append(node)
+        else:
+            pending += ast.iter_child_nodes(node)
+    return found
 
 
 def _module_or_name(base: tuple[str, ...], name: str, file: Path) -> tuple[str, ...]:

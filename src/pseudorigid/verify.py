@@ -176,7 +176,12 @@ def _grouped(problems, verdicts):
     for path, problem in problems.items():
         if not any(f"{path}:" in verdict for verdict in verdicts):
             kinds.setdefault(problem, []).append(path)
-    return [f"{', '.join(paths)}: {problem}" for problem, paths in kinds.items()]
+    return [f"{_listed(paths)}: {problem}" for problem, paths in kinds.items()]
+
+
+def _listed(paths):
+    more = f" and {len(paths) - 4} more" if len(paths) > 5 else ""
+    return ", ".join(paths[:4] if more else paths) + more
 
 
 def _say_what_is_missing(scenes, missing):
@@ -184,7 +189,7 @@ def _say_what_is_missing(scenes, missing):
     if set(missing) == everything:
         print("no results here: only the committed files were checked (./reproduce makes the rest)")
     elif missing:
-        print(f"not checked, since not there: {', '.join(missing)}")
+        print(f"not checked, since not there: {_listed(missing)}")
 
 
 def _not_ready(root, scenes):
