@@ -5,7 +5,39 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import impact as kernel
+
+def transfer(k):
+    """2/(1 + k) as a sum of a 26-bit number and a double.
+
+    With one rounded constant every impact would add the same relative error of 1e-16 to the energy.
+    """
+    total = 1.0 + k
+    missing = k - (total - 1.0)
+    ratio = 2.0 / total
+    cut = 134217729.0 * ratio
+    head = cut - (cut - ratio)
+    cut = 134217729.0 * total
+    upper = cut - (cut - total)
+    rest = ((2.0 - head * upper) - head * (total - upper)) - head * missing
+    return head, rest / total
+
+
+def rebound(v, w, k, head, low):
+    """Velocities (b, c) just after an impact, eq. (25), and s = v + w = -(b + c), exact.
+
+    (head, low) is `transfer(k)`. Numbers or arrays.
+    """
+    s = v + w
+    e = s * head + s * low
+    return v - k * e, w - e, s
+
+
+def whole_number(name, value):
+    """`value` as an int of at least 1; ValueError, naming it, otherwise."""
+    number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if number and 1 <= value < math.inf and value == int(value):
+        return int(value)
+    raise ValueError(f"{name} = {value!r} is not allowed: a whole number, at least 1")
 
 
 @dataclass(frozen=True)
@@ -57,10 +89,9 @@ class Ball:
         Raises ValueError below the lowest energy.
         """
         square = (2.0 * energy + self.g * self.g / self.k) / self.k
-        if not square >= 0.0:
-            raise ValueError(
-                f"energy = {energy!r} is not allowed: at least {self.energy_bounds()[0]:.6g}"
-            )
+        if not 0.0 <= square < math.inf:
+            lowest = self.energy_bounds()[0]
+            raise ValueError(f"energy = {energy!r} is not allowed: finite, at least {lowest:.6g}")
         return self.g / self.k, math.sqrt(square)
 
     def state(self, x, xdot, energy, branch=1):
@@ -102,14 +133,19 @@ class Ball:
     def start(self, fraction, energy):
         """The state on y = 0 at this fraction, -1 to 1, of the section's radius."""
         centre, radius = self.section(energy)
-        return self.state_xy(centre + np.asarray(fraction, dtype=float) * radius, 0.0, energy)
+        (f,) = _floats(fraction)
+        if not np.all(np.abs(f) <= 1.0):
+            raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
+        # in the chart s^2 = (1 + k) (radius^2 - (x - centre)^2); so nothing cancels at the rim
+        udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
+        return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
     def reflect(self, x, xdot, udot):
         """The reversor R, (x, y) -> (x, -y): the velocities after the impact, eq. (25),
         reversed.
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
-        b, c, _ = kernel.rebound.py_func(xdot, udot, self.k, *kernel.transfer(self.k))
+        b, c, _ = rebound(xdot, udot, self.k, *transfer(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
     def time_to_impact(self, x, xdot, udot):
@@ -126,14 +162,14 @@ class Ball:
         Returns (x, xdot, udot, tau). At a double root, where the ball just touches the floor, tau
         is only defined to the square root of a rounding.
         """
-        return self._each(kernel.steps, x, xdot, udot)
+        return self._each("steps", x, xdot, udot)
 
     def inverse_impact(self, x, xdot, udot):
         """The state just before the previous impact, and the flight time since: F^-1 = R F R.
 
         Returns (x, xdot, udot, tau).
         """
-        return self._each(kernel.steps_back, x, xdot, udot)
+        return self._each("steps_back", x, xdot, udot)
 
     def jacobian(self, x, xdot, udot, impacts=1):
         """The analytic Jacobian of the map with respect to (x, xdot, udot), eq. (33).
@@ -144,10 +180,11 @@ class Ball:
         Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite
         where the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
         """
+        impacts = whole_number("impacts", impacts)
         state = self.on_section(x, xdot, udot)
         x, xdot, udot = (a.flatten() for a in state)
         out = np.empty((x.size, 3, 3))
-        kernel.jacobians(x, xdot, udot, self.k, self.g, impacts, out)
+        _kernel().jacobians(x, xdot, udot, self.k, self.g, impacts, out)
         return out.reshape(*state[0].shape, 3, 3)
 
     def _each(self, loop, x, xdot, udot):
@@ -155,8 +192,31 @@ class Ball:
         shape = state[0].shape
         x, xdot, udot = (a.flatten() for a in state)
         tau = np.empty(x.size)
-        loop(x, xdot, udot, self.k, self.g, 1, tau)
+        getattr(_kernel(), loop)(x, xdot, udot, self.k, self.g, 1, tau)
         return tuple(_plain(a.reshape(shape)) for a in (x, xdot, udot, tau))
+
+    def chart_jacobian(self, x, xdot, udot, impacts=1):
+        """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy, of one state, scalars.
+
+        Returns two rows of two numbers; the determinant is 1. Not finite on the rim.
+        """
+        k, g = self.k, self.g
+        s = xdot + udot
+        y = xdot - k * udot
+        s_x, s_y = (1.0 + k) * (g - k * x) / (k * s), -y / (k * s)
+        along = (
+            (1.0, k * s_x / (1.0 + k), s_x / (1.0 + k)),
+            (0.0, (1.0 + k * s_y) / (1.0 + k), (s_y - 1.0) / (1.0 + k)),
+        )
+        j = self.jacobian(x, xdot, udot, impacts)
+        columns = []
+        for vector in along:
+            dx, dv, dw = (
+                (j[row, 0] * vector[0] + j[row, 1] * vector[1]) + j[row, 2] * vector[2]
+                for row in range(3)
+            )
+            columns.append((float(dx), float(dv - k * dw)))
+        return tuple(zip(*columns, strict=True))
 
     def on_section(self, x, xdot, udot):
         """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
@@ -164,6 +224,13 @@ class Ball:
         if np.any(xdot + udot < 0.0):
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
+
+
+def _kernel():
+    """The compiled map, which stands above this module and is loaded when it is first needed."""
+    from . import impact
+
+    return impact
 
 
 def _floats(*values):

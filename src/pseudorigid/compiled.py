@@ -13,17 +13,27 @@ from pathlib import Path
 import numba
 
 _HERE = Path(__file__).parent
-_KERNEL = ("arithmetic.py", "compiled.py", "flight.py", "impact.py")
+_KERNEL = ("arithmetic.py", "ball.py", "compiled.py", "flight.py", "impact.py")
 
 
-def _kernel_digest() -> str:
+def _cache() -> str:
     text = b"\0".join((_HERE / name).read_bytes() for name in _KERNEL)
-    return hashlib.sha256(text).hexdigest()[:16]
+    root = os.environ.get("NUMBA_CACHE_DIR") or str(_HERE / "__pycache__")
+    return os.path.join(root, "compiled-" + hashlib.sha256(text).hexdigest()[:16])
 
 
-if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(_HERE / "__pycache__" / f"compiled-{_kernel_digest()}")
+_CACHE = _cache()
 
-# No fastmath, no parallel: every + - * / and sqrt is rounded once, in the order written.
-# error_model="numpy" turns 1/0 into inf, as the processor does, instead of a Python exception.
-jit = numba.njit(cache=True, error_model="numpy", fastmath=False, nogil=True)
+
+def jit(function):
+    """Compile on first use.
+
+    No fastmath, no parallel: every + - * / and sqrt is rounded once, in the order written.
+    error_model="numpy" turns 1/0 into inf, as the processor does, instead of a Python exception.
+    """
+    others = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = _CACHE
+    try:
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    finally:
+        numba.config.CACHE_DIR = others

@@ -27,6 +27,7 @@ from .compiled import jit
 MOST_LOOKS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
+_HUGE = 2.0**500
 # sqrt(2) - 1 rounded up: the octagon around the circle, sqrt(a^2 + b^2) <= max + (sqrt(2) - 1) min.
 _OCTAGON = 0.4142135623730952
 
@@ -133,17 +134,8 @@ def _turn(p, q, h):
 
 
 @jit
-def first_impact(x, b, c, s, g):
-    """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
-
-    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there,
-    and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for
-    input that is not finite. Raises ArithmeticError at MOST_LOOKS.
-    """
+def _first_impact(x, b, c, s, g):
     amplitude = max(abs(x), abs(c)) + _OCTAGON * min(abs(x), abs(c))
-    if not (amplitude + abs(b) + s + g < math.inf):
-        return math.nan, math.nan, math.nan, 0
-    s = max(s, 0.0)  # a grazing impact's s is 0 to rounding, of either sign
     t = _launch(x, c, s, g, amplitude)
     if t == 0.0:
         return 0.0, x, c, 0
@@ -198,3 +190,22 @@ def first_impact(x, b, c, s, g):
         p, q = _turn(p, q, h)
         return t + h, p, q, looks
     return t, p, q, looks
+
+
+@jit
+def first_impact(x, b, c, s, g):
+    """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
+
+    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there,
+    and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for
+    input that is not finite. Raises ArithmeticError at MOST_LOOKS.
+    """
+    size = abs(x) + abs(b) + abs(c) + abs(s) + g
+    if size < _HUGE:
+        return _first_impact(x, b, c, max(s, 0.0), g)  # s may be 0 to rounding, of either sign
+    if not size < math.inf:
+        return math.nan, math.nan, math.nan, 0
+    # a length all states share: tau does not depend on it, and its square must not overflow
+    d = 1.0 / _HUGE
+    tau, p, q, looks = _first_impact(x * d, b * d, c * d, max(s, 0.0) * d, g * d)
+    return tau, p * _HUGE, q * _HUGE, looks

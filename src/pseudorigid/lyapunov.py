@@ -12,7 +12,9 @@ import xarray as xr
 
 from . import impact as kernel
 from .arithmetic import log
+from .ball import whole_number
 from .compiled import jit
+from .orbits import orbit_dims
 
 
 def lyapunov_spectrum(ball, state, impacts, records=400):
@@ -32,14 +34,11 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Raises:
         ValueError: a state with xdot + udot < 0, impacts < 1 or records < 1.
     """
-    for name, value in (("impacts", impacts), ("records", records)):
-        if isinstance(value, bool) or int(value) != value or value < 1:
-            raise ValueError(f"{name} = {value!r} is not allowed: a whole number, at least 1")
-    impacts = int(impacts)
-    records = min(int(records), impacts)
+    impacts = whole_number("impacts", impacts)
+    records = min(whole_number("records", records), impacts)
     state = ball.on_section(*state)
     shape = state[0].shape
-    dims = ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
+    dims = orbit_dims(shape)
     at = (np.arange(1, records + 1) * impacts) // records
     out = np.empty((records, state[0].size, 3))
     _spectrum(*(a.flatten() for a in state), ball.k, ball.g, at, out)

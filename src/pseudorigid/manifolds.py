@@ -62,16 +62,14 @@ def trace_manifold(
         start_error: by how much, in section radii, the image of the first segment misses it.
 
     Raises:
-        ValueError: an orbit that is not hyperbolic, or a branch of more than MOST_VERTICES points.
+        ValueError: an orbit that is not hyperbolic or not of this energy, an argument out of
+        range, or
+            a branch of more than MOST_VERTICES points.
     """
     points = np.stack(
         [np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")]
     )
-    period = points.shape[1]
-    if side not in ("inner", "outer"):
-        raise ValueError(f"side = {side!r} is not allowed: 'inner' or 'outer'")
-    if not 0 <= saddle < period:
-        raise ValueError(f"saddle = {saddle!r} is not allowed: 0 to {period - 1}")
+    _check(ball, energy, points, saddle, side, length, distance, bend, window)
     chart = np.stack([points[0], points[1] - ball.k * points[2]])
     if stable:  # the branch of the mirrored point, mirrored
         mirrored = chart[:, saddle] * np.array([1.0, -1.0])
@@ -89,6 +87,29 @@ def trace_manifold(
     return xr.Dataset(
         variables("vertex", vertices, names), attrs={"start_error": branch.start_error()}
     )
+
+
+def _check(ball, energy, points, saddle, side, length, distance, bend, window):
+    def refuse(name, value, allowed):
+        raise ValueError(f"{name} = {value!r} is not allowed: {allowed}")
+
+    if points.ndim != 2:
+        raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
+    if np.any(np.abs(ball.energy(*points) - energy) > 1e-9 * ball.k * ball.section(energy)[1] ** 2):
+        refuse("energy", energy, f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}")
+    if saddle not in range(points.shape[1]):
+        refuse("saddle", saddle, f"an index from 0 to {points.shape[1] - 1}")
+    if side not in ("inner", "outer"):
+        refuse("side", side, "'inner' or 'outer'")
+    for name, value in (("length", length), ("distance", distance)):
+        if not 0.0 < value < np.inf:
+            refuse(name, value, "above 0")
+    if not 0.0 < bend < 180.0:
+        refuse("bend", bend, "between 0 and 180 degrees")
+    if window is not None and not (
+        len(window) == 4 and window[0] < window[1] and window[2] < window[3]
+    ):
+        refuse("window", window, "(x_low, x_high, xdot_low, xdot_high)")
 
 
 def scene_manifolds(ball, energy, orbit, branches, resolution):
@@ -176,7 +197,7 @@ class _Branch:
         self.point, self.origin = points[:, saddle], chart[:, saddle]
         self.radius = ball.section(energy)[1]
         self.period = points.shape[1]
-        (a, b), (c, d) = _chart_jacobian(ball, points[:, saddle], self.period)
+        (a, b), (c, d) = ball.chart_jacobian(*points[:, saddle], impacts=self.period)
         trace = a + d
         if abs(trace) <= 2.0:
             raise ValueError("the orbit is elliptic: it has no stable and unstable manifolds")
@@ -218,25 +239,6 @@ class _Branch:
         """By how much the image of the segment's start misses its end, in section radii."""
         ends = self(np.array([np.nextafter(1.0, 0.0), 1.0]))
         return float(np.max(np.abs(ends[:, 1] - ends[:, 0])) / self.radius)
-
-
-def _chart_jacobian(ball, state, impacts):
-    """The 2 x 2 Jacobian of P^n in the chart (x, y) on the energy surface, rows as tuples."""
-    k, g = ball.k, ball.g
-    x, xdot, udot = state
-    s = xdot + udot
-    y = xdot - k * udot
-    s_x, s_y = (1.0 + k) * (g - k * x) / (k * s), -y / (k * s)
-    along = [
-        (1.0, k * s_x / (1.0 + k), s_x / (1.0 + k)),
-        (0.0, (1.0 + k * s_y) / (1.0 + k), (s_y - 1.0) / (1.0 + k)),
-    ]
-    j = ball.jacobian(x, xdot, udot, impacts=impacts)
-    columns = []
-    for vector in along:
-        dx, dv, dw = (sum(j[row, col] * vector[col] for col in range(3)) for row in range(3))
-        columns.append((dx, dv - k * dw))
-    return tuple(zip(*columns, strict=True))
 
 
 def _trace(branch, length, distance, bend, window):

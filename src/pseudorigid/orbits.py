@@ -7,6 +7,7 @@ import xarray as xr
 
 from . import impact as kernel
 from .arithmetic import sincos
+from .ball import whole_number
 from .compiled import jit
 
 NAMES = {
@@ -25,6 +26,11 @@ def variables(dims, values, names=NAMES):
         name: (dims, array, {"long_name": names[name], "units": "1"})
         for name, array in zip(names, values, strict=True)
     }
+
+
+def orbit_dims(shape):
+    """The dims of many orbits: `orbit`, or of more than one dimension `orbit_0`, `orbit_1`, ..."""
+    return ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
 
 
 def orbit(ball, state, impacts, keep="all"):
@@ -47,12 +53,10 @@ def orbit(ball, state, impacts, keep="all"):
     """
     if keep not in ("all", "last"):
         raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
-    if isinstance(impacts, bool) or int(impacts) != impacts or impacts < 1:
-        raise ValueError(f"impacts = {impacts!r} is not allowed: a whole number, at least 1")
-    impacts = int(impacts)
+    impacts = whole_number("impacts", impacts)
     state = ball.on_section(*state)
     shape = state[0].shape
-    dims = ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
+    dims = orbit_dims(shape)
     columns = [a.flatten() for a in state]
     if keep == "last":
         tau = np.empty(columns[0].size)

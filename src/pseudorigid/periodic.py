@@ -12,6 +12,7 @@ import xarray as xr
 
 from . import impact as kernel
 from .arithmetic import sincos
+from .ball import rebound, transfer, whole_number
 from .compiled import jit
 from .orbits import NAMES, variables
 
@@ -24,6 +25,7 @@ TURN = float.fromhex("0x1.921fb54442d18p+2")  # 2 pi
 CLOSURE = 1e-14
 # A sign change that leaves more than this, in section radii, is a jump of the map.
 JUMP = 1e-6
+NEWTON_STEPS = 5
 
 
 def symmetric_orbits(ball, energy, period):
@@ -49,14 +51,12 @@ def symmetric_orbits(ball, energy, period):
     Raises:
         ValueError: an energy below the bound or a period below 1.
     """
-    if isinstance(period, bool) or int(period) != period or period < 1:
-        raise ValueError(f"period = {period!r} is not allowed: a whole number, at least 1")
-    period = int(period)
+    period = whole_number("period", period)
     _, radius = ball.section(energy)
     near = SAME * radius
     seen, found = [], []
     for line in _lines(ball, energy, period):
-        for state in _solutions(ball, line, period, radius):
+        for state in _solutions(ball, energy, line, period, radius):
             points = _follow(ball, state, period)
             if any(np.any(_distance(points[:3, :1], p) < near) for p in seen):
                 continue
@@ -67,7 +67,7 @@ def symmetric_orbits(ball, energy, period):
             limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
             # Where the orbit is too sensitive at its first point, another one serves as the first.
             for point in points[:3].T:
-                first, gap = _closest(ball, point, period)
+                first, gap = _closest(ball, energy, point, period)
                 if gap <= limit:
                     found.append((trace, _follow(ball, first, period)))
                     break
@@ -117,11 +117,11 @@ def _lines(ball, energy, period):
     """(start, parameters, defect) of each search: states along a line, and what is 0 at an
     orbit.
     """
-    centre, radius = ball.section(energy)
+    _, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
     def on_r(fraction):
-        return ball.state_xy(centre + fraction * radius, np.zeros_like(fraction), energy)
+        return ball.start(fraction, energy)
 
     def half(x, xdot, udot):
         """y, 0 on Fix R."""
@@ -132,9 +132,9 @@ def _lines(ball, energy, period):
         _, after, _, tau = ball.impact(x, xdot, udot)
         return after - 0.5 * g * tau
 
-    # Past the ends of the disk a state does not exist; stay a rounding inside.
-    inside = (1.0 - 1e-12) * (2.0 * np.arange(RESOLUTION + 1) / RESOLUTION - 1.0)
-    yield on_r, inside, (half if period % 2 == 0 else symmetric_flight)
+    # the rim itself is at rest and no orbit
+    fractions = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
+    yield on_r, fractions, (half if period % 2 == 0 else symmetric_flight)
     if period % 2:
         return
     # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a
@@ -146,7 +146,7 @@ def _lines(ball, energy, period):
             sine, cosine = _sincos(theta)
             square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
             a = (g * cosine + sign * np.sqrt(np.where(square >= 0.0, square, np.nan))) / k
-            xdot, udot, _ = kernel.rebound.py_func(-g * theta, -a * sine, k, *kernel.transfer(k))
+            xdot, udot, _ = rebound(-g * theta, -a * sine, k, *transfer(k))
             good = xdot + udot >= 0.0
             x, xdot, udot = (np.where(good, u, np.nan) for u in (a * cosine, xdot, udot))
             tau = ball.time_to_impact(x, xdot, udot)
@@ -200,28 +200,52 @@ def _roots(ball, start, parameters, defect, impacts):
     return halve(low[change], high[change], lambda v: at_low * v > 0.0)
 
 
-def _solutions(ball, line, period, radius):
+def _solutions(ball, energy, line, period, radius):
     """States on one symmetry line that are back after `period` impacts, jumps left out."""
     start, parameters, defect = line
     for end in zip(*_roots(ball, start, parameters, defect, period // 2), strict=True):
-        for side in np.stack(start(np.array(end)), axis=1):
-            state, gap = _closest(ball, side, period)
-            if gap < JUMP * radius:
-                yield state
-                break
+        sides = np.stack(start(np.array(end)))
+        _, gaps = _gaps(ball, sides, period)
+        if np.min(gaps) < JUMP * radius:
+            yield sides[:, np.argmin(gaps)]
 
 
-def _closest(ball, state, period):
-    """(state, gap): of the doubles up to two units in the last place away, the one closing best."""
+def _gaps(ball, states, period):
+    """Largest coordinate of P^n z - z, (n,), for states (3, n)."""
+    after = states.copy()
+    kernel.steps(*after, ball.k, ball.g, period, np.empty(states.shape[1]))
+    return after, _distance(after, states)
+
+
+def _closest(ball, energy, state, period):
+    """(state, gap) of an orbit next to `state`, to the last bit.
+
+    Newton steps on P^n z = z in the chart, while they close better; then, of the doubles up to two
+    units in the last place away, the one that closes best.
+    """
+    best, least = state, np.inf
+    for _ in range(NEWTON_STEPS):
+        after, gap = _gaps(ball, state[:, None], period)
+        if not gap[0] < least:
+            break
+        best, least = state, gap[0]
+        (a, b), (c, d) = ball.chart_jacobian(*state, impacts=period)
+        y = state[1] - ball.k * state[2]
+        fx, fy = after[0, 0] - state[0], (after[1, 0] - ball.k * after[2, 0]) - y
+        determinant = (a - 1.0) * (d - 1.0) - b * c
+        dx = (b * fy - (d - 1.0) * fx) / determinant
+        dy = (c * fx - (a - 1.0) * fy) / determinant
+        try:
+            state = np.stack(ball.state_xy(state[0] + dx, y + dy, energy))
+        except ValueError:  # off the section
+            break
     steps = np.arange(-2, 3)
     shift = np.stack(np.meshgrid(steps, steps, steps, indexing="ij")).reshape(3, -1)
-    near = state[:, None] + shift * np.spacing(state)[:, None]
+    near = best[:, None] + shift * np.spacing(best)[:, None]
     near = near[:, near[1] + near[2] >= 0.0]
-    after = near.copy()
-    kernel.steps(*after, ball.k, ball.g, period, np.empty(near.shape[1]))
-    gaps = _distance(after, near)
-    best = int(np.argmin(gaps))
-    return near[:, best], gaps[best]
+    _, gaps = _gaps(ball, near, period)
+    least = int(np.argmin(gaps))
+    return near[:, least], gaps[least]
 
 
 def _follow(ball, state, period):
