@@ -34,6 +34,6 @@ def jit(function):
     others = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _CACHE
     try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+        return numba.njit(cache=True, error_model="numpy", fastmath=False, nogil=True)(function)
     finally:
         numba.config.CACHE_DIR = others

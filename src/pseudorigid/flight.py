@@ -165,7 +165,7 @@ def _first_impact(x, b, c, s, g):
             raise ArithmeticError("the march to the next impact does not end")
         low = t
     high = math.inf
-    while df > 0.0:
+    while df > 0.0 and f != 0.0:
         h, last = _correction(f, df, ddf, p, q, t, amplitude)
         if last:
             p, q = _turn(p, q, h)

@@ -117,11 +117,13 @@ def _lines(ball, energy, period):
     """(start, parameters, defect) of each search: states along a line, and what is 0 at an
     orbit.
     """
-    _, radius = ball.section(energy)
+    centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
-    def on_r(fraction):
-        return ball.start(fraction, energy)
+    def on_r(q):
+        # a rational parameter of the circle, which resolves its ends, where s = 0, as well
+        udot = radius * ((1.0 - q) * (1.0 + q) / (1.0 + q * q)) / np.sqrt(1.0 + k)
+        return centre + radius * (2.0 * q / (1.0 + q * q)), k * udot, udot
 
     def half(x, xdot, udot):
         """y, 0 on Fix R."""
@@ -133,8 +135,8 @@ def _lines(ball, energy, period):
         return after - 0.5 * g * tau
 
     # the rim itself is at rest and no orbit
-    fractions = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
-    yield on_r, fractions, (half if period % 2 == 0 else symmetric_flight)
+    inside = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
+    yield on_r, inside, (half if period % 2 == 0 else symmetric_flight)
     if period % 2:
         return
     # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a
