@@ -155,7 +155,7 @@ def _check_ranges(block, place):
     for axis, (low, high) in block.get("window", {}).items():
         if not low < high:
             raise _refusal((*place, "window", axis), [low, high], "two increasing numbers")
-    for axis, drawn in block["axes"].items():
+    for axis, drawn in block.get("axes", {}).items():
         low, high = drawn["limits"]
         if not low < high:
             where = (*place, "axes", axis, "limits")

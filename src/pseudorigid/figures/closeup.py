@@ -1,6 +1,7 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
 from . import style
+from .limits import of_window, refuse_empty
 from .plane import Plane
 from .ragged import rows
 
@@ -10,9 +11,14 @@ def draw(scene, manifolds):
     """Return the Figure of the branches inside a window around a saddle.
 
     `manifolds` is the artifact of that stage, with the saddle in the attributes point_x and
-    point_xdot. Stable branches are green, unstable ones blue, as in the paper.
+    point_xdot. Without axes in the scene they are those of the window. Stable branches are green,
+    unstable ones blue, as in the paper.
     """
     names = (style.NAMES["x"], style.NAMES["xdot"])
+    if "axes" not in scene:
+        edges = {name: manifolds.attrs[f"window_{name}"] for name in ("x", "xdot")}
+        scene = scene | {"axes": {name: of_window(*map(float, e)) for name, e in edges.items()}}
+    refuse_empty(scene["axes"], manifolds)
     plane = Plane(scene, ("x", "xdot"), names, high=900, right=75)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
     hues = {0: style.UNSTABLE, 1: style.STABLE}

@@ -6,7 +6,7 @@ from . import style
 from .ragged import pieces
 from .sheet import POINT, Sheet
 
-_LEFT, _BOTTOM, _TOP = 165, 135, 75  # pixels around the frame
+_LEFT, _BOTTOM, _TOP = 180, 135, 75  # pixels around the frame
 _TICK, _GAP = 3.0, 2.5  # points: a tick's length, and from there to its label
 
 

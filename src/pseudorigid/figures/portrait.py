@@ -2,6 +2,7 @@
 
 from . import style
 from .box import Box
+from .limits import refuse_empty
 from .ragged import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
@@ -16,6 +17,7 @@ def draw(scene, orbits):
     on the far side of the surface is pale and behind the rest. Raises ValueError for a sea that
     the scene does not have.
     """
+    refuse_empty(scene["axes"], orbits)
     box = Box(scene)
     spans = rows(orbits["row_size"].values)
     sea = set(scene["sea"])
