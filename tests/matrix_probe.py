@@ -1,0 +1,215 @@
+"""One process of the matrix: compute a little of everything and print one JSON line of hashes.
+
+    python tests/matrix_probe.py            everything
+    python tests/matrix_probe.py short      a short orbit, which plain Python can follow too
+    python tests/matrix_probe.py sincos     the table alone
+    python tests/matrix_probe.py compiled   what the compiled code calls, of every function
+
+The arguments come from a generator that is the same everywhere, none from a library's functions.
+"""
+
+import hashlib
+import json
+import math
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from numba import njit
+from numpy._core._multiarray_umath import __cpu_features__
+
+from pseudorigid import arithmetic, impact, lyapunov, orbits, periodic
+from pseudorigid.ball import Ball
+from pseudorigid.compiled import jit
+
+BALL = Ball(k=0.2, g=0.04)
+ENERGY = 0.01
+SEA = 0.6  # a chaotic start, in section radii
+FUSED = re.compile(r"\bv?f(?:n?m(?:add|sub)|ml[as])\w*\b")
+MATHS = re.compile(
+    r"\b_?_?(?:sin|cos|tan|sincos|a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|"
+    r"pow|powi|hypot|fma|fmuladd|fmod|floor|ceil|rint|round|trunc|nearbyint|cbrt)f?\b"
+)
+
+
+def digest(*parts):
+    """The sha256 of arrays, bytes and texts."""
+    total = hashlib.sha256()
+    for part in parts:
+        total.update(part if isinstance(part, bytes) else np.asarray(part).astype("<f8").tobytes())
+    return total.hexdigest()
+
+
+@jit
+def tables(t, sine, cosine, logarithm):
+    """sin, cos and log(|t|) of each t."""
+    for i in range(t.size):
+        sine[i], cosine[i] = arithmetic.sincos(t[i])
+        logarithm[i] = arithmetic.log(abs(t[i]))
+
+
+def arguments(count):
+    """Angles as flights have them, and doubles of every size."""
+    rng = np.random.default_rng(20)
+    ordinary = 200.0 * rng.random(count - count // 4) - 100.0
+    exponents = rng.integers(1, 2046, count // 4) << 52
+    bits = rng.integers(0, 2**52, count // 4) | exponents
+    return np.concatenate([ordinary, bits.view("f8")])
+
+
+def table(count):
+    """The hash of sincos and log at so many arguments."""
+    t = arguments(count)
+    columns = [np.empty(count) for _ in range(3)]
+    tables(t, *columns)
+    return digest(*columns)
+
+
+def library():
+    """The hash of the C library's own sin, exp, log and pow: the positive control."""
+    t = arguments(200_000)[:100_000].tolist()
+    return digest(
+        [math.sin(a) for a in t],
+        [math.exp(a) for a in t],
+        [math.log(abs(a)) for a in t],
+        [math.pow(abs(a), 1.7) for a in t],
+    )
+
+
+def orbit(impacts):
+    """The hash of every impact of a chaotic orbit."""
+    head, radius = BALL.section(ENERGY)
+    state = BALL.state_xy(head + SEA * radius, 0.0, ENERGY)
+    out = np.empty((4, impacts, 1))
+    impact.history(*(np.array([a]) for a in state), BALL.k, BALL.g, out)
+    return digest(out)
+
+
+AXES = {
+    "x": {"limits": [-0.2, 0.6], "ticks": [0, 0.4]},
+    "xdot": {"limits": [-0.4, 0.4], "ticks": [-0.4, 0, 0.4]},
+    "udot": {"limits": [-0.2, 0.4], "ticks": [0]},
+    "t": {"limits": [0, 20], "ticks": [0, 20]},
+    "displacement": {"limits": [-0.5, 0.2], "ticks": [-0.5, 0.2]},
+    "impact": {"limits": [0, 2000], "ticks": [0, 2000]},
+    "exponent": {"limits": [-0.5, 0.5], "ticks": [-0.5, 0, 0.5]},
+}
+STARTS = [-0.44, -0.2, 0.14, SEA]
+RESOLUTION = {"distance": 0.05, "bend": 20}
+
+
+def scene(*axes):
+    """A scene that is drawn with these axes."""
+    how = {"view": {"elevation": 40, "azimuth": 115}, "sea": [3], "type": "hyperbolic"}
+    return how | {"axes": {name: AXES[name] for name in axes}}
+
+
+def everything():
+    """Yield (name, hash) of the tables, and of data and figures of each kind, as saved."""
+    from pseudorigid import artifacts, manifolds
+    from pseudorigid.figures import closeup, exponents, motion, portrait, tangle
+    from pseudorigid.figures.save import save
+
+    yield "table", table(200_000)
+    yield from short()
+    yield "orbit", orbit(3000)
+    folder = tempfile.TemporaryDirectory()
+    hashes = {}
+
+    def keep(stage, dataset):
+        """The dataset after a round through its file, whose bytes are hashed."""
+        about = {"stage": stage, "ball": BALL, "energy": ENERGY, "config": {}}
+        path = artifacts.save(dataset, Path(folder.name) / f"{stage}.nc", **about)
+        loaded = artifacts.load(path)
+        hashes[stage] = artifacts.content_hash(loaded)
+        hashes[f"{stage}.nc"] = digest(path.read_bytes())
+        return loaded
+
+    found = keep("periodic", periodic.symmetric_orbits(BALL, ENERGY, 6))
+    sea = keep("orbits", orbits.scene_orbits(BALL, ENERGY, STARTS, [300, 300, 300, 600]))
+    elliptic = periodic.of_type(found, "elliptic")
+    hyperbolic = periodic.of_type(found, "hyperbolic")
+    moved = keep("motion", orbits.motion(BALL, elliptic, 20.0))
+    branches = {"outer": {"length": 0.5}, "inner": {"length": 0.2}}
+    whole = manifolds.scene_manifolds(BALL, ENERGY, hyperbolic, branches, RESOLUTION)
+    whole = keep("manifolds", whole)
+    window = {"x": [-0.05, 0.05], "xdot": [-0.05, 0.05]}
+    near = manifolds.window_manifolds(BALL, ENERGY, hyperbolic, 0, window, RESOLUTION, 0.3)
+    near = keep("window", near)
+    spread = keep("lyapunov", lyapunov.scene_exponents(BALL, ENERGY, [SEA, 0.62], 2000, 40))
+    yield from hashes.items()
+    centre = [near.attrs[f"window_{name}"] for name in ("x", "xdot")]
+    zoom = {
+        name: {"limits": list(map(float, ends)), "ticks": [float(ends[0])]}
+        for name, ends in zip(("x", "xdot"), centre, strict=True)
+    }
+    pictures = {
+        "portrait": portrait.draw(scene("x", "xdot", "udot"), sea),
+        "motion": motion.draw(scene("t", "displacement"), moved),
+        "tangle": tangle.draw(scene("x", "xdot", "udot"), sea, whole, found),
+        "closeup": closeup.draw({"axes": zoom}, near),
+        "exponents": exponents.draw(scene("impact", "exponent"), spread),
+    }
+    for name, figure in pictures.items():
+        for kind in ("png", "svg", "pdf") if name == "exponents" else ("png",):
+            path = save(figure, Path(folder.name) / f"{name}.{kind}")
+            yield path.name, digest(path.read_bytes())
+    # What the switches themselves change, so that a test can tell that they were honoured.
+    yield "library", library()
+    yield "simd", [name for name, there in __cpu_features__.items() if there]
+
+
+def short():
+    """Yield (name, hash) of what plain Python can follow too."""
+    yield "short", digest(table(400).encode(), orbit(150).encode())
+
+
+def sincos():
+    """Yield the table alone."""
+    yield "table", table(200_000)
+
+
+@jit
+def calls_the_library(a):
+    """A control: a call that `compiled` must see."""
+    return math.sin(a)
+
+
+@njit(fastmath=True)
+def may_fuse(a, b):
+    """A control: a sum of products that a processor with FMA fuses here."""
+    total = 0.0
+    for i in range(a.size):
+        total += a[i] * b[i]
+    return total
+
+
+def compiled():
+    """Yield (function, what must not be in its machine code) of every compiled function."""
+    dict(everything())
+    BALL.inverse_impact(0.1, 0.1, 0.1)
+    calls_the_library(1.0)
+    may_fuse(np.ones(9), np.ones(9))
+    ours = [name for name in sys.modules if name.partition(".")[0] in ("pseudorigid", "__main__")]
+    for module in map(sys.modules.get, ours):
+        for name, function in vars(module).items():
+            if hasattr(function, "inspect_asm"):
+                place = f"{module.__name__}.{name}"
+                yield place, [found for s in function.signatures for found in traces(function, s)]
+                if not function.signatures:
+                    yield place, ["was not compiled"]
+
+
+def traces(function, signature):
+    """The fused operations and calls of the C library in one compilation, from its code."""
+    assembler = function.inspect_asm(signature)
+    declared = re.findall(r"^declare .*@\"?([\w.$]+)", function.inspect_llvm(signature), re.M)
+    calls = [name for name in declared if MATHS.search(name.replace(".", " "))]
+    return sorted({*FUSED.findall(assembler), *calls}) if assembler else ["nothing to see"]
+
+
+if __name__ == "__main__":
+    mode = sys.argv[1] if len(sys.argv) > 1 else "everything"
+    print(json.dumps(dict(globals()[mode]()), sort_keys=True))
