@@ -231,3 +231,13 @@ def test_bits_of_many_flights():
     tau = np.concatenate([Ball(0.2, g).time_to_impact(x, v, w) for g in (2.0**-12, 0.04, 0.9)])
     digest = hashlib.sha256(tau.astype("<f8").tobytes()).hexdigest()
     assert digest == FROZEN
+
+
+@pytest.mark.parametrize("exponent", [-1000, -700, 700, 1000])
+def test_no_unit_of_length_is_too_small_or_large(exponent):
+    """Squares of such lengths under- or overflow; the march once hung on them."""
+    unit = 2.0**exponent
+    state = (-0.05, 0.1, 0.3)
+    expected = Ball(0.2, 0.04).impact(*state)
+    *after, tau = Ball(0.2, 0.04 * unit).impact(*(unit * a for a in state))
+    assert (*after, tau) == (*(unit * a for a in expected[:3]), expected[3])

@@ -96,7 +96,7 @@ def _stride(depth, df, ddf, q, g, amplitude):
                 step = 2.0 * depth / (df + math.sqrt(square))
             elif bend > 0.0:
                 step = (math.sqrt(square) - df) / bend
-        if step < reach:
+        if step < reach or not 0.0 < reach < math.inf:
             return max(sure, step)
         reach *= 8.0  # near x = -g the gap bends far less than g + A: do not crawl
 
@@ -201,11 +201,11 @@ def first_impact(x, b, c, s, g):
     input that is not finite. Raises ArithmeticError at MOST_LOOKS.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
-    if size < _HUGE:
+    if 1.0 / _HUGE < size < _HUGE:
         return _first_impact(x, b, c, max(s, 0.0), g)  # s may be 0 to rounding, of either sign
     if not size < math.inf:
         return math.nan, math.nan, math.nan, 0
-    # a length all states share: tau does not depend on it, and its square must not overflow
-    d = 1.0 / _HUGE
+    # tau does not depend on the unit of length; squares must neither over- nor underflow
+    d = _HUGE if size < 1.0 else 1.0 / _HUGE
     tau, p, q, looks = _first_impact(x * d, b * d, c * d, max(s, 0.0) * d, g * d)
-    return tau, p * _HUGE, q * _HUGE, looks
+    return tau, p / d, q / d, looks
