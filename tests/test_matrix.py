@@ -57,12 +57,12 @@ text.antialiased: False
 """
 
 
-def probe(folder, mode, environment, src=ROOT / "src"):
+def probe(folder, mode, environment, src=ROOT / "src", python=(sys.executable,)):
     """The answer of the probe in a process and a folder of its own."""
     folder.mkdir(parents=True)
     (folder / "matplotlibrc").write_text(HOSTILE if "matplotlibrc" in folder.name else "")
     kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
-    command = [sys.executable, str(PROBE), mode]
+    command = [*python, str(PROBE), mode]
     result = subprocess.run(
         command,
         env=kept | {"PYTHONPATH": str(src), "MPLCONFIGDIR": str(folder)} | environment,
