@@ -27,7 +27,7 @@ from .compiled import jit
 MOST_LOOKS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
-_HUGE = 2.0**500
+_HUGE = 2.0**200
 # sqrt(2) - 1 rounded up: the octagon around the circle, sqrt(a^2 + b^2) <= max + (sqrt(2) - 1) min.
 _OCTAGON = 0.4142135623730952
 
@@ -205,7 +205,11 @@ def first_impact(x, b, c, s, g):
         return _first_impact(x, b, c, max(s, 0.0), g)  # s may be 0 to rounding, of either sign
     if not size < math.inf:
         return math.nan, math.nan, math.nan, 0
-    # tau does not depend on the unit of length; squares must neither over- nor underflow
-    d = _HUGE if size < 1.0 else 1.0 / _HUGE
+    # tau does not depend on the unit of length; fourth powers must neither over- nor underflow
+    d = 1.0
+    while 0.0 < size * d <= 1.0 / _HUGE:
+        d *= _HUGE
+    while size * d >= _HUGE:
+        d /= _HUGE
     tau, p, q, looks = _first_impact(x * d, b * d, c * d, max(s, 0.0) * d, g * d)
     return tau, p / d, q / d, looks
