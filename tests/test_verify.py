@@ -379,6 +379,31 @@ def test_a_result_made_by_other_code(moved):
     assert findings(moved) == ({}, [said])
 
 
+def test_a_run_killed_between_result_and_record_does_both_again(moved):
+    """Everything dies, snakemake too, where the result is whole and its record not yet there."""
+    result, module = moved.path / ORBITS, moved.path / "src" / "pseudorigid" / "provenance.py"
+    text, then = module.read_text(), module.stat()
+    result.unlink()
+    end = "    about = {"
+    assert text.count(end) == 1
+    module.write_text(text.replace(end, f"    os.killpg(os.getpgrp(), 9)\n{end}"))
+    os.utime(module, ns=(then.st_atime_ns, then.st_mtime_ns))
+    # One job, in a group of its own that dies with it.
+    run = subprocess.Popen(
+        moved.command(ORBITS, "--rerun-triggers", "mtime"),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    assert run.wait() == -9
+    module.write_text(text)
+    os.utime(module, ns=(then.st_atime_ns, then.st_mtime_ns))
+    assert result.exists()
+    assert findings(moved) == ({}, [f"{ORBITS}: no record of what made it"])
+    assert moved.run(ORBITS).returncode == 0
+    assert say(verify, moved)[0] == 0
+
+
 def test_a_result_made_from_another_input(moved):
     path = moved.path / "results" / "paper" / "provenance" / "motion_fig3.nc.json"
     record = json.loads(path.read_text())
