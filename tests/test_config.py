@@ -34,7 +34,7 @@ SCENES = {
         "type": "elliptic",
         "duration": 16,
         "formats": ["png", "svg", "pdf"],
-        "axes": {"t": {"limits": [0, 16], "ticks": []}, "displacement": AXES},
+        "axes": {"t": {"limits": [0, 16], "ticks": [0, 16]}, "displacement": AXES},
     },
     "a_tangle": {
         "picture": "tangle",
@@ -146,6 +146,7 @@ def test_the_committed_config_is_good():
         ("scenes.a_motion.period", 0, ["period: 0", "from 1 to 12"]),
         ("scenes.a_motion.period", 13, ["period: 13", "from 1 to 12"]),
         ("scenes.a_motion.period", 6.0, ["period: 6.0", "whole number"]),
+        ("scenes.a_motion.period", "6", ["period: '6'", "text to YAML, write 6"]),
         ("scenes.a_motion.period", True, ["period: true", "whole number"]),
         ("scenes.a_motion.type", "eliptic", ["type: 'eliptic'", "elliptic"]),
         ("scenes.a_tangle.type", "elliptic", ["type: 'elliptic'", "no manifolds"]),
@@ -157,6 +158,7 @@ def test_the_committed_config_is_good():
         ("scenes.a_motion.axes.t.limits", [16, 0], ["axes.t.limits: [16, 0]", "increasing"]),
         ("scenes.a_motion.axes.t.limits", [0], ["axes.t.limits: [0]", "two increasing"]),
         ("scenes.a_motion.axes.t.ticks", [0, 17], ["axes.t.ticks: 17", "limits [0, 16]"]),
+        ("scenes.a_motion.axes.t.ticks", [], ["axes.t.ticks: []", "1 to 50 numbers"]),
         ("scenes.a_motion.axes.x", AXES, ["axes.x: unknown key"]),
         ("scenes.a_portrait.starts", [-0.5, 1], ["starts[1]: 1", "-1 < start < 1"]),
         ("scenes.a_portrait.starts", [-1.0, 0], ["starts[0]: -1.0", "-1 < start < 1"]),
@@ -168,6 +170,7 @@ def test_the_committed_config_is_good():
         ("scenes.a_portrait.impacts", [10, -5], ["impacts[1]: -5"]),
         ("scenes.a_portrait.impacts", [10, 2.5], ["impacts[1]: 2.5", "whole number"]),
         ("scenes.a_portrait.impacts", [6_000_000, 6_000_000], ["at most 10000000 impacts"]),
+        ("scenes.a_portrait.impacts", ["1e3", 1], ["impacts[0]: '1e3'", "write 1000"]),
         ("scenes.a_portrait.sea", [2], ["sea: 2", "from 0 to 1"]),
         ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "elevation < 90"]),
         ("scenes.a_tangle.branches", {}, ["branches: {}"]),
@@ -178,6 +181,7 @@ def test_the_committed_config_is_good():
         ("scenes.a_tangle.resolution.bend", 100, ["resolution.bend: 100"]),
         ("scenes.a_closeup.point", 6, ["point: 6", "period - 1 = 5"]),
         ("scenes.a_closeup.point", -1, ["point: -1"]),
+        ("scenes.a_closeup.length", 1e300, ["a_closeup.length: 1e+300", "at most 10000000 times"]),
         ("scenes.a_closeup.window.x", [0.1, 0.1], ["window.x: [0.1, 0.1]", "increasing"]),
         ("scenes.exponents.impacts", 0, ["impacts: 0"]),
         ("scenes.exponents.impacts", [1, 2], ["impacts: [1, 2]", "whole number"]),
@@ -192,6 +196,29 @@ def test_a_bad_value_is_refused_in_one_line(path, value, parts):
     line = complaint(document)
     for part in parts:
         assert part in line
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "advice"),
+    [
+        ("scenes.a_motion.period", "6", "6"),
+        ("scenes.a_motion.duration", "16.0", "16"),
+        ("scenes.a_motion.energy", "1e-3", "0.001"),
+        ("scenes.a_tangle.resolution.distance", "1e-5", "1.0e-05"),
+        ("scenes.a_tangle.branches.outer.length", "1e3", "1000"),
+        ("scenes.exponents.impacts", "1e3", "1000"),
+        ("scenes.exponents.impacts", "1e9", ""),  # above what is allowed
+        ("scenes.exponents.impacts", "2.5", ""),
+        ("scenes.exponents.energy", "inf", ""),
+        ("scenes.exponents.energy", "nan", ""),
+        ("scenes.5 6", SCENES["a_motion"], ""),
+    ],
+)
+def test_what_is_said_to_be_written_instead_is_taken(path, value, advice):
+    line = complaint(changed(path, value))
+    assert line.partition("; this is text to YAML, write ")[2] == advice
+    if advice:
+        config.check(changed(path, yaml.safe_load(advice)))
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -212,6 +239,15 @@ def test_something_else_than_a_config_is_refused(document):
         (b"ball: 2001-99-99", "not valid YAML"),
         (b"--- 1\n--- 2\n", "not valid YAML"),
         (b"ball: &a [*a]\nscenes: {}", "ball: "),
+        (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
+        (b"ball: {[1, 2]: 3}", "line 1, column 8: not valid YAML: found unhashable key"),
+        (b"? [a]\n: 3\n? [a]\n: 4", "found unhashable key"),
+        (b"[" * 3000, "config.yaml: nested too deeply"),
+        (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
+        (b"ball: !!bool x", "not valid YAML"),
+        (b"ball: !!int ''", "not valid YAML"),
+        (b"ball: !!timestamp x", "not valid YAML"),
+        (b"ball: !!map [1]", "not valid YAML"),
     ],
 )
 def test_a_file_that_is_no_config_is_refused_in_one_line(tmp_path, text, part):

@@ -6,7 +6,6 @@ and what is allowed. Importing this module is cheap: it is part of every start.
 
 import difflib
 import json
-import math
 import sys
 from fractions import Fraction
 from functools import cache
@@ -47,13 +46,14 @@ class _Loader(yaml.SafeLoader):
 
     def construct_mapping(self, node, deep=False):
         seen = set()
-        for key, _ in node.value:
-            if key.value in seen and isinstance(key, yaml.ScalarNode):
+        for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+            if not isinstance(key, yaml.ScalarNode):
+                continue  # PyYAML itself refuses a list or a mapping as a key
+            if key.value in seen:
                 raise yaml.constructor.ConstructorError(
                     None, None, f"the key {key.value} is given twice", key.start_mark
                 )
-            if isinstance(key, yaml.ScalarNode):
-                seen.add(key.value)
+            seen.add(key.value)
         return super().construct_mapping(node, deep)
 
 
@@ -64,20 +64,27 @@ def load(path) -> dict:
     """
     path = Path(path)
     try:
-        document = yaml.load(path.read_text(encoding="utf-8"), _Loader)
+        return check(_parse(path))
+    except ConfigError as error:
+        raise ConfigError(f"{path.name}: {error}") from None
+    except RecursionError:
+        raise ConfigError(f"{path.name}: nested too deeply") from None
+
+
+def _parse(path):
+    try:
+        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
-        raise ConfigError(f"{path.name}: cannot be read: {error.strerror}") from None
+        raise ConfigError(f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
-        raise ConfigError(f"{path.name}: is not UTF-8 text: byte {error.start}") from None
+        raise ConfigError(f"is not UTF-8 text: byte {error.start}") from None
     except (yaml.YAMLError, ValueError) as error:  # ValueError: a date that does not exist
         mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise ConfigError(f"{path.name}: {place}not valid YAML: {problem}") from None
-    try:
-        return check(document)
-    except ConfigError as error:
-        raise ConfigError(f"{path.name}: {error}") from None
+        raise ConfigError(f"{place}not valid YAML: {problem}") from None
+    except (LookupError, AttributeError):  # what PyYAML makes of `!!bool x`
+        raise ConfigError("not valid YAML: a value that is not what its !!tag says") from None
 
 
 # ---- checking ----
@@ -144,11 +151,15 @@ def _check_amounts(block, place):
         if place_in_starts >= len(starts):
             what = f"a place in starts, from 0 to {len(starts) - 1}"
             raise _refusal((*place, "sea"), place_in_starts, what)
-    for side, branch in block.get("branches", {}).items():
+    branches = block.get("branches", {})
+    lengths = {("branches", side, "length"): branches[side]["length"] for side in branches}
+    if "length" in block:
+        lengths["length",] = block["length"]
+    for where, length in lengths.items():
         longest = LARGEST * block["resolution"]["distance"]
-        if branch["length"] > longest:
+        if length > longest:
             what = f"at most {LARGEST} times resolution.distance = {longest:g}"
-            raise _refusal((*place, "branches", side, "length"), branch["length"], what)
+            raise _refusal((*place, *where), length, what)
 
 
 def _check_ranges(block, place):
@@ -167,11 +178,10 @@ def _check_ranges(block, place):
 
 
 @cache
-def _validators():
-    """One jsonschema validator for each definition of the schema file."""
+def _strict():
+    """The class of validators that take no bool, infinity or NaN for a number, no 6.0 for a 6."""
     from jsonschema import Draft202012Validator, validators
 
-    schema = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
     types = Draft202012Validator.TYPE_CHECKER.redefine_many(
         {
             "integer": lambda _, x: isinstance(x, int) and not isinstance(x, bool),
@@ -182,9 +192,15 @@ def _validators():
             ),
         }
     )
-    strict = validators.extend(Draft202012Validator, type_checker=types)
+    return validators.extend(Draft202012Validator, type_checker=types)
+
+
+@cache
+def _validators():
+    """One validator for each definition of the schema file."""
+    schema = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
     return {
-        name: strict({"$ref": f"#/$defs/{name}", "$defs": schema["$defs"]})
+        name: _strict()({"$ref": f"#/$defs/{name}", "$defs": schema["$defs"]})
         for name in schema["$defs"]
     }
 
@@ -220,16 +236,22 @@ def _explain(error, place) -> ConfigError:
     what = error.schema.get("description", "something else")
     value = error.instance
     if isinstance(value, str):
-        try:
-            number = float(value)
-        except ValueError:
-            number = math.nan
-        if math.isfinite(number):
-            # YAML 1.1 takes 1e-3 and quoted numbers for text.
-            digits = repr(number)
-            plain = digits if "." in digits else digits.replace("e", ".0e")
+        number = _number_in(value)
+        if _strict()(error.schema).is_valid(number):
+            plain = repr(number)
+            if "." not in plain:
+                plain = plain.replace("e", ".0e")  # YAML 1.1 takes 1e-3 for text
             what += f"; this is text to YAML, write {plain}"
     return _refusal(place, value, what)
+
+
+def _number_in(text):
+    """The number that a text was meant to be, whole where it can be, or None."""
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return int(number) if number.is_integer() and abs(number) < 1e15 else number
 
 
 def _refusal(place, value, allowed) -> ConfigError:
