@@ -348,15 +348,13 @@ def test_refuses_what_the_data_do_not_have():
 
 
 def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
-    data = motion()
-    curves = [
-        line for line in draw("motion").artists if len(line.get_xdata()) == data.sizes["sample"]
-    ]
-    (t, mass), (same, strain) = (line.get_data() for line in curves)
-    assert np.array_equal(t, same)
-    assert (mass >= strain).all()
-    touching = np.unique(t[mass == strain])
-    assert len(touching) == data.sizes["impact"]
+    curves = [line.get_data() for line in draw("motion").artists if len(line.get_xdata()) > 20]
+    (t, mass), (other_t, strain) = curves
+    vertices = [set(zip(*(axis.tolist() for axis in curve), strict=True)) for curve in curves]
+    assert len(vertices[0] & vertices[1]) == motion().sizes["impact"]
+    seen = 1 / 32 / style.DPI  # two lines, each within 1/64 of a pixel of its samples
+    assert (mass >= np.interp(t, other_t, strain) - seen).all()
+    assert (np.interp(other_t, t, mass) >= strain - seen).all()
 
 
 def test_every_point_is_drawn_and_the_sea_comes_first():

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, TransformedBbox
 
 from . import style
+from .straight import bends
 
 POINT = style.DPI / 72  # pixels
 _GRID = 256  # of a pixel: the rasteriser's own resolution
@@ -33,7 +34,11 @@ class Sheet:
     def draw(self, across, up, clip=None, **how):
         """Draw a line or marks; `clip` is (left, bottom, right, top), `how` goes to Line2D."""
         inches = self.figure.dpi_scale_trans
-        artist = Line2D(settle(across) / style.DPI, settle(up) / style.DPI, transform=inches, **how)
+        across, up = settle(across), settle(up)
+        if how.get("ls") != "none" and len(across) > 2:
+            keep = bends(np.floor(across * _GRID), np.floor(up * _GRID), _GRID // 64)
+            across, up = across[keep], up[keep]
+        artist = Line2D(across / style.DPI, up / style.DPI, transform=inches, **how)
         if clip is not None:
             left, bottom, right, top = (value / style.DPI for value in clip)
             artist.set_clip_box(TransformedBbox(Bbox([[left, bottom], [right, top]]), inches))
