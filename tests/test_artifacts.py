@@ -154,6 +154,8 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path, kind):
         load(path)
     assert str(path) in str(error.value)
     assert "\n" not in str(error.value)
+    advised = str(error.value).endswith("; delete it and run ./reproduce again")
+    assert advised == (kind != "missing")
 
 
 def test_any_truncation_is_noticed(tmp_path):

@@ -128,6 +128,70 @@ def test_what_was_deleted_comes_back(done):
     assert done.planned() == set()
 
 
+def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
+    before = {name: content for name, (content, _, _) in done.published().items()}
+    for name in ("fig3.png", "fig7.svg"):
+        figure = done.path / "paper_figures" / name
+        figure.write_text("x")
+        os.utime(figure, (4e9, 4e9))
+    assert done.planned() == {"paper_figures/fig3.png", "paper_figures/fig7.svg"}
+    single = done.run("paper_figures/fig3.png")
+    assert rows(single) == {"paper_figures/fig3.png": "current"}
+    assert done.planned() == {"paper_figures/fig7.svg"}
+    everything = done.run()
+    assert set(rows(everything).values()) == {"current"}
+    assert {name: content for name, (content, _, _) in done.published().items()} == before
+    assert done.planned() == set()
+
+
+def test_a_damaged_artifact_is_one_line_that_says_how_to_go_on(done):
+    artifact = done.path / "results" / "paper" / "periodic_fig4.nc"
+    whole = artifact.read_bytes()
+    artifact.write_bytes(whole[:5000])
+    result = done.run("-k")
+    assert result.returncode == 1
+    last = no_traceback(result)
+    assert last.startswith("pseudorigid: fig4, fig5, fig6: results/paper/periodic_fig4.nc: damaged")
+    assert last.endswith("; delete it and run ./reproduce again")
+    artifact.unlink()
+    assert done.run().returncode == 0
+    assert artifact.read_bytes() == whole
+
+
+def test_a_setting_for_windows_does_not_matter(done, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "no such backend")
+    (done.path / "results" / "paper" / "figures" / "fig3.png").unlink()
+    result = done.run("paper_figures/fig3.png")
+    assert result.returncode == 0, result.stdout
+
+
+@pytest.mark.parametrize("file", ["src/pseudorigid/config.py", "src/snakemake/cli.py", "Snakefile"])
+def test_interrupting_the_start_is_no_traceback(tree, file):
+    reached = tree.path / "reached"
+    path = tree.path / file
+    if "snakemake" in file:  # a stand-in, found first
+        path.parent.mkdir()
+        (path.parent / "__init__.py").touch()
+    with path.open("a") as module:
+        module.write(f"\nimport time\nopen({str(reached)!r}, 'w').close()\ntime.sleep(60)\n")
+    run = subprocess.Popen(
+        tree.command("-n"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        # A job in the background of a shell would ignore it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
+    )
+    for _ in range(600):
+        if reached.exists():
+            break
+        time.sleep(0.1)
+    run.send_signal(signal.SIGINT)
+    output, _ = run.communicate(timeout=30)
+    assert run.returncode != 0
+    assert "Traceback" not in output
+
+
 def test_an_orbit_that_does_not_exist_ends_in_one_line(done):
     before = done.published()
     done.edit("fig3", type="inverse hyperbolic")

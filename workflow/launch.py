@@ -1,11 +1,19 @@
 """What ./reproduce does once .venv is ready: pytest, or snakemake and a table of the figures."""
 
 import fcntl
+import filecmp
 import os
 import re
+import signal
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
+
+# Ctrl-C ends the process at once, without a traceback, except where `tidying_up`.
+CAREFUL = signal.getsignal(signal.SIGINT)
+CARELESS = signal.SIG_DFL if CAREFUL is signal.default_int_handler else CAREFUL
+signal.signal(signal.SIGINT, CARELESS)
 
 START = Path.cwd()
 ROOT = Path(__file__).resolve().parent.parent
@@ -16,12 +24,23 @@ from pseudorigid import config  # noqa: E402  (needs the path above; imports not
 CORES = re.compile(r"--(cores|jobs)(=.*)?|-[cj](all|\d*)|all|\d+")
 
 
+@contextmanager
+def tidying_up():
+    """Ctrl-C raises KeyboardInterrupt in here, so that nothing unfinished stays behind."""
+    signal.signal(signal.SIGINT, CAREFUL)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, CARELESS)
+
+
 def set_environment() -> None:
     """The tree's own package wherever the folder was moved, and caches that need no home folder."""
     caches = ROOT / ".venv" / "cache"
     os.environ["PYTHONPATH"] = str(ROOT / "src")
     os.environ["XDG_CACHE_HOME"] = str(caches)
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
+    os.environ.pop("MPLBACKEND", None)  # nothing here opens a window
 
 
 def test(arguments: list[str]) -> int:
@@ -33,7 +52,8 @@ def verify(arguments: list[str]) -> int:
     """Say for each figure whether it is the committed one, or what differs."""
     from pseudorigid.verify import verify
 
-    return verify(ROOT, arguments, START)
+    with tidying_up():
+        return verify(ROOT, arguments, START)
 
 
 def accept(arguments: list[str]) -> int:
@@ -44,7 +64,8 @@ def accept(arguments: list[str]) -> int:
     if lock is None:
         print(BUSY, file=sys.stderr)
         return 1
-    return accept(ROOT, arguments)
+    with tidying_up():
+        return accept(ROOT, arguments)
 
 
 WORDS = {"test": test, "verify": verify, "accept": accept}
@@ -61,17 +82,22 @@ def hold_lock():
     return lock
 
 
-def run_snakemake(arguments: list[str]) -> int:
-    """Run snakemake to its end, in this process, and return its exit status."""
+def run_snakemake(arguments: list[str], forced: list[str]) -> int:
+    """Run snakemake to its end, in this process, and return its exit status.
+
+    The files in `forced` are made again even if they seem to be current.
+    """
     from snakemake.cli import main as snakemake
 
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
-    command = ["--nolock", "--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
+    command = ["--forcerun", *forced] if forced else []
+    command += ["--nolock", "--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
     command += arguments
     if not any(a.startswith("-") and CORES.fullmatch(a) for a in arguments):
         command += ["--cores", "all"]
     try:
-        snakemake(command)
+        with tidying_up():
+            snakemake(command)
     except SystemExit as end:
         if isinstance(end.code, str):
             print(end.code, file=sys.stderr)
@@ -83,14 +109,21 @@ def run_snakemake(arguments: list[str]) -> int:
 
 
 def last_words(since: float) -> list[str]:
-    """The one-line messages that jobs of this run left in their logs, in the order of time."""
+    """The one-line messages that jobs of this run left in their logs, in the order of time.
+
+    Scenes with the same trouble share a line.
+    """
     found = []
     for log in ROOT.glob("results/*/logs/*.log"):
         changed = log.stat().st_mtime
         if changed >= since:
             lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
             found += [(changed, line) for line in lines if line.startswith("pseudorigid: ")]
-    return [line for _, line in sorted(found)]
+    scenes = {}
+    for _, line in sorted(found):
+        scene, _, message = line.removeprefix("pseudorigid: ").partition(": ")
+        scenes.setdefault(message, set()).add(scene)
+    return [f"pseudorigid: {', '.join(sorted(scenes[key]))}: {key}" for key in scenes]
 
 
 def with_missing(arguments: list[str], figures) -> list[str]:
@@ -104,6 +137,17 @@ def with_missing(arguments: list[str], figures) -> list[str]:
         _, behind = figures.get(argument, (None, []))
         complete += [argument, *(file for file in behind if not (ROOT / file).exists())]
     return complete
+
+
+def unlike_drawings(names, figures) -> list[str]:
+    """The published figures that are not as drawn: snakemake, which looks at times, misses them."""
+    pairs = [(name, ROOT / name, ROOT / figures[name][1][-1]) for name in names]
+    return [
+        name
+        for name, published, drawn in pairs
+        if published.is_file() and drawn.is_file()
+        if not filecmp.cmp(published, drawn, shallow=False)
+    ]
 
 
 def identity(file: str) -> tuple[int, int] | None:
@@ -136,14 +180,15 @@ def workflow(arguments: list[str]) -> int:
         print(BUSY, file=sys.stderr)
         return 1
     before = {name: identity(behind[-1]) for name, (_, behind) in figures.items()}
+    named = [argument for argument in arguments if argument in figures]
+    stale = unlike_drawings(named or figures, figures)
     start = time.time() - 1  # some file systems keep whole seconds only
-    status = run_snakemake(with_missing(arguments, figures))
+    status = run_snakemake(with_missing(arguments, figures), stale)
     if status:
         for line in last_words(start):
             print(line, file=sys.stderr)
         return status
     # After a plain run the figures asked for, or all; with other options what was drawn on the way.
-    named = [argument for argument in arguments if argument in figures]
     options = [a for a in arguments if a not in figures and not CORES.fullmatch(a)]
     rows = []
     for name, (scene, behind) in figures.items():
@@ -165,6 +210,8 @@ def main(arguments: list[str]) -> int:
     except config.ConfigError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":

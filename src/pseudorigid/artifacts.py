@@ -54,28 +54,9 @@ def load(path):
     if not path.is_file():
         raise ArtifactError(f"{path}: no such artifact")
     try:
-        with netCDF4.Dataset(path) as file:
-            file.set_auto_mask(False)
-            file.set_auto_scale(False)
-            variables = {
-                name: (variable.dimensions, variable[...], _attributes(variable))
-                for name, variable in file.variables.items()
-            }
-            attrs = _attributes(file)
-    except (OSError, RuntimeError, UnicodeDecodeError) as error:
-        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
-        raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
-    missing = [name for name in REQUIRED if name not in attrs]
-    if missing:
-        raise ArtifactError(f"{path}: not an artifact: no attribute {', '.join(missing)}")
-    try:
-        dataset = xr.Dataset(variables, attrs=attrs)
-        _check(dataset, path)
-    except ArtifactError:
-        raise
-    except ValueError as error:
-        raise ArtifactError(f"{path}: not an artifact: {error}") from error
-    return dataset
+        return _read(path)
+    except ArtifactError as error:
+        raise ArtifactError(f"{error}; delete it and run ./reproduce again") from error.__cause__
 
 
 def content_hash(dataset):
@@ -119,6 +100,32 @@ def plain_attributes(source):
 def canonical_json(value):
     """Return `value` as JSON with sorted keys and no spaces: equal values, equal text."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _read(path):
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            file.set_auto_scale(False)
+            variables = {
+                name: (variable.dimensions, variable[...], _attributes(variable))
+                for name, variable in file.variables.items()
+            }
+            attrs = _attributes(file)
+    except (OSError, RuntimeError, UnicodeDecodeError) as error:
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
+    missing = [name for name in REQUIRED if name not in attrs]
+    if missing:
+        raise ArtifactError(f"{path}: not an artifact: no attribute {', '.join(missing)}")
+    try:
+        dataset = xr.Dataset(variables, attrs=attrs)
+        _check(dataset, path)
+    except ArtifactError:
+        raise
+    except ValueError as error:
+        raise ArtifactError(f"{path}: not an artifact: {error}") from error
+    return dataset
 
 
 def _with_sample_dimension(dataset, path):
