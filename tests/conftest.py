@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from pseudorigid import sources
+
 ROOT = Path(__file__).parents[1]
 PARTS = (
     "Snakefile",
@@ -124,3 +126,24 @@ def fresh_tree(path):
             file.write_text("committed")
             os.utime(file, (4e9, 4e9))
     return tree
+
+
+@pytest.fixture(scope="session")
+def accepted(tmp_path_factory):
+    """A copy of the project whose small figures were made and accepted."""
+    tree = fresh_tree(tmp_path_factory.mktemp("verify") / "accepted here")
+    for word in ((), ("accept",)):
+        result = tree.run(*word)
+        assert result.returncode == 0, result.stdout
+    return tree
+
+
+@pytest.fixture
+def moved(accepted, tmp_path, monkeypatch):
+    """A fresh copy of that folder in another place, for one fault."""
+    tree = shutil.copytree(accepted.path, tmp_path / "moved", symlinks=True)
+    copy = object.__new__(type(accepted))
+    copy.path = tree
+    monkeypatch.setattr(sources, "ROOT", tree)
+    monkeypatch.setattr(sources, "PACKAGE", tree / "src" / "pseudorigid")
+    return copy
