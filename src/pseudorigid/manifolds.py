@@ -15,7 +15,7 @@ from . import impact as kernel
 from .arithmetic import sincos
 from .orbits import variables
 
-# Start of the segment in section radii: it misses the branch by about its square.
+# End of the first segment in section radii: it misses the branch by about its square.
 START = 1e-6
 # A bend counts while a neighbouring side is longer than this share of the distance allowed.
 FINEST = 1e-3
@@ -210,11 +210,11 @@ class _Branch:
         outward = (self.origin - chart.mean(axis=1)) * scale * (e * scale)
         e = e / np.sqrt(np.sum((e * scale) ** 2))
         sign = 1.0 if (np.sum(outward) > 0.0) == (side == "outer") else -1.0
-        self.first = START * self.radius * sign * e
         self.multiplier = float(multiplier)
         if self.multiplier < 0.0:  # the two sides change places: every second image
             self.period *= 2
             self.multiplier *= self.multiplier
+        self.first = START * self.radius / self.multiplier * sign * e
 
     def __call__(self, u):
         """States (3, n) at the parameters u (n,)."""
