@@ -1,4 +1,6 @@
-"""Orbits: shapes, bits, memory, bad input; the ragged orbits of a scene; the motion between impacts."""
+"""Orbits: shapes, bits, memory, bad input; the ragged orbits of a scene; the motion between
+impacts.
+"""
 
 import subprocess
 import sys

@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from mpmath import mpf
 
 from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.periodic import of_type
@@ -65,7 +65,9 @@ def fixed_points(k, g, energy):
         q = theta / np.tan(np.pi * share)
         values = (1 + k) * theta**2 + (1 - q) ** 2 - float(big)
         for j in np.nonzero(values[:-1] * values[1:] <= 0)[0]:
-            theta0 = mpmath.findroot(excess, theta[j : j + 2].tolist(), solver="anderson", tol=1e-50)
+            theta0 = mpmath.findroot(
+                excess, theta[j : j + 2].tolist(), solver="anderson", tol=1e-50
+            )
             v, w = g * theta0, g * theta0 / mpf(k)
             x = w * mpmath.cot(theta0)
             t = np.linspace(0, 2 * float(theta0), 20_001)[1:-1]
@@ -267,7 +269,9 @@ def high_precision(ball, state, taus):
     ],
 )
 def test_trace_and_points_in_forty_digits(k, g, energy, period):
-    """Newton's method in 40 digits moves a point by roundings only, and the trace there is the same."""
+    """Newton's method in 40 digits moves a point by roundings only, and the trace there is the
+    same.
+    """
     ball = Ball(k, g)
     orbits = symmetric_orbits(ball, energy, period)
     assert orbits.sizes["orbit"] > 0
@@ -288,7 +292,7 @@ def test_trace_and_points_in_forty_digits(k, g, energy, period):
                 z += mpmath.lu_solve(system, right)
             moved = max(abs(float(a - b)) for a, b in zip(z, points[:3, 0], strict=True))
             trace = float(product[0, 0] + product[1, 1] + product[2, 2] - 1)
-            size = max(1.0, max(abs(float(a)) for a in product))
+            size = max(1.0, *(abs(float(a)) for a in product))
             assert moved < 2e-15 * max(1.0, size / 50)
             assert abs(trace - float(orbits["trace"][i])) < 2e-13 * size * size
 
@@ -340,7 +344,7 @@ def test_nothing_found_is_an_answer_of_length_zero(energy):
     orbits = symmetric_orbits(BALL, energy, 2)
     assert orbits.sizes == {"orbit": 0, "point": 2}
     check(BALL, energy, 2, orbits)
-    with pytest.raises(ValueError, match="elliptic.*period 2"):
+    with pytest.raises(ValueError, match=r"elliptic.*period 2"):
         of_type(orbits, "elliptic")
 
 
@@ -383,7 +387,9 @@ def test_an_energy_below_the_lowest_is_refused():
 
 
 def brute_force(ball, energy, period, cells, steps=25):
-    """Symmetric orbits from Newton's method in the chart, started on a grid over the whole section."""
+    """Symmetric orbits from Newton's method in the chart, started on a grid over the whole
+    section.
+    """
     k, g = ball.k, ball.g
     centre, radius = ball.section(energy)
     height = radius * np.sqrt(k * (1 + k))
@@ -437,7 +443,9 @@ def compare_with_brute_force(ball, energy, period, cells):
     starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]
     expected = brute_force(ball, energy, period, cells)
     for u, v, trace in expected:
-        near = [np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in zip(*starts, strict=True)]
+        near = [
+            np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in zip(*starts, strict=True)
+        ]
         assert any(near) or abs(trace) > 500, (period, trace, u[0], v[0])
     return len(expected)
 

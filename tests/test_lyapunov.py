@@ -1,0 +1,164 @@
+"""Exponents: an independent computation, limits that are known, history, bits, bad input."""
+
+import numpy as np
+import pytest
+
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid.lyapunov import scene_exponents
+
+BALL = Ball(0.2, 0.04)
+
+
+def bits(a):
+    return np.asarray(a, dtype=float).tobytes()
+
+
+def by_numpy(ball, state, impacts):
+    """The same exponents from numpy's QR decomposition and one Jacobian at a time."""
+    path = orbit(ball, state, impacts)
+    columns = [
+        np.concatenate([[start], path[name].values[:-1]])
+        for start, name in zip(state, ("x", "xdot", "udot"), strict=True)
+    ]
+    jacobians = ball.jacobian(*columns)
+    frame = np.eye(3)
+    total = np.zeros(3)
+    for jacobian in jacobians:
+        frame, r = np.linalg.qr(jacobian @ frame)
+        total += np.log(np.abs(np.diag(r)))
+    return total / impacts
+
+
+@pytest.mark.parametrize(
+    ("k", "g", "energy", "start"),
+    [
+        (0.2, 0.04, 0.01, 0.6),
+        (0.2, 0.04, 0.01, -0.3),
+        (0.2, 0.04, 0.001, 0.7),
+        (1.0, 0.1, 0.05, 0.5),
+        (0.01, 0.001, 0.003, 0.3),
+        (1 / 3, 0.03, 0.02, -0.8),
+    ],
+)
+def test_against_numpy_over_two_thousand_impacts(k, g, energy, start):
+    ball = Ball(k, g)
+    state = ball.start(start, energy)
+    found = lyapunov_spectrum(ball, state, 2000)["exponent"].values[-1]
+    assert np.max(np.abs(found - by_numpy(ball, state, 2000))) < 1e-11
+
+
+@pytest.mark.parametrize("start", [-0.440981, -0.23519, -0.132294, 0.142183])
+def test_regular_orbits_have_exponents_near_zero(start):
+    found = lyapunov_spectrum(BALL, BALL.start(start, 0.01), 50_000)["exponent"].values[-1]
+    assert np.max(np.abs(found)) < 5e-4
+
+
+@pytest.mark.parametrize("start", [0.534522, 0.6, 0.8])
+def test_the_sum_is_zero_and_so_is_the_middle_one(start):
+    """det J = s/s' telescopes, so the sum is a boundary term; energy is kept, so one is 0."""
+    found = lyapunov_spectrum(BALL, BALL.start(start, 0.01), 100_000)["exponent"].values[-1]
+    assert abs(np.sum(found)) < 2e-4
+    assert abs(found[1]) < 2e-4
+    assert abs(found[0] + found[2]) < 2e-4
+    assert found[0] > 0.2
+    assert np.all(np.diff(found) < 0)
+
+
+def test_a_periodic_orbit_has_the_logarithm_of_its_multiplier():
+    """As long as rounding has not driven it away from the saddle: 20 turns of the orbit."""
+    for energy, period in ((0.01, 6), (0.001, 10), (0.001, 12)):
+        orbits = symmetric_orbits(BALL, energy, period)
+        saddle = orbits.isel(orbit=int(np.argmax(np.abs(orbits["trace"].values - 2))))
+        for i in range(orbits.sizes["orbit"]):
+            if orbits["type"].values[i] == "hyperbolic":
+                saddle = orbits.isel(orbit=i)
+        state = [float(saddle[name][0]) for name in ("x", "xdot", "udot")]
+        expected = np.log(float(saddle["multiplier"])) / period
+        history = lyapunov_spectrum(BALL, state, 24 * period, records=24)["exponent"].values[:, 0]
+        # between two late turns the frame grows by the multiplier alone
+        turns = np.arange(1, 25)
+        growth = np.diff(history * turns * period)
+        assert np.median(growth[-6:]) / period == pytest.approx(expected, rel=1e-3)
+
+
+def test_an_elliptic_periodic_orbit_has_none():
+    orbits = symmetric_orbits(BALL, 0.01, 6)
+    one = orbits.isel(orbit=int(np.argmin(np.abs(orbits["trace"].values))))
+    state = [float(one[name][0]) for name in ("x", "xdot", "udot")]
+    found = lyapunov_spectrum(BALL, state, 60_000)["exponent"].values[-1]
+    assert np.max(np.abs(found)) < 5e-4
+
+
+@pytest.mark.parametrize(
+    ("impacts", "records"), [(1, 1), (7, 400), (1000, 7), (1000, 1), (999, 400)]
+)
+def test_history_ends_with_the_final_value_whatever_is_recorded(impacts, records):
+    state = BALL.start(0.6, 0.01)
+    found = lyapunov_spectrum(BALL, state, impacts, records)
+    at = found["impact"].values
+    assert at.dtype == np.int64
+    assert at.size == min(records, impacts)
+    assert at[-1] == impacts
+    assert np.all(np.diff(at) > 0)
+    assert at[0] > 0
+    assert found["exponent"].dims == ("impact", "index")
+    full = lyapunov_spectrum(BALL, state, impacts, records=impacts)
+    assert full["impact"].values.tolist() == list(range(1, impacts + 1))
+    # logarithms are summed in other groups: equal to roundings
+    expected = full["exponent"].values[at - 1]
+    assert np.max(np.abs(found["exponent"].values - expected)) < 1e-13
+    alone = lyapunov_spectrum(BALL, state, int(at[0]), records=1)
+    assert np.max(np.abs(alone["exponent"].values[-1] - found["exponent"].values[0])) < 1e-13
+
+
+@pytest.mark.parametrize(
+    ("shape", "dims"),
+    [((), ()), ((3,), ("orbit",)), ((1,), ("orbit",)), ((2, 2), ("orbit_0", "orbit_1"))],
+)
+def test_arrays_have_the_bits_of_scalars(shape, dims):
+    fractions = np.linspace(-0.5, 0.8, int(np.prod(shape))).reshape(shape)
+    x, xdot, udot = (np.asarray(a) for a in BALL.start(fractions, 0.01))
+    found = lyapunov_spectrum(BALL, (x, xdot, udot), 3000, records=10)["exponent"]
+    assert found.dims == ("impact", *dims, "index")
+    assert found.shape == (10, *shape, 3)
+    for i in np.ndindex(*shape):
+        alone = lyapunov_spectrum(BALL, (x[i], xdot[i], udot[i]), 3000, records=10)["exponent"]
+        assert bits(alone.values) == bits(found.values[(slice(None), *i)])
+
+
+def test_growth_beyond_the_range_of_doubles_is_no_trouble():
+    """Stretches between records far longer than what a product of lengths can hold."""
+    state = BALL.start(0.6, 0.01)
+    once = lyapunov_spectrum(BALL, state, 20_000, records=1)["exponent"].values[-1]
+    often = lyapunov_spectrum(BALL, state, 20_000, records=20_000)["exponent"].values[-1]
+    assert np.all(np.isfinite(once))
+    assert np.max(np.abs(once - often)) < 1e-13
+
+
+def test_a_scene_is_a_history_for_each_start():
+    starts = [0.6, 0.62]
+    found = scene_exponents(BALL, 0.01, starts, 500, 5)
+    assert found["exponent"].dims == ("impact", "orbit", "index")
+    assert found["exponent"].shape == (5, 2, 3)
+    assert found["start"].values.tolist() == starts
+    assert found["impact"].values.tolist() == [100, 200, 300, 400, 500]
+    for name in ("exponent", "start", "impact"):
+        assert found[name].attrs["units"] == "1"
+        assert found[name].attrs["long_name"]
+    alone = lyapunov_spectrum(BALL, BALL.start(0.62, 0.01), 500, 5)["exponent"].values
+    assert bits(alone) == bits(found["exponent"].values[:, 1])
+
+
+@pytest.mark.parametrize("field", ["impacts", "records"])
+@pytest.mark.parametrize("value", [0, -3, 2.5, True, float("nan"), float("inf"), None, "9"])
+def test_counts_that_are_none_are_refused(field, value):
+    with pytest.raises(ValueError, match=field):
+        lyapunov_spectrum(BALL, BALL.start(0.6, 0.01), **({"impacts": 10} | {field: value}))
+
+
+def test_a_state_off_the_section_is_refused_and_nan_stays_nan():
+    with pytest.raises(ValueError, match="xdot"):
+        lyapunov_spectrum(BALL, (0.1, -0.2, 0.1), 10)
+    found = lyapunov_spectrum(BALL, ([0.1, np.nan], 0.1, 0.1), 10)["exponent"].values
+    assert np.all(np.isfinite(found[:, 0]))
+    assert np.all(np.isnan(found[:, 1]))

@@ -1,0 +1,45 @@
+"""Branches of the period-six saddles at the paper's values."""
+
+import numpy as np
+import pytest
+
+from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid.periodic import of_type
+
+BALL, ENERGY = Ball(0.2, 0.04), 0.01
+
+
+@pytest.fixture(scope="module")
+def saddle():
+    return of_type(symmetric_orbits(BALL, ENERGY, 6), "hyperbolic")
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+def test_sides_and_bends_keep_their_promise(saddle, side):
+    branch = trace_manifold(BALL, ENERGY, saddle, side=side, length=2.0, distance=0.01, bend=10.0)
+    points = np.stack([branch[name].values for name in ("x", "xdot", "udot")])
+    assert np.all(points[:, 0] == [saddle[name].values[0] for name in ("x", "xdot", "udot")])
+    steps = np.diff(points, axis=1) / BALL.section(ENERGY)[1]
+    sides = np.sqrt(np.sum(steps**2, axis=0))
+    assert np.nanmax(sides) <= 0.01
+    cosine = np.sum(steps[:, 1:] * steps[:, :-1], axis=0) / (sides[1:] * sides[:-1])
+    drawn = np.maximum(sides[1:], sides[:-1]) > 1e-5
+    assert np.nanmin(cosine[drawn]) >= np.cos(np.radians(10.0)) - 1e-12
+    assert np.nansum(sides) == pytest.approx(2.0, abs=0.02)
+    assert branch.attrs["start_error"] < 1e-10
+
+
+def test_the_stable_branch_is_the_mirror_image(saddle):
+    unstable = trace_manifold(BALL, ENERGY, saddle, 1, length=0.5)
+    stable = trace_manifold(BALL, ENERGY, saddle, 0, stable=True, length=0.5)
+    mirrored = BALL.reflect(*(unstable[name].values for name in ("x", "xdot", "udot")))
+    # rounding may put one point more or less into the line; it is the same line
+    for mine, name in zip(mirrored, ("x", "xdot"), strict=False):
+        assert mine[:60] == pytest.approx(stable[name].values[:60], abs=1e-12)
+    assert mirrored[0][-1] == pytest.approx(stable["x"].values[-1], abs=0.01)
+
+
+def test_an_elliptic_orbit_has_none():
+    elliptic = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
+    with pytest.raises(ValueError, match="elliptic"):
+        trace_manifold(BALL, ENERGY, elliptic)
