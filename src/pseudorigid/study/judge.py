@@ -8,7 +8,7 @@ is that of a ball which excludes zero; where one does not, the precision is rais
 
 from flint import arb, ctx
 
-START_BITS, MOST_BITS = 256, 8192
+START_BITS, MOST_BITS = 384, 8192
 
 
 class _Undecided(Exception):
@@ -162,3 +162,25 @@ def _solve(f, low, high):
     if not (f.look(t - beside)[0] < 0 and f.look(t + beside)[0] > 0):
         raise _Undecided
     return t
+
+
+def flight_times(ball, x, xdot, udot):
+    """The proved tau of each state of the arrays (n,), rounded to a double."""
+    states = zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
+    return [float(first_root(ball.k, ball.g, *state)) for state in states]
+
+
+def orbit(ball, state, impacts):
+    """The orbit (impacts, 3) of a state, each impact from the one before to 512 bits, rounded at the end."""
+    k, g = arb(ball.k), arb(ball.g)
+    x, v, w = (arb(float(a)) for a in state)
+    rows = []
+    for _ in range(impacts):
+        tau = first_root(k, g, x, v, w)
+        ctx.prec = 512
+        f = _Gap(k, g, x, v, w)
+        sine, cosine = tau.sin_cos()
+        after = x * cosine - f.c * sine, f.b + g * tau, x * sine + f.c * cosine
+        x, v, w = (a.mid() for a in after)
+        rows.append((float(x), float(v), float(w)))
+    return rows
