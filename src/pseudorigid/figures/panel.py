@@ -98,9 +98,7 @@ class Panel:
         """Draw marks of `size` points, filled or hollow."""
         how = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
         across, up = self.place(x, y)
-        self.sheet.draw(
-            across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **how
-        )
+        self.sheet.draw(across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **how)
 
     def note(self, x, y, text, ha="left", va="center", shift=(0.0, 0.0)):
         """Write `text` beside a point, `shift` points away."""

@@ -25,9 +25,14 @@ LOOKS = {
     "heyoka, any direction": (style.PURPLE, "^"),
     "heyoka, positive direction": (style.GREEN, "^"),
 }
+# Where methods of one family are drawn apart, some need a colour of their own.
+SINGLE = {
+    "scan 0.1, 1e-03": "#ecc3da",
+    "scan 0.1, 1e-06": style.PURPLE,
+    "scan 0.1, 1e-09": "#8f4772",
+    "engine 1e-03": "#a86f00",
+}
 LEFT, RIGHT = 150, 1010
-# Named at their lines, where several have one colour.
-NAMED = ("certified march", "scan 0.5, 1e-12", "scan 0.1, 1e-03", "scan 0.1, 1e-06", "scan 0.1, 1e-09")
 
 
 def _look(family):
@@ -74,7 +79,10 @@ def work(data, which, cost):
         upper.dots(x, worst, color, hollow=True, marker=marker)
         upper.dots(x, median, color, marker=marker)
         if cost == "seconds":
-            spread = data["seconds_low"].values[places, which], data["seconds_high"].values[places, which]
+            spread = (
+                data["seconds_low"].values[places, which],
+                data["seconds_high"].values[places, which],
+            )
             for low, high, y in zip(*spread, median, strict=True):
                 upper.line([low, high], [y, y], color=color, lw=1.6)
         wrong = data["wrong"].values[places, which]
@@ -90,7 +98,7 @@ def work(data, which, cost):
 def edges(data):
     """Failing share against the distance from grazing, on both sides, and against the height of a maximum.
 
-    `data` is the artifact of fails.edges.
+    `data` is the artifact of fails.edges. Above x = -g a ball that grazes comes back at once, below it leaves.
     """
     count = data.sizes["method"]
     sheet = Sheet(style.COLUMN, 975 + 75 * (-(-(-(-count // 2) * 42) // 75)))
@@ -98,7 +106,13 @@ def edges(data):
     middle = 40
     half = (RIGHT - LEFT - middle) / 2
     grazing = ("near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0))
-    touch = ("touch", "depth", ("it touches", "it passes by"), "Distance of the gap's top from 0", (-14, -2))
+    touch = (
+        "touch",
+        "depth",
+        ("it just touches", "it just misses"),
+        "Height of the gap's maximum, + or −",
+        (-14, -2),
+    )
     for row, (variable, along, sides, name, limits) in enumerate((grazing, touch)):
         values = np.array([float(f"1e-{int(e)}") for e in data[along].values])
         ticks = tuple(range(limits[0], limits[1], 4))
@@ -106,21 +120,30 @@ def edges(data):
             left = LEFT + side * (half + middle)
             frame = (left, top - 300 - row * 450, left + half, top - row * 450)
             up = Axis((0, 1), (0, 0.5, 1), "", labels=None if side == 0 else ("", "", ""))
-            panel = Panel(sheet, frame, Axis(limits, ticks, name if side else "", True), up)
-            text = f"Fail: {sides[side]}" if side == 0 else sides[side]
+            panel = Panel(sheet, frame, Axis(limits, ticks, "", True), up)
+            text = f"Share failing, {sides[side]}" if side == 0 else sides[side]
+            if side:
+                x, y = left - middle / 2, frame[1] - 16 * POINT
+                sheet.text(x, y, name, ha="center", va="top", size=7.0)
             sheet.text(left, frame[3] + 4 * POINT, text, ha="left", va="bottom", size=7.0)
             for i in range(count):
-                color, marker = _look(str(data["family"].values[i]))
+                color, marker = _one(data, i)
                 share = data[variable].values[i, side]
                 panel.line(values, share, color=color, lw=0.9)
                 panel.dots(values, share, color, size=2.6, marker=marker)
-    entries = [(str(name), *_look(str(f)), False) for name, f in zip(data["name"].values, data["family"].values, strict=True)]
-    key(sheet, entries, 60, top - 890, 960, 2)
+    key(sheet, _methods(data), 60, top - 890, 960, 2)
     return sheet.figure
 
 
-def _method_entries(data, places):
-    return [(str(data["name"].values[i]), *_look(str(data["family"].values[i])), False) for i in places]
+def _one(data, i):
+    """Colour and mark of one method."""
+    color, marker = _look(str(data["family"].values[i]))
+    return SINGLE.get(str(data["name"].values[i]), color), marker
+
+
+def _methods(data):
+    """The key's entries, one a method."""
+    return [(str(name), *_one(data, i), False) for i, name in enumerate(data["name"].values)]
 
 
 @style.pinned()
@@ -132,27 +155,44 @@ def energy(data):
     sheet = Sheet(style.COLUMN, 1350)
     top = sheet.high - 70
     count = Axis((0, 6), tuple(range(7)), "Impacts", True)
-    drift = Axis((-17, 1), tuple(range(-16, 1, 4)), "Largest relative error of the energy so far", True)
+    drift = Axis(
+        (-17, 1), tuple(range(-16, 1, 4)), "Largest relative error of the energy so far", True
+    )
     upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), count, drift)
-    across = Axis((-13, 1), tuple(range(-12, 1, 2)), "Largest relative error of the energy after all impacts", True)
-    missed_axis = Axis((-1, 4), tuple(range(-1, 5)), "Impacts missed in a million", True, ("0", *(rf"$10^{e}$" for e in range(5))))
+    across = Axis(
+        (-13, 1),
+        tuple(range(-12, 1, 2)),
+        "Largest relative error of the energy after all impacts",
+        True,
+    )
+    missed_axis = Axis(
+        (-1, 4),
+        tuple(range(-1, 5)),
+        "Impacts missed in a million",
+        True,
+        ("0", *(rf"$10^{e}$" for e in range(5))),
+    )
     lower = Panel(sheet, (LEFT, 330, RIGHT, 670), across, missed_axis)
     x0, y0 = lower.place(1e-13, 0.1)
     x1, y1 = lower.place(1e-6, 1e4)
     left, right, bottom, up = float(x0[0]), float(x1[0]), float(y0[0]), float(y1[0])
-    sheet.draw([(left + right) / 2] * 2, [bottom, up], lw=(right - left) / POINT, color="#fbeedd", zorder=0.1)
-    for i, family in enumerate(data["family"].values):
-        color, marker = _look(str(family))
+    sheet.draw(
+        [(left + right) / 2] * 2,
+        [bottom, up],
+        lw=(right - left) / POINT,
+        color="#fbeedd",
+        zorder=0.1,
+    )
+    for i in range(data.sizes["method"]):
+        color, marker = _one(data, i)
         values = data["drift"].values[i]
         upper.line(data["record"].values, np.maximum(values, 1e-17), color=color, lw=0.9)
         missed = max(float(data["missed"].values[i]), 0.1)
         lower.dots(values[-1], missed, color, marker=marker)
-        if str(data["name"].values[i]) in NAMED:
-            upper.note(1.3, max(values[0], 1e-17), str(data["name"].values[i]), va="bottom", shift=(0, 1))
         if i in (0, 1):
             lower.note(values[-1], missed, str(data["name"].values[i]), shift=(3, 3.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
-    key(sheet, _method_entries(data, range(data.sizes["method"])), 60, 190, 960, 3)
+    key(sheet, _methods(data), 60, 190, 960, 3)
     return sheet.figure
 
 
@@ -162,17 +202,15 @@ def apart(data):
     sheet = Sheet(style.COLUMN, 975)
     top = sheet.high - 70
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = Axis((-17, 0), tuple(range(-16, 1, 4)), "Median distance in $x$ from the proved orbit", True)
+    up = Axis(
+        (-17, 0), tuple(range(-16, 1, 4)), "Median distance in $x$ from the proved orbit", True
+    )
     panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
-    for i, family in enumerate(data["family"].values):
-        color, _ = _look(str(family))
+    for i in range(data.sizes["method"]):
+        color, _ = _one(data, i)
         values = np.maximum(data["apart"].values[i], 1e-17)
         panel.line(data["impact"].values, values, color=color, lw=0.9)
-        if str(data["name"].values[i]) in NAMED:
-            at = int(np.argmax(values > 1e-4))
-            height = values[max(at - 20, 0)]
-            panel.note(data["impact"].values[max(at - 20, 0)] + 3, height, str(data["name"].values[i]), va="top")
-    key(sheet, _method_entries(data, range(data.sizes["method"])), 60, top - 740, 960, 3)
+    key(sheet, _methods(data), 60, top - 740, 960, 3)
     return sheet.figure
 
 
@@ -189,7 +227,9 @@ def needs(data):
     names = tuple(str(name) for name in data["scene"].values)
     rows = tuple(scenes - 0.5 - i for i in range(scenes))
     up = Axis((0, scenes), rows, "", False, names)
-    across = Axis((-14, 6), tuple(range(-12, 5, 4)), "Error of the picture / what it can hide", True)
+    across = Axis(
+        (-14, 6), tuple(range(-12, 5, 4)), "Error of the picture / what it can hide", True
+    )
     panel = Panel(sheet, (110, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=6.0)
@@ -203,9 +243,18 @@ def needs(data):
         best = int(data["cheapest"].values[i])
         others = [j for j in np.flatnonzero(data["good"].values[i]) if j != best]
         y = float(panel.place(1.0, rows[i])[1][0])
-        sheet.text(740, y + 12, f"{data['name'].values[best]} {cost[best]:.1f}", ha="left", va="center", size=6.0)
+        sheet.text(
+            740,
+            y + 12,
+            f"{data['name'].values[best]} {cost[best]:.1f}",
+            ha="left",
+            va="center",
+            size=6.0,
+        )
         second = min(others, key=lambda j: cost[j], default=None)
-        text = "no other" if second is None else f"{data['name'].values[second]}: {cost[second]:.0f}"
+        text = (
+            "no other" if second is None else f"{data['name'].values[second]}: {cost[second]:.0f}"
+        )
         sheet.text(740, y - 14, text, ha="left", va="center", size=6.0)
     entries = [(family, *_look(family), False) for family, _ in _families(data)]
     entries.append(("impacts missed", style.FRAME, "o", True))

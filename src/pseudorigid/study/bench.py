@@ -81,8 +81,20 @@ def run(repetitions=REPETITIONS):
         ("heyoka, default tolerance", "heyoka", "orbit", "one orbit", "at least 25"),
         ("solve_ivp DOP853, rtol 1e-9", "DOP853", "orbit", "one orbit", "at least 2000"),
         ("spectrum by pynamicalsys", "pynamicalsys", "spectrum", "spectrum here", "at least 3"),
-        ("ensemble, the end only", "ensemble", "three sincos", "one dependent sincos", "at most 1.2"),
-        ("ensemble, every impact stored", "stored", "three sincos", "one dependent sincos", "at most 1.6"),
+        (
+            "ensemble, the end only",
+            "ensemble",
+            "three sincos",
+            "one dependent sincos",
+            "at most 1.2",
+        ),
+        (
+            "ensemble, every impact stored",
+            "stored",
+            "three sincos",
+            "one dependent sincos",
+            "at most 1.6",
+        ),
     ]
     lines = [f"{'':34}{'ns an impact':>24}  {'ratio':>9}  {'to':24}aim"]
     for text, name, base, base_text, aim in rows:
@@ -91,7 +103,9 @@ def run(repetitions=REPETITIONS):
         middle, low, high = each[name]
         spread = f"{middle:.4g} ({low:.4g}-{high:.4g})"
         lines.append(f"{text:34}{spread:>24}  {ratio:9.4g}  {base_text:24}{aim}")
-    lines.append(f"three dependent sincos: {each['three sincos'][0]:.1f} ns; spectrum here: {each['spectrum'][0]:.0f} ns")
+    lines.append(
+        f"three dependent sincos: {each['three sincos'][0]:.1f} ns; spectrum here: {each['spectrum'][0]:.0f} ns"
+    )
     lines.append(", ".join(f"{key} {value}" for key, value in machine().items()))
     return lines
 

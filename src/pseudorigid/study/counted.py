@@ -92,9 +92,7 @@ def flight(kind, step, tolerance, x, v, w, k, g, head, low):
 def _flights(kind, step, tolerance, x, v, w, k, g, tau, count):
     head, low = kernel.transfer(k)
     for i in range(x.size):
-        tau[i], _, _, _, count[i] = flight(
-            kind, step, tolerance, x[i], v[i], w[i], k, g, head, low
-        )
+        tau[i], _, _, _, count[i] = flight(kind, step, tolerance, x[i], v[i], w[i], k, g, head, low)
 
 
 @jit
@@ -181,7 +179,9 @@ OURS = Counted("certified march", "certified march", EXACT)
 
 def scan_method(step, tolerance):
     """The paper's method with this step and tolerance."""
-    return Counted(f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection", SCAN, step, tolerance)
+    return Counted(
+        f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection", SCAN, step, tolerance
+    )
 
 
 def engine_method(step):

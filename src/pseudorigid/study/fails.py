@@ -20,7 +20,11 @@ AGREE_IMPACTS = 170
 AGREE_STARTS = 15
 APART = 1e-3  # of x: by then the eye sees it
 
-EDGE_METHODS = (own.OURS, *(own.scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01)), own.engine_method(1e-3))
+EDGE_METHODS = (
+    own.OURS,
+    *(own.scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01)),
+    own.engine_method(1e-3),
+)
 ORBIT_METHODS = (
     own.OURS,
     *(own.scan_method(step, 1e-12) for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)),
@@ -43,15 +47,23 @@ def edges(methods, count=200):
         for i, exponent in enumerate(DISTANCES):
             near[:, j, i] = _shares(methods, states.distance(exponent, side, count))
         for i, exponent in enumerate(DEPTHS):
-            touch[:, j, i] = _shares(methods, states.near_miss(side * float(f"1e-{exponent}"), count))
+            touch[:, j, i] = _shares(
+                methods, states.near_miss(side * float(f"1e-{exponent}"), count)
+            )
     return xr.Dataset(
         named(methods)
         | {
             "near": _var(("method", "side", "distance"), near, "failing share, by xdot + udot"),
-            "touch": _var(("method", "side", "depth"), touch, "failing share, by height of a maximum"),
+            "touch": _var(
+                ("method", "side", "depth"), touch, "failing share, by height of a maximum"
+            ),
             "side": _var("side", [1, -1], "sign of x + g, and of the maximum's height"),
-            "distance": _var("distance", list(DISTANCES), "minus the decimal exponent of xdot + udot"),
-            "depth": _var("depth", list(DEPTHS), "minus the decimal exponent of the maximum's height"),
+            "distance": _var(
+                "distance", list(DISTANCES), "minus the decimal exponent of xdot + udot"
+            ),
+            "depth": _var(
+                "depth", list(DEPTHS), "minus the decimal exponent of the maximum's height"
+            ),
         },
         attrs={"states": count},
     )
@@ -95,9 +107,13 @@ def orbits(impacts=MILLION):
             "evaluations": _var("method", evaluations, "evaluations an impact"),
             "drift": _var(("method", "record"), drift, "largest relative error of the energy"),
             "record": _var("record", records, "number of impacts"),
-            "apart": _var(("method", "impact"), apart, "median distance in x from the judge's orbit"),
+            "apart": _var(
+                ("method", "impact"), apart, "median distance in x from the judge's orbit"
+            ),
             "impact": _var("impact", every, "number of impacts"),
-            "agree": _var(("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
+            "agree": _var(
+                ("one", "other"), agree, "impacts until two orbits are apart, the judge's last"
+            ),
         },
         attrs={"impacts": impacts, "apart": APART},
     )

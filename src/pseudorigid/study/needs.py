@@ -93,19 +93,31 @@ def _row(block, name, artifacts):
         plane = Plane(block, ("t", "displacement"), ("", ""))
         size = _pixels(plane)
         values = _motion(ball, artifacts["periodic", name], block, size)
-        return *values[:3], (size[1], 300 / 72 * size[1], _digit(block, "displacement")), values[3], 1.0
+        return (
+            *values[:3],
+            (size[1], 300 / 72 * size[1], _digit(block, "displacement")),
+            values[3],
+            1.0,
+        )
     if block["picture"] == "exponents":
         plane = Plane(block, ("impact", "exponent"), ("", ""), right=84)
         pixel = _pixels(plane)[1]
         values = _exponents(ball, energy, block, pixel)
         limit = SCATTER / math.sqrt(len(block["starts"])) / pixel
-        return *values[:3], (pixel, 0.8 * 300 / 72 * pixel, _digit(block, "exponent")), values[3], limit
+        return (
+            *values[:3],
+            (pixel, 0.8 * 300 / 72 * pixel, _digit(block, "exponent")),
+            values[3],
+            limit,
+        )
     if block["picture"] == "tangle":
         pixel, axis, width = 1.0 / Box(block).view.scale, "x", 0.5
     else:
         pixel = _pixels(Plane(block, ("x", "xdot"), ("", ""), high=900, right=75))[0]
         axis, width = "x", 0.5
-    values = _branches(ball, artifacts["periodic", name], artifacts["manifolds", name], block, pixel)
+    values = _branches(
+        ball, artifacts["periodic", name], artifacts["manifolds", name], block, pixel
+    )
     return *values[:3], (pixel, width * 300 / 72 * pixel, _digit(block, axis)), values[3], 1.0
 
 

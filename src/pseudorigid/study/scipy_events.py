@@ -24,7 +24,9 @@ def launched(ball, x, xdot, udot):
 
 def each(one, ball, x, xdot, udot):
     """(tau, evaluations) for arrays of states from a function of one state, as these libraries take them."""
-    found = [one(ball, *state) for state in zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)]
+    found = [
+        one(ball, *state) for state in zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
+    ]
     tau, count = zip(*found, strict=True)
     return np.array(tau, dtype=float), np.array(count, dtype=np.int64)
 
@@ -65,7 +67,9 @@ class ScanBrentq:
                         return low, count + 1
                 if gap(low) >= 0.0:
                     return low, count + 1
-                root, how = brentq(gap, low, high, xtol=self.tolerance, rtol=1e-15, full_output=True)
+                root, how = brentq(
+                    gap, low, high, xtol=self.tolerance, rtol=1e-15, full_output=True
+                )
                 return root, count + how.function_calls
             count += t.size
             start = float(t[-1])
@@ -128,7 +132,9 @@ class Ivp:
 
 def brentq_method(step, tolerance):
     """Scan with this step, brentq to this tolerance."""
-    return ScanBrentq(step, tolerance, f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq")
+    return ScanBrentq(
+        step, tolerance, f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq"
+    )
 
 
 def ivp_method(solver, rtol, max_step=math.inf):

@@ -40,7 +40,9 @@ class Taylor:
         """
         ta = _integrator(ball.g, self.tolerance, self.direction)
         tau, count = np.empty(x.size), np.empty(x.size, np.int64)
-        for i, (position, v, w) in enumerate(zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)):
+        for i, (position, v, w) in enumerate(
+            zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
+        ):
             b, c, end = launched(ball, position, v, w)
             ta.reset_cooldowns()
             ta.time = AFTER

@@ -31,5 +31,7 @@ def spectrum(ball, state, impacts):
         mapping=_mapping, jacobian=_jacobian, system_dimension=3, number_of_parameters=2
     )
     return np.asarray(
-        system.lyapunov([float(a) for a in state], impacts, parameters=[ball.k, ball.g], method="QR")
+        system.lyapunov(
+            [float(a) for a in state], impacts, parameters=[ball.k, ball.g], method="QR"
+        )
     )
