@@ -1,4 +1,4 @@
-"""A plane frame with linear or decade axes, several of which may share a sheet: the charts of the study."""
+"""A frame with linear or decade axes, several of which may share a sheet."""
 
 from dataclasses import dataclass
 
@@ -115,7 +115,7 @@ class Panel:
 
 
 def key(sheet, entries, left, top, width, columns):
-    """Name the marks: entries of (text, colour, marker, hollow) in rows from the top left, as wide as `width`."""
+    """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left."""
     for i, (text, color, marker, hollow) in enumerate(entries):
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * _SIZE * POINT

@@ -49,10 +49,10 @@ def _families(data):
 
 @style.pinned()
 def work(data, which, cost):
-    """Error and failures against cost over the states of set `which`; cost is "evaluations" or "seconds".
+    """Error and failures against cost ("evaluations" or "seconds") over the states of set `which`.
 
-    `data` is the artifact of work.counted or work.measured. Filled: the median error; hollow: the worst
-    of the right roots; below: the share of wrong roots.
+    `data` is the artifact of work.counted or work.measured. Filled: the median error; hollow: the
+    worst of the right roots; below: the share of wrong roots.
     """
     families = [(family, np.array(places)) for family, places in _families(data)]
     rows = -(-len(families) // 2) + 1
@@ -96,9 +96,10 @@ def work(data, which, cost):
 
 @style.pinned()
 def edges(data):
-    """Failing share against the distance from grazing, on both sides, and against the height of a maximum.
+    """Failing share against the distance from grazing, and against the height of a maximum.
 
-    `data` is the artifact of fails.edges. Above x = -g a ball that grazes comes back at once, below it leaves.
+    `data` is the artifact of fails.edges. Above x = -g a ball that grazes comes back at once,
+    below it leaves.
     """
     count = data.sizes["method"]
     sheet = Sheet(style.COLUMN, 975 + 75 * (-(-(-(-count // 2) * 42) // 75)))
@@ -150,7 +151,8 @@ def _methods(data):
 def energy(data):
     """Energy drift along each method's orbit, and impacts missed against the drift at its end.
 
-    `data` is the artifact of fails.orbits. In the shaded part the energy is kept to 1e-6: a check sees nothing.
+    `data` is the artifact of fails.orbits. In the shaded part the energy is kept to 1e-6: a check
+    sees nothing.
     """
     sheet = Sheet(style.COLUMN, 1350)
     top = sheet.high - 70

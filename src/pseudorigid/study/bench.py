@@ -1,4 +1,4 @@
-"""Ratios of speed, measured in one run: every pair of numbers is taken in turn, and medians are compared.
+"""Ratios of speed: medians of repetitions taken in turn, in one run.
 
 `run` returns rows of text; nothing here enters a figure. One thread throughout.
 """
@@ -7,6 +7,7 @@ import os
 import platform
 import statistics
 import time
+from functools import cache
 from importlib.metadata import version
 
 import numpy as np
@@ -103,9 +104,8 @@ def run(repetitions=REPETITIONS):
         middle, low, high = each[name]
         spread = f"{middle:.4g} ({low:.4g}-{high:.4g})"
         lines.append(f"{text:34}{spread:>24}  {ratio:9.4g}  {base_text:24}{aim}")
-    lines.append(
-        f"three dependent sincos: {each['three sincos'][0]:.1f} ns; spectrum here: {each['spectrum'][0]:.0f} ns"
-    )
+    chain, spectrum = each["three sincos"][0], each["spectrum"][0]
+    lines.append(f"three dependent sincos: {chain:.1f} ns; spectrum here: {spectrum:.0f} ns")
     lines.append(", ".join(f"{key} {value}" for key, value in machine().items()))
     return lines
 
@@ -142,17 +142,25 @@ def _ensemble(lanes, impacts):
     kernel.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
 
 
-def _stored(lanes, impacts, _out={}):  # noqa: B006  (kept between calls: fresh pages are not the method's cost)
+def _stored(lanes, impacts):
     x, v, w = _many(lanes)
-    out = _out.setdefault((lanes, impacts), np.empty((4, impacts, lanes)))
-    kernel.history(x, v, w, states.BALL.k, states.BALL.g, out)
+    kernel.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
 
 
-def _many(lanes, _kept={}):  # noqa: B006
-    if lanes not in _kept:
-        fractions = 0.52 + 0.1 * (np.arange(lanes) / lanes)
-        _kept[lanes] = states.BALL.start(fractions, states.ENERGY)
-    return tuple(np.array(a) for a in _kept[lanes])
+@cache
+def _room(lanes, impacts):
+    """Memory for a history, kept between calls: fresh pages are not the method's cost."""
+    return np.empty((4, impacts, lanes))
+
+
+def _many(lanes):
+    """Chaotic states, in arrays that may be written into."""
+    return tuple(np.array(a) for a in _start(lanes))
+
+
+@cache
+def _start(lanes):
+    return states.BALL.start(0.52 + 0.1 * (np.arange(lanes) / lanes), states.ENERGY)
 
 
 def _along(state, count):

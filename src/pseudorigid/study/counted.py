@@ -1,4 +1,4 @@
-"""Methods compiled with this package's arithmetic: their flight times and counts are part of the byte contract.
+"""Methods in this package's arithmetic: their results are part of the byte contract.
 
 Each finds the flight that follows an impact at x with velocities b, c (and s = -(b + c), its exact
 sum) and returns (tau, x', xdot', udot', evaluations of the gap). Three kinds:
@@ -20,7 +20,7 @@ from ..arithmetic import sincos
 from ..compiled import jit
 
 EXACT, SCAN, ENGINE = 0, 1, 2
-# A flight of the paper's ball takes 3 time units; a method that needs more steps than this gives up.
+# A flight takes some 3 time units; a method that needs more steps than this gives up.
 MOST = 50_000_000
 
 
@@ -47,7 +47,7 @@ def scan(x, b, c, g, step, tolerance):
             return math.nan, count
     while high - low > tolerance:
         middle = 0.5 * (low + high)
-        if middle == low or middle == high:
+        if middle in (low, high):
             break
         count += 1
         if gap(middle, x, b, c, g) > 0.0:
@@ -59,7 +59,7 @@ def scan(x, b, c, g, step, tolerance):
 
 @jit
 def engine(x, b, c, g, step):
-    """(tau, x', xdot', udot', steps): positions and velocities in time steps, as an engine has them."""
+    """(tau, x', xdot', udot', steps): positions and velocities as an engine has them."""
     position, strain, v, w = x, -x, b, c
     count = 0
     while True:
@@ -122,7 +122,7 @@ def _orbit(kind, step, tolerance, x, v, w, k, g, at, out):
 
 @jit
 def _missed(kind, step, tolerance, x, v, w, k, g, impacts):
-    """How often the method flies past the impact of the certified orbit from x, v, w: (missed, evaluations)."""
+    """How often it flies past an impact of the certified orbit: (missed, evaluations)."""
     head, low = kernel.transfer(k)
     missed = 0
     count = 0
@@ -137,7 +137,7 @@ def _missed(kind, step, tolerance, x, v, w, k, g, impacts):
 
 @jit
 def wrong(tau, truth):
-    """Whether tau is another root, or none: off by more than a tenth of the flight and of a time unit."""
+    """Whether tau is off by more than a tenth of the flight or of a time unit, or NaN."""
     return not abs(tau - truth) <= 0.1 * min(truth, 1.0)
 
 
@@ -152,21 +152,21 @@ class Counted:
     tolerance: float = 0.0
 
     def solve(self, ball, x, xdot, udot):
-        """(tau, evaluations) for arrays (n,) of states just before an impact; NaN where none is found."""
+        """(tau, evaluations) for arrays (n,) of states; NaN where none is found."""
         tau = np.empty(x.size)
         count = np.empty(x.size, np.int64)
         _flights(*self._how, x, xdot, udot, ball.k, ball.g, tau, count)
         return tau, count
 
     def orbit(self, ball, state, at):
-        """This method's own orbit: (x, xdot, udot, largest relative energy error) after `at` impacts, evaluations."""
+        """Its own orbit: (x, xdot, udot, largest energy error) after `at` impacts; evaluations."""
         at = np.asarray(at, np.int64)
         out = np.empty((at.size, 4))
         count = _orbit(*self._how, *(float(a) for a in state), ball.k, ball.g, at, out)
         return out, count
 
     def missed(self, ball, state, impacts):
-        """On the certified orbit from `state`: impacts for which this method gives another root, and evaluations."""
+        """(impacts of the certified orbit for which it gives another root, evaluations)."""
         return _missed(*self._how, *(float(a) for a in state), ball.k, ball.g, impacts)
 
     @property

@@ -1,7 +1,7 @@
 """Where methods fail: near grazing, near misses, on the chaotic orbit, and in energy and agreement.
 
-`edges` works with any methods; `orbits` with the compiled ones, whose orbits it follows for a million
-impacts. A failure is a wrong root as in `work.is_wrong`.
+`edges` works with any methods; `orbits` with the compiled ones, whose orbits it follows for a
+million impacts. A failure is a wrong root as in `work.is_wrong`.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from .work import is_wrong, named
 DISTANCES = range(13)  # s = 1 ... 1e-12
 DEPTHS = range(2, 15)  # 1e-2 ... 1e-14
 MILLION = 1_000_000
-RECORDS = tuple(m * 10**e for e in range(6) for m in (1, 2, 5)) + (MILLION,)
+RECORDS = (*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION)
 AGREE_IMPACTS = 170
 AGREE_STARTS = 15
 APART = 1e-3  # of x: by then the eye sees it
@@ -39,8 +39,11 @@ def _var(dims, values, text):
 
 
 def edges(methods, count=200):
-    """Dataset: failing share of `count` states against s = xdot + udot (method, side, distance) and against
-    the height of a maximum of the gap (method, sign, depth); None-answers and wrong roots alike."""
+    """Dataset: share of `count` states that fail, no answers and wrong roots alike.
+
+    near (method, side, distance): against s = xdot + udot; touch (method, side, depth): against
+    the height of a maximum of the gap.
+    """
     near = np.empty((len(methods), 2, len(DISTANCES)))
     touch = np.empty((len(methods), 2, len(DEPTHS)))
     for j, side in enumerate((1, -1)):
@@ -77,10 +80,11 @@ def _shares(methods, columns):
 def orbits(impacts=MILLION):
     """Dataset of the compiled methods along the chaotic orbit.
 
-    missed: impacts of the certified orbit that the method flies past; drift (method, record): the largest
-    relative error of the energy so far on the method's own orbit; apart (method, impact): median over
-    starts of the distance in x between the method's orbit and the judge's; agree (method, method):
-    for how many impacts two methods' orbits stay within APART, the last row and column the judge's.
+    missed: impacts of the certified orbit that the method flies past; drift (method, record): the
+    largest relative error of the energy so far on the method's own orbit; apart (method, impact):
+    median over starts of the distance in x between the method's orbit and the judge's; agree
+    (method, method): for how many impacts two methods' orbits stay within APART, the last row and
+    column the judge's.
     """
     methods = ORBIT_METHODS
     records = [n for n in RECORDS if n <= impacts]
@@ -127,7 +131,7 @@ def _agreement(one, other):
 
 
 def sampled(methods, count):
-    """Dataset: impacts missed per million by any methods on every 50th of the chaotic orbit's first states."""
+    """Dataset: impacts missed per million by any methods, on every 50th chaotic state."""
     columns = np.empty((3, count))
     x, v, w = (np.array([a]) for a in states.chaotic())
     tau = np.empty(1)

@@ -1,9 +1,10 @@
 """The judge: the first root of the gap, proved in ball arithmetic (Arb, through python-flint).
 
 Between two inflections, whose times are known in closed form, f' is monotone. On a convex piece
-that starts below zero there is a root if and only if the far end is above zero, and only one. On a concave
-piece a root needs f' > 0 at the start, and is then before the maximum, whose height decides. Every sign
-is that of a ball which excludes zero; where one does not, the precision is raised.
+that starts below zero there is a root if and only if the far end is above zero, and only one. On
+a concave piece a root needs f' > 0 at the start, and is then before the maximum, whose height
+decides. Every sign is that of a ball which excludes zero; where one does not, the precision is
+raised.
 """
 
 from flint import arb, ctx
@@ -11,7 +12,7 @@ from flint import arb, ctx
 START_BITS, MOST_BITS = 384, 8192
 
 
-class _Undecided(Exception):
+class _UndecidedError(Exception):
     pass
 
 
@@ -22,7 +23,7 @@ def _sign(value):
         return -1
     if value == 0:
         return 0
-    raise _Undecided
+    raise _UndecidedError
 
 
 class _Gap:
@@ -41,7 +42,7 @@ class _Gap:
         return self.x + t * (self.b + self.g * t / 2) - p, self.b + self.g * t + q, self.g + p
 
     def inflections(self):
-        """The times of f'' = 0 after 0, in order, as a function of the index; None if there are none."""
+        """The times of f'' = 0 after 0 as a function of the index; None if there are none."""
         if not self.amplitude > self.g:
             return None
         phase = arb.atan2(self.c, self.x)
@@ -63,7 +64,7 @@ class _Gap:
 
 
 def first_root(k, g, x, v, w):
-    """The smallest t > 0 with f(t) = 0 as an exact number (within 2**-150 of it, relative), for floats or balls.
+    """The smallest t > 0 with f(t) = 0, to within 2**-150, for floats or balls.
 
     Raises ArithmeticError where a root is double beyond MOST_BITS.
     """
@@ -72,7 +73,7 @@ def first_root(k, g, x, v, w):
         ctx.prec = bits
         try:
             return _first_root(*(arb(a) for a in (k, g, x, v, w)))
-        except _Undecided:
+        except _UndecidedError:
             bits *= 2
     raise ArithmeticError("the judge cannot tell a touch from a miss")
 
@@ -139,7 +140,7 @@ def _bisect(up, low, high):
 
 
 def _top(f, low, high):
-    """The maximum of a concave piece, accurate enough for the sign of f there (f' = 0, so errors enter squared)."""
+    """The time of a concave piece's maximum; its errors enter f squared."""
     low, high = _bisect(lambda t: f.look(t)[1] < 0, low.mid(), high.mid())
     t = ((low + high) / 2).mid()
     for _ in range(6):
@@ -156,11 +157,11 @@ def _solve(f, low, high):
     for _ in range(12):
         value, df, _ = f.look(t)
         if not df > 0:
-            raise _Undecided
+            raise _UndecidedError
         t = (t - value / df).mid()
     beside = t * arb(2) ** -150
     if not (f.look(t - beside)[0] < 0 and f.look(t + beside)[0] > 0):
-        raise _Undecided
+        raise _UndecidedError
     return t
 
 
@@ -171,7 +172,7 @@ def flight_times(ball, x, xdot, udot):
 
 
 def orbit(ball, state, impacts):
-    """The orbit (impacts, 3) of a state, each impact from the one before to 512 bits, rounded at the end."""
+    """The orbit (impacts, 3) of a state, computed to 512 bits, rounded at the end."""
     k, g = arb(ball.k), arb(ball.g)
     x, v, w = (arb(float(a)) for a in state)
     rows = []

@@ -1,4 +1,4 @@
-"""What a scene needs: what each method does to each picture, in pixels, against the cheapest that does not show.
+"""What a scene needs: what each method does to each picture, in pixels, and at what cost.
 
 For each scene and each compiled method: the error of the picture, the impacts missed, and the
 evaluations spent. What counts as error depends on the picture:
@@ -6,13 +6,14 @@ evaluations spent. What counts as error depends on the picture:
     portrait  the drift of the energy over each orbit, as a change of the section's radius: it moves
               every curve; along a curve points may slide unseen
     motion    the error of height and time at the impacts, against the judge's orbit
-    tangle, closeup  the error of one impact at the saddle and on its branches, times 1/(1 - 1/m) for the
-              multiplier m an impact: across a branch errors shrink by 1/m each impact, along it they
-              do not show
+    tangle, closeup
+              the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of
+              an impact: across a branch errors shrink by 1/m each impact, along it they do not
+              show
     exponents the change of the largest exponent, averaged over the orbits
 
-A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the energy says.
-The mean exponent of a long orbit does not.
+A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the
+energy says. The mean exponent of a long orbit does not.
 """
 
 import math
@@ -39,13 +40,13 @@ METHODS = (
     own.engine_method(1e-3),
     own.engine_method(1e-4),
 )
-# One exponent after 2e5 impacts scatters by this much between orbits (design of the figure, not of a method).
+# The scatter between orbits of an exponent after 2e5 impacts, whatever the method.
 SCATTER = 0.004
 BRANCH_POINTS = 2000  # of a manifold, evenly by index
 
 
 def needs(scenes, artifacts):
-    """Dataset (scene, method): error in pixels, missed impacts, evaluations; and what each scene shows.
+    """Dataset (scene, method): error in pixels, missed impacts, evaluations; what is shown.
 
     Args:
         scenes: the checked config's.

@@ -1,4 +1,4 @@
-"""What the study consists of: data files, which of them are the same everywhere, and charts. Cheap to import."""
+"""What the study consists of: data, which of them are the same everywhere, and charts."""
 
 # Data whose bytes are part of the contract, and measurements.
 FIXED = ("work", "edges", "orbits", "needs")

@@ -1,4 +1,4 @@
-"""Rivals from scipy: a scan refined by brentq, and solve_ivp with a terminal event. Their results are measurements."""
+"""Rivals from scipy: a scan refined by brentq, and solve_ivp with a terminal event."""
 
 import math
 from dataclasses import dataclass
@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from .. import impact as kernel
 
-# Event detection looks for a change of sign, and a flight begins on the surface where the sign is 0:
-# it is started this much later, on the exact flight.
+# Event detection looks for a change of sign, and a flight begins on the surface where the sign is
+# 0: it is started this much later, on the exact flight.
 AFTER = 1e-9
 FIRST_STEP = 1e-2
 
@@ -23,7 +23,7 @@ def launched(ball, x, xdot, udot):
 
 
 def each(one, ball, x, xdot, udot):
-    """(tau, evaluations) for arrays of states from a function of one state, as these libraries take them."""
+    """(tau, evaluations) for arrays of states from a function of one state."""
     found = [
         one(ball, *state) for state in zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
     ]
@@ -33,7 +33,7 @@ def each(one, ball, x, xdot, udot):
 
 @dataclass(frozen=True)
 class ScanBrentq:
-    """A vectorised scan for the first change of sign, 64 steps at a time, refined by scipy.optimize.brentq."""
+    """A vectorised scan, 64 steps at a time, refined by scipy.optimize.brentq."""
 
     step: float
     tolerance: float

@@ -1,4 +1,4 @@
-"""The states on which methods are compared, the same on every machine (numpy's generator, + - * / sqrt only)."""
+"""The states on which methods are compared, the same on every machine."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ CHAOTIC = 0.534522  # Figure 2's start in the sea, in section radii
 
 
 def uniform(count, seed=1):
-    """States drawn uniformly from the section in its canonical coordinates, where the map keeps areas."""
+    """States uniform on the section in its canonical coordinates, where the map keeps areas."""
     random = np.random.default_rng(seed)
     centre, radius = BALL.section(ENERGY)
     states = []
@@ -25,7 +25,7 @@ def uniform(count, seed=1):
 
 
 def grazing(count, smallest=12, seed=2):
-    """States with s = xdot + udot between 1e-12 and 1e-2, spread evenly over its decades, on both sides of x = -g."""
+    """States with s = xdot + udot from 1e-12 to 1e-2, evenly by decade, on both sides of x = -g."""
     random = np.random.default_rng(seed)
     side = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
     decade = 3 + random.integers(0, smallest - 2, count)

@@ -36,7 +36,8 @@ class Taylor:
     def solve(self, ball, x, xdot, udot):
         """(tau, evaluations); NaN where the event is not seen.
 
-        An evaluation here is one order of one Taylor step, the nearest to one of the right-hand side.
+        An evaluation here is one order of one Taylor step, the nearest to one of the right-hand
+        side.
         """
         ta = _integrator(ball.g, self.tolerance, self.direction)
         tau, count = np.empty(x.size), np.empty(x.size, np.int64)

@@ -1,7 +1,7 @@
 """Work and precision: how far each method's flight times are off, and what they cost.
 
-`counted` compares the methods whose arithmetic is ours, by evaluations of the gap: the same bytes on
-every machine. `measured` has all methods, and seconds, side by side in one run.
+`counted` compares the methods whose arithmetic is ours, by evaluations of the gap: the same bytes
+on every machine. `measured` has all methods, and seconds, side by side in one run.
 """
 
 import time
@@ -24,8 +24,8 @@ def counted(count=2000):
 def measured(methods, count=200, repetitions=3):
     """The same of any methods, with the median and quartiles of seconds a flight.
 
-    The repetitions are interleaved: all methods once, then all again. The first `solve` of each, which
-    may compile something, is not timed.
+    The repetitions are interleaved: all methods once, then all again. The first `solve` of each,
+    which may compile something, is not timed.
     """
     sets = _sets(count)
     data = _errors(methods, sets)
@@ -63,7 +63,7 @@ def _seconds(method, columns):
 
 
 def is_wrong(tau, truth):
-    """Another root than the first, or none: off by more than a tenth of the flight and of a time unit."""
+    """Whether tau is off by more than a tenth of the flight or of a time unit, or NaN."""
     return ~(np.abs(tau - truth) <= 0.1 * np.minimum(truth, 1.0))
 
 
