@@ -3,15 +3,9 @@
 from pseudorigid.study import parts
 
 
-def behind(part):
-    """Input: the figures' own artifacts that a part of the study compares with."""
-    stages = ("periodic", "manifolds") if part == "needs" else ()
-    return sorted(artifact(stage, owner) for (_, stage), owner in OWNERS.items() if stage in stages)
-
-
 rule study_data:
     input:
-        figures=lambda wildcards: behind(wildcards.scene),
+        figures=lambda wildcards: study_inputs(wildcards.scene),
         config="config.yaml",
         code=code(
             "study.py",
@@ -53,7 +47,7 @@ rule study_publish:
     input:
         "results/study/figures/{scene}.png",
     output:
-        update(parts.FOLDER + "/{scene}.png"),
+        update("study_figures/{scene}.png"),
     log:
         "results/study/logs/publish_{scene}.log",
     wildcard_constraints:
@@ -68,4 +62,4 @@ rule study:
     input:
         expand("results/study/{part}.nc", part=(*parts.FIXED, *parts.MEASURED)),
         expand("results/study/figures/{chart}.png", chart=parts.CHARTS),
-        expand(parts.FOLDER + "/{chart}.png", chart=parts.CHARTS),
+        expand("study_figures/{chart}.png", chart=parts.CHARTS),
