@@ -141,6 +141,28 @@ def wrong(tau, truth):
     return not abs(tau - truth) <= 0.1 * min(truth, 1.0)
 
 
+@jit
+def _hard(kind, step, tolerance, x, v, w, k, g, impacts, out):
+    head, low = kernel.transfer(k)
+    count = 0
+    for _ in range(impacts):
+        tau, _, _, _, _ = flight(kind, step, tolerance, x, v, w, k, g, head, low)
+        before = x, v, w
+        x, v, w, truth, _ = kernel.step(x, v, w, k, g, head, low)
+        if wrong(tau, truth) and count < out.shape[1]:
+            out[0, count], out[1, count], out[2, count] = before
+            count += 1
+    return count
+
+
+def hard_states(ball, state, impacts, method, most=10_000):
+    """The first `most` states of the certified orbit whose next impact a method misses."""
+    out = np.empty((3, most))
+    how = method.kind, method.step, method.tolerance
+    count = _hard(*how, *(float(a) for a in state), ball.k, ball.g, impacts, out)
+    return out[:, :count].copy()
+
+
 @dataclass(frozen=True)
 class Counted:
     """One of the kinds above with its step and tolerance."""
