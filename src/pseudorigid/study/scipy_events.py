@@ -140,7 +140,7 @@ def brentq_method(step, tolerance):
 def ivp_method(solver, rtol, max_step=math.inf):
     """solve_ivp with this solver and tolerance (atol a thousandth of rtol)."""
     limit = "" if max_step == math.inf else f", steps <= {max_step:g}"
-    return Ivp(solver, rtol, max_step, f"{solver}{limit}, {rtol:.0e}", f"solve_ivp {solver}{limit}")
+    return Ivp(solver, rtol, max_step, f"{solver}{limit}, {rtol:.0e}", f"{solver}{limit}")
 
 
 SOLVERS = {
