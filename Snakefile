@@ -18,6 +18,7 @@ wildcard_constraints:
 include: "workflow/rules/compute.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/publish.smk"
+include: "workflow/rules/study.smk"
 
 
 # Every file by name, also those on the way: one that was deleted comes back.

@@ -5,6 +5,7 @@ import filecmp
 import os
 import re
 import signal
+import subprocess
 import sys
 import time
 from contextlib import contextmanager
@@ -68,7 +69,43 @@ def accept(arguments: list[str]) -> int:
         return accept(ROOT, arguments)
 
 
-WORDS = {"test": test, "verify": verify, "accept": accept}
+def study(arguments: list[str]) -> int:
+    """The study's data and charts, with the packages of its rivals."""
+    return add_study_packages() or workflow(["study", *arguments])
+
+
+def benchmark(arguments: list[str]) -> int:
+    """One table of ratios of speed, measured now."""
+    if arguments:
+        print("reproduce: benchmark takes no arguments", file=sys.stderr)
+        return 1
+    return add_study_packages() or subprocess.call(
+        [sys.executable, "-m", "pseudorigid.study.bench"]
+    )
+
+
+def add_study_packages() -> int:
+    """Install requirements/study.txt on top of the lock where that is not done; the exit status."""
+    wanted = (ROOT / "requirements" / "study.txt").read_bytes()
+    stamp = ROOT / ".venv" / "study-stamp"  # goes with .venv when that is made anew
+    if stamp.is_file() and stamp.read_bytes() == wanted:
+        return 0
+    print("reproduce: installing the packages of the study into .venv (once)", file=sys.stderr)
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / "study.txt")]
+    status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
+    if status == 0:
+        stamp.write_bytes(wanted)
+    return status
+
+
+WORDS = {
+    "test": test,
+    "verify": verify,
+    "accept": accept,
+    "study": study,
+    "benchmark": benchmark,
+}
 BUSY = "reproduce: another ./reproduce is running in this folder"
 
 

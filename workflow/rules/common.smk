@@ -63,3 +63,9 @@ def scenes_with(stage):
 def code(script, *modules):
     """Every file of the project that a script runs, and the lock of the packages behind them."""
     return [*sources.code(script, *modules), "requirements/lock.txt"]
+
+
+def study_inputs(part):
+    """The figures' own artifacts that a part of the study compares with."""
+    stages = ("periodic", "manifolds") if part == "needs" else ()
+    return sorted(artifact(s, owner) for (_, s), owner in OWNERS.items() if s in stages)

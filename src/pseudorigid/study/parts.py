@@ -1,0 +1,25 @@
+"""What the study consists of: data, which of them are the same everywhere, and charts."""
+
+# Data whose bytes are part of the contract, and measurements.
+FIXED = ("work", "edges", "orbits", "needs")
+MEASURED = ("work_all", "edges_all", "missed_all")
+# chart -> (its data, the function of figures.study, further arguments)
+CHARTS = {
+    "work_uniform": ("work", "work", (0, "evaluations")),
+    "work_grazing": ("work", "work", (1, "evaluations")),
+    "edges": ("edges", "edges", ()),
+    "energy": ("orbits", "energy", ()),
+    "apart": ("orbits", "apart", ()),
+    "needs": ("needs", "needs", ()),
+    "work_all_uniform": ("work_all", "work", (0, "evaluations")),
+    "work_all_grazing": ("work_all", "work", (1, "evaluations")),
+    "seconds_uniform": ("work_all", "work", (0, "seconds")),
+    "seconds_grazing": ("work_all", "work", (1, "seconds")),
+    "edges_all": ("edges_all", "edges", ()),
+}
+FOLDER = "study_figures"
+
+
+def data(part):
+    """Where the data of a part are, from the project's root."""
+    return f"results/study/{part}.nc"

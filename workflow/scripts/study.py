@@ -1,0 +1,57 @@
+"""One part of the study: data that are the same everywhere, or measurements with their machine."""
+
+from importlib import import_module
+
+from job import one_line_errors
+from pseudorigid import artifacts, config
+from pseudorigid.study import fails, needs, states, work
+
+
+def libraries():
+    """The rivals whose packages only the study has."""
+    names = ("scipy_events", "taylor")
+    return [m for n in names for m in import_module(f"pseudorigid.study.{n}").METHODS]
+
+
+def edge_rivals():
+    """Of the libraries, the settings that are compared near grazing."""
+    names = ("certified march", "brentq 0.1, 1e-12", "RK45, 1e-06", "DOP853, 1e-09")
+    names += ("DOP853, steps <= 0.1, 1e-12", "LSODA, 1e-09")
+    names += ("heyoka any, 1e-15", "heyoka positive, 1e-15")
+    return [m for m in (fails.own.OURS, *libraries()) if m.name in names]
+
+
+def scenes_needs():
+    scenes = config.load("config.yaml")["scenes"]
+    owners = config.owners(scenes)
+    loaded = {
+        (scene, stage): artifacts.load(config.artifact(stage, owner))
+        for (scene, stage), owner in owners.items()
+        if stage in ("periodic", "manifolds")
+    }
+    return needs.needs(scenes, {(stage, scene): data for (scene, stage), data in loaded.items()})
+
+
+PARTS = {
+    "work": work.counted,
+    "edges": lambda: fails.edges(fails.EDGE_METHODS),
+    "orbits": fails.orbits,
+    "needs": scenes_needs,
+    "work_all": lambda: work.measured([*fails.own.METHODS, *libraries()]),
+    "edges_all": lambda: fails.edges(edge_rivals(), 40),
+    "missed_all": lambda: fails.missed(edge_rivals()),
+}
+
+with one_line_errors(snakemake):
+    part = snakemake.wildcards.scene
+    dataset = PARTS[part]()
+    if part.endswith("_all"):
+        dataset.attrs |= import_module("pseudorigid.study.bench").machine()
+    artifacts.save(
+        dataset,
+        snakemake.output[0],
+        stage="study",
+        ball=states.BALL,
+        energy=states.ENERGY,
+        config={"part": part},
+    )
