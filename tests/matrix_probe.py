@@ -82,7 +82,7 @@ def orbit(impacts):
     """The hash of every impact of a chaotic orbit."""
     head, radius = BALL.section(ENERGY)
     state = BALL.state_xy(head + SEA * radius, 0.0, ENERGY)
-    out = np.empty((4, impacts, 1))
+    out = np.empty((1, impacts, 4))
     impact.history(*(np.array([a]) for a in state), BALL.k, BALL.g, out)
     return digest(out)
 

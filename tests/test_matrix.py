@@ -114,10 +114,10 @@ def edits():
     one = float.hex(math.nextafter(arithmetic._S1, 1.0))
     text = Path(arithmetic.__file__).read_text()
     constant = re.search(r'^_S1 = float\.fromhex\("(.*)"\)$', text, re.MULTILINE)
-    sine = "    sine, cosine, _, _, _ = sincos_tails(t)\n"
+    sine = "    cosine, sine = quarter_turns(cosine, sine, n)\n    return"
     return {
         "a constant": (constant[0], f'_S1 = float.fromhex("{one}")'),
-        "the library": (sine, "    sine, cosine = math.sin(t), math.cos(t)\n"),
+        "the library": (sine, "    sine, cosine = math.sin(t), math.cos(t)\n    return"),
     }
 
 

@@ -154,30 +154,45 @@ def _kernel(r, low):
 
 
 @jit
-def sincos_tails(t):
-    """sin t, cos t, the quadrant n as a float, and sin t - t, cos t - 1 + t^2/2 where n == 0."""
+def narrow_quadrant(t):
+    """`quadrant` for |t| < WIDE, without a branch."""
+    r, low, n = _reduce(t)
+    return *_kernel(r, low), n
+
+
+@jit
+def quadrant(t):
+    """sin r, cos r, sin r - r, cos r - 1 + r^2/2 and n, a float: t = r + n pi/2, |r| <= pi/4."""
     if abs(t) < WIDE:
-        r, low, n = _reduce(t)
-    elif abs(t) < math.inf:
-        r, low, n = _reduce_wide(abs(t))
-        if t < 0.0:
-            r, low, n = -r, -low, -n
-    else:
-        return math.nan, math.nan, 0.0, math.nan, math.nan
-    sine, cosine, sine_tail, cosine_tail = _kernel(r, low)
-    quadrant = int(n)
-    odd = quadrant & 1 != 0
-    first = cosine if odd else sine
-    second = sine if odd else cosine
-    sine = -first if quadrant & 2 else first
-    cosine = -second if (quadrant + 1) & 2 else second
-    return sine, cosine, n, sine_tail, cosine_tail
+        return narrow_quadrant(t)
+    if not abs(t) < math.inf:
+        return math.nan, math.nan, math.nan, math.nan, 0.0
+    r, low, n = _reduce_wide(abs(t))
+    if t < 0.0:
+        r, low, n = -r, -low, -n
+    return *_kernel(r, low), n
+
+
+@jit
+def quarter_turns(a, b, n):
+    """(a, b) turned by n right angles: n = 1 gives (-b, a).
+
+    Choices by comparison, where a branch on n would be guessed wrong.
+    """
+    turns = n - 4.0 * ((0.25 * n + _ROUND) - _ROUND)  # 0, 1, -2 or 2, -1
+    first = b if abs(turns) == 1.0 else a
+    second = a if turns * turns == 1.0 else b
+    return (
+        -first if abs(turns + 0.5) > 0.75 else first,
+        -second if abs(turns - 0.5) > 0.75 else second,
+    )
 
 
 @jit
 def sincos(t):
     """(sin t, cos t) of a double, each within 0.8 ulp; NaN where t is not finite."""
-    sine, cosine, _, _, _ = sincos_tails(t)
+    sine, cosine, _, _, n = quadrant(t)
+    cosine, sine = quarter_turns(cosine, sine, n)
     return sine, cosine
 
 

@@ -19,7 +19,7 @@ root, and any bound will do.
 
 import math
 
-from .arithmetic import sincos_tails
+from .arithmetic import quadrant, quarter_turns
 from .compiled import jit
 
 # A flight takes 2 or 3 looks, a hard one some tens; past this cap something is wrong, and it
@@ -27,31 +27,52 @@ from .compiled import jit
 MOST_LOOKS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
-_HUGE = 2.0**200
+HUGE = 2.0**200
+# 1/3!, 1/4!, ...: a product costs a third of a division
+_R3, _R4, _R5, _R6, _R7 = (1.0 / n for n in (6.0, 24.0, 120.0, 720.0, 5040.0))
 # sqrt(2) - 1 rounded up: the octagon around the circle, sqrt(a^2 + b^2) <= max + (sqrt(2) - 1) min.
 _OCTAGON = 0.4142135623730952
 
 
 @jit
-def _launch(x, c, s, g, amplitude):
+def amplitude_bound(x, c):
+    """A >= sqrt(x^2 + c^2)."""
+    return max(abs(x), abs(c)) + _OCTAGON * min(abs(x), abs(c))
+
+
+@jit
+def launch(x, c, s, g, amplitude):
     """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above
     f/t.
     """
     h = 0.5 * (g + x)
-    root = math.sqrt(h * h + (2.0 / 3.0) * amplitude * s)
+    root = math.sqrt(h * h + (2.0 / 3.0) * s * amplitude)
+    top = 2.0 * s if h >= 0.0 else 3.0 * (root - h)
+    below = h + root if h >= 0.0 else amplitude
     if h == 0.0 and s == 0.0:
-        return 4.0 * c / amplitude if c > 0.0 else 0.0
-    return 2.0 * s / (h + root) if h >= 0.0 else 3.0 * (root - h) / amplitude
+        top, below = 4.0 * max(c, 0.0), amplitude
+    return top / below
 
 
 @jit
-def _look(t, x, b, c, s, g):
-    """f, f', f'', P, Q at t. Up to t = pi/4 the terms of f that cancel at 0 are left out by
-    hand.
+def soar(x, b, g, amplitude):
+    """The times between which f < b t + g t^2/2 + x + A < 0: no impact from `enter` to `leave`."""
+    square = b * b - 2.0 * g * (x + amplitude)
+    if not (b < 0.0 and square > 0.0):
+        return math.inf, 0.0
+    fast = math.sqrt(square) - b
+    return 2.0 * (x + amplitude) / fast, fast / g
+
+
+@jit
+def look(t, x, b, c, s, g, trigonometry):
+    """f, f', f'', P, Q at t, from `quadrant` of t. Up to t = pi/4 the terms of f that cancel at 0
+    are left out by hand.
     """
-    sine, cosine, n, sine_tail, cosine_tail = sincos_tails(t)
-    p = x * cosine - c * sine
-    q = x * sine + c * cosine
+    sine, cosine, sine_tail, cosine_tail, n = trigonometry
+    a, d = quarter_turns(x, c, n)  # while sine and cosine are under way
+    p = a * cosine - d * sine
+    q = a * sine + d * cosine
     near = n == 0.0
     f_near = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
     df_near = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
@@ -65,7 +86,7 @@ def _look(t, x, b, c, s, g):
 
 
 @jit
-def _rises_to_its_root(depth, df, ddf, q, g, amplitude):
+def rises_to_its_root(depth, df, ddf, q, g, amplitude):
     """Whether f' > 0 from here to the root, depth = -f > 0 below it."""
     if not df > 0.0:
         return False
@@ -81,94 +102,115 @@ def _rises_to_its_root(depth, df, ddf, q, g, amplitude):
 
 
 @jit
-def _stride(depth, df, ddf, q, g, amplitude):
-    """A step from a point depth = -f > 0 below the root that cannot pass it."""
+def sure_stride(depth, df, g, amplitude):
+    """A step from a point depth = -f > 0 below the root that cannot pass it, as f'' <= g + A."""
     most = g + amplitude
     root = math.sqrt(df * df + 2.0 * most * depth)
-    sure = 2.0 * depth / (df + root) if df > 0.0 else (root - df) / most
-    reach = 2.0 * sure
-    while True:
-        bend = min(most, ddf + reach * (max(-q, 0.0) / 3.0 + amplitude * reach / 12.0))
-        square = df * df + 2.0 * bend * depth
-        step = reach
-        if square >= 0.0:
-            if df > 0.0:
-                step = 2.0 * depth / (df + math.sqrt(square))
-            elif bend > 0.0:
-                step = (math.sqrt(square) - df) / bend
-        if step < reach or not 0.0 < reach < math.inf:
-            return max(sure, step)
-        reach *= 8.0  # near x = -g the gap bends far less than g + A: do not crawl
+    top = 2.0 * depth if df > 0.0 else root - df
+    below = df + root if df > 0.0 else most
+    return top / below
 
 
 @jit
-def _correction(f, df, ddf, p, q, t, amplitude):
-    """The step from t to the root nearby, and whether what it leaves is below the rounding of
-    tau.
+def stride(depth, df, ddf, q, g, amplitude, reach):
+    """The same from a bound of f'' over the next `reach`, which the step does not exceed."""
+    bend = min(
+        g + amplitude, ddf + reach * (max(-q, 0.0) * (1.0 / 3.0) + amplitude * reach * (1.0 / 12.0))
+    )
+    square = df * df + 2.0 * bend * depth
+    root = math.sqrt(square if square >= 0.0 else 0.0)
+    top = 2.0 * depth if df > 0.0 else root - df
+    below = df + root if df > 0.0 else bend
+    met = square >= 0.0 and (df > 0.0 or bend > 0.0)
+    return min(reach, top / below) if met else reach
+
+
+@jit
+def _march(depth, df, ddf, q, g, amplitude):
+    """The longest of these steps."""
+    sure = sure_stride(depth, df, g, amplitude)
+    reach = 2.0 * sure
+    step = stride(depth, df, ddf, q, g, amplitude, reach)
+    while step == reach and 0.0 < reach < math.inf:
+        reach *= 8.0  # near x = -g the gap bends far less than g + A: do not crawl
+        step = stride(depth, df, ddf, q, g, amplitude, reach)
+    return max(sure, step)
+
+
+@jit
+def series(f, df, ddf, p, q, t, amplitude):
+    """The step from t to the root nearby by the inverse series of f to fourth order, whether the
+    series holds, and whether what it leaves is below the rounding of tau.
     """
     inverse = 1.0 / df
     u = -f * inverse
+    u2 = u * u
     a2 = 0.5 * ddf * inverse
-    spread = 4.0 * (a2 * u) * (a2 * u) + amplitude * u * u * inverse
-    if spread < 0.1:  # the inverse series of f, to fourth order
-        a3 = (-1.0 / 6.0) * q * inverse
-        a4 = (-1.0 / 24.0) * p * inverse
-        tail = (2.0 * a2 * a2 - a3) + u * (a2 * (5.0 * a3 - 5.0 * a2 * a2) - a4)
-        return u - u * (a2 * u - u * u * tail), spread * spread * abs(u) <= _SLACK * t
-    # the parabola, and one Newton step on the sixth-order Taylor polynomial
-    h = -2.0 * f / (df + math.sqrt(max(0.0, df * df - 2.0 * ddf * f)))
-    rest = h * h * h * (-q / 6.0 + h * (-p / 24.0 + h * (q / 120.0 + h * p / 720.0)))
-    slope = df + h * (ddf + h * (-0.5 * q + h * (-p / 6.0 + h * q / 24.0)))
-    if slope > 0.5 * df:
-        h -= rest / slope
-    return h, False
+    a3 = -_R3 * q * inverse
+    a4 = -_R4 * p * inverse
+    tail = (2.0 * a2 * a2 - a3) + u * (5.0 * a2 * (a3 - a2 * a2) - a4)
+    h = (u - a2 * u2) + (u * u2) * tail
+    spread = u2 * (4.0 * a2 * a2 + amplitude * inverse)
+    return h, spread < 0.05, spread * spread * abs(u) <= _SLACK * t
 
 
 @jit
-def _turn(p, q, h):
+def newton(f, df, ddf, p, q):
+    """The same farther off: the parabola's root, and one Newton step on the sixth-order Taylor
+    polynomial.
+    """
+    root = math.sqrt(max(0.0, df * df - 2.0 * ddf * f))
+    inverse = 1.0 / root if root > 0.0 else 0.0  # of the parabola's slope at h
+    h = -2.0 * f / (df + root)
+    h2 = h * h
+    rest = (h * h2) * (h2 * (_R5 * q + _R6 * p * h) - (_R3 * q + _R4 * p * h))
+    bend = h2 * (_R4 * q * h2 - (0.5 * q + _R3 * p * h)) * inverse
+    if abs(bend) < 0.5:
+        h -= rest * inverse * (1.0 - bend)
+    return h
+
+
+@jit
+def turn(p, q, h):
     """P and Q a small step h later."""
     h2 = h * h
-    versine = h2 * (-0.5 + h2 * (1.0 / 24.0 - h2 / 720.0))
-    sine = h * (1.0 - h2 * (1.0 / 6.0 - h2 * (1.0 / 120.0 - h2 / 5040.0)))
-    return p + (p * versine - q * sine), q + (q * versine + p * sine)
+    h4 = h2 * h2
+    versine = h2 * ((_R4 * h2 - 0.5) - _R6 * h4)
+    rest = (h * h2) * ((_R3 - _R5 * h2) + _R7 * h4)  # h - sin h
+    return p + ((p * versine + q * rest) - q * h), q + ((q * versine - p * rest) + p * h)
 
 
 @jit
 def _first_impact(x, b, c, s, g):
-    amplitude = max(abs(x), abs(c)) + _OCTAGON * min(abs(x), abs(c))
-    t = _launch(x, c, s, g, amplitude)
+    amplitude = amplitude_bound(x, c)
+    t = launch(x, c, s, g, amplitude)
     if t == 0.0:
         return 0.0, x, c, 0
-    # f < b t + g t^2/2 + x + A: between that parabola's roots there is no impact
-    enter = math.inf
-    leave = 0.0
-    square = b * b - 2.0 * g * (x + amplitude)
-    if b < 0.0 and square > 0.0:
-        fast = math.sqrt(square) - b
-        leave = fast / g
-        enter = 2.0 * (x + amplitude) / fast
-        if enter <= t < leave:
-            t = leave
-    f, df, ddf, p, q = _look(t, x, b, c, s, g)
+    enter, leave = soar(x, b, g, amplitude)
+    if enter <= t < leave:
+        t = leave
+    f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
     looks = 1
     low = t
-    while f < 0.0 and not _rises_to_its_root(-f, df, ddf, q, g, amplitude):
-        after = t + _stride(-f, df, ddf, q, g, amplitude)
+    while f < 0.0 and not rises_to_its_root(-f, df, ddf, q, g, amplitude):
+        after = t + _march(-f, df, ddf, q, g, amplitude)
         if after == t:
             return t, p, q, looks
         t = after
         if enter <= t < leave:
             t = leave
-        f, df, ddf, p, q = _look(t, x, b, c, s, g)
+        f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
         looks += 1
         if looks > MOST_LOOKS:
             raise ArithmeticError("the march to the next impact does not end")
         low = t
     high = math.inf
     while df > 0.0 and f != 0.0:
-        h, last = _correction(f, df, ddf, p, q, t, amplitude)
-        if last:
-            p, q = _turn(p, q, h)
+        h, near, last = series(f, df, ddf, p, q, t, amplitude)
+        if not near:
+            h = newton(f, df, ddf, p, q)
+        elif last:
+            p, q = turn(p, q, h)
             return t + h, p, q, looks
         after = t + h
         if not low < after < high:
@@ -176,7 +218,7 @@ def _first_impact(x, b, c, s, g):
         if after in (t, low, high):
             break
         t = after
-        f, df, ddf, p, q = _look(t, x, b, c, s, g)
+        f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
         looks += 1
         if looks > MOST_LOOKS:
             raise ArithmeticError("the landing on the next impact does not end")
@@ -187,7 +229,7 @@ def _first_impact(x, b, c, s, g):
     # a double root, to rounding: at the top f' = 0, the impact is grazing
     if df < 0.0 and ddf < 0.0:
         h = -df / ddf
-        p, q = _turn(p, q, h)
+        p, q = turn(p, q, h)
         return t + h, p, q, looks
     return t, p, q, looks
 
@@ -201,15 +243,15 @@ def first_impact(x, b, c, s, g):
     input that is not finite. Raises ArithmeticError at MOST_LOOKS.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
-    if 1.0 / _HUGE < size < _HUGE:
+    if 1.0 / HUGE < size < HUGE:
         return _first_impact(x, b, c, max(s, 0.0), g)  # s may be 0 to rounding, of either sign
     if not size < math.inf:
         return math.nan, math.nan, math.nan, 0
     # tau does not depend on the unit of length; fourth powers must neither over- nor underflow
     d = 1.0
-    while 0.0 < size * d <= 1.0 / _HUGE:
-        d *= _HUGE
-    while size * d >= _HUGE:
-        d /= _HUGE
+    while 0.0 < size * d <= 1.0 / HUGE:
+        d *= HUGE
+    while size * d >= HUGE:
+        d /= HUGE
     tau, p, q, looks = _first_impact(x * d, b * d, c * d, max(s, 0.0) * d, g * d)
     return tau, p / d, q / d, looks

@@ -5,7 +5,7 @@ and a loop gives each state the bits it would have alone.
 """
 
 from . import ball
-from .arithmetic import sincos_tails
+from .arithmetic import quadrant, quarter_turns
 from .compiled import jit
 from .flight import first_impact
 
@@ -31,7 +31,8 @@ def flight_derivatives(x, b, c, s, g, tau):
     are varied separately: so nothing cancels where tau is small. f' is the speed v' + w' of the
     impact.
     """
-    sine, cosine, n, sine_tail, cosine_tail = sincos_tails(tau)
+    sine, cosine, sine_tail, cosine_tail, n = quadrant(tau)
+    cosine, sine = quarter_turns(cosine, sine, n)
     if n == 0.0:
         versine = 0.5 * tau * tau - cosine_tail
         speed = ((g + x) * tau - s) + (x * sine_tail - c * versine)
@@ -91,13 +92,14 @@ def steps_back(x, v, w, k, g, impacts, tau):
 
 @jit
 def history(x, v, w, k, g, out):
-    """Every impact of each state x, v, w (n,): out (4, impacts, n) holds x, v, w and tau."""
+    """The same with every impact kept: out (n, impacts, 4) holds x, v, w and tau."""
     head, low = transfer(k)
     for i in range(x.size):
         a, b, c = x[i], v[i], w[i]
         for j in range(out.shape[1]):
             a, b, c, t, _ = step(a, b, c, k, g, head, low)
-            out[0, j, i], out[1, j, i], out[2, j, i], out[3, j, i] = a, b, c, t
+            out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = a, b, c, t
+        x[i], v[i], w[i] = a, b, c
 
 
 @jit

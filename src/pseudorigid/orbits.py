@@ -5,6 +5,7 @@ between impacts.
 import numpy as np
 import xarray as xr
 
+from . import ensemble
 from . import impact as kernel
 from .arithmetic import sincos
 from .ball import whole_number
@@ -60,12 +61,12 @@ def orbit(ball, state, impacts, keep="all"):
     columns = [a.flatten() for a in state]
     if keep == "last":
         tau = np.empty(columns[0].size)
-        kernel.steps(*columns, ball.k, ball.g, impacts, tau)
+        ensemble.steps(*columns, ball.k, ball.g, impacts, tau)
         values = [a.reshape(shape) for a in (*columns, tau)]
         return xr.Dataset(variables(dims, values), coords={"impact": impacts})
-    out = np.empty((4, impacts, columns[0].size))
-    kernel.history(*columns, ball.k, ball.g, out)
-    values = [a.reshape(impacts, *shape) for a in out]
+    out = np.empty((columns[0].size, impacts, 4))
+    ensemble.history(*columns, ball.k, ball.g, out)
+    values = [a.reshape(impacts, *shape) for a in out.T]
     return xr.Dataset(
         variables(("impact", *dims), values), coords={"impact": np.arange(1, impacts + 1)}
     )
@@ -84,9 +85,9 @@ def scene_orbits(ball, energy, starts, impacts):
     """
     pieces = []
     for start, count in zip(starts, impacts, strict=True):
-        out = np.empty((4, count, 1))
+        out = np.empty((1, count, 4))
         kernel.history(*(np.array([a]) for a in ball.start(start, energy)), ball.k, ball.g, out)
-        pieces.append(out[:, :, 0])
+        pieces.append(out[0].T)
     data = variables("point", np.concatenate(pieces, axis=1))
     data["start"] = (
         "orbit",

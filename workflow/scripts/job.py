@@ -1,5 +1,6 @@
 """What the scripts share: one line for a job that cannot be done, and the saving of a stage."""
 
+import os
 import sys
 import traceback
 from contextlib import contextmanager
@@ -48,6 +49,7 @@ def save_stage(snakemake, compute):
     from pseudorigid.ball import Ball
 
     block = snakemake.params.block
+    os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
     with one_line_errors(snakemake), recorded(snakemake, block):
         fields = {key: value for key, value in block.items() if key not in ("ball", "energy")}
         ball = Ball(**block["ball"])

@@ -1,0 +1,125 @@
+"""An ensemble gives every orbit the bits it has alone, in lanes, in threads and in any company."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pseudorigid import ensemble, impact, lanes, orbit
+from pseudorigid.ball import Ball
+
+BALL = Ball(k=0.2, g=0.04)
+
+
+def sea(n, energy=0.01, ball=BALL):
+    """n states over the section, islands and sea."""
+    rng = np.random.default_rng(n)
+    radius, angle = np.sqrt(rng.random(n)), 2.0 * np.pi * rng.random(n)
+    centre, size = ball.section(energy)
+    y = size * np.sqrt(ball.k * (1.0 + ball.k)) * radius * np.sin(angle)
+    return ball.state_xy(centre + size * radius * np.cos(angle), y, energy)
+
+
+def alone(states, ball, impacts):
+    """The history (n, impacts, 4) of each state by the loop over one orbit."""
+    out = np.empty((states[0].size, impacts, 4))
+    impact.history(*(a.copy() for a in states), ball.k, ball.g, out)
+    return out
+
+
+def together(states, ball, impacts):
+    """The same in lanes."""
+    out = np.empty((states[0].size, impacts, 4))
+    tau = np.empty(states[0].size)
+    ends = [a.copy() for a in states]
+    lanes.steps(*ends, ball.k, ball.g, impacts, tau, out)
+    assert np.array_equal(np.stack([*ends, tau], axis=1), out[:, -1], equal_nan=True)
+    return out
+
+
+@pytest.mark.parametrize("n", [1, 2, lanes.LANES - 1, lanes.LANES, lanes.LANES + 1, 205])
+def test_every_lane_has_the_bits_of_one_orbit(n):
+    states = sea(n)
+    assert np.array_equal(together(states, BALL, 150), alone(states, BALL, 150))
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    k=st.floats(0.01, 1.0),
+    g=st.floats(1e-4, 1.0),
+    share=st.floats(1e-6, 0.999),
+    seed=st.integers(1, 1000),
+)
+def test_for_any_ball_and_energy(k, g, share, seed):
+    ball = Ball(k=k, g=g)
+    lowest, _ = ball.energy_bounds()
+    states = sea(32 + seed % 9, lowest + share * (3.0 * abs(lowest) + 0.1), ball)
+    assert np.array_equal(together(states, ball, 40), alone(states, ball, 40), equal_nan=True)
+
+
+def test_states_that_no_lane_can_do():
+    """On the rim, huge, tiny, NaN and infinite ones, among ordinary ones."""
+    x, v, w = sea(60)
+    x[3], v[3], w[3] = -0.04, 0.05, -0.05
+    x[7], v[7], w[7] = 0.1, 0.05, -0.05
+    x[11], v[11], w[11] = np.nan, 0.1, 0.1
+    x[15], v[15], w[15] = 0.1, np.inf, 0.1
+    x[19], v[19], w[19] = 2.0**300, 2.0**300, 2.0**300
+    x[23], v[23], w[23] = 2.0**-300, 0.0, 2.0**-300
+    x[27], v[27], w[27] = 0.0, 1e9, 0.0
+    states = x, v, w
+    assert np.array_equal(together(states, BALL, 5), alone(states, BALL, 5), equal_nan=True)
+
+
+def test_few_flights_leave_their_lane(monkeypatch):
+    """What is left to `impact.step` is the exception, or the lanes would be for nothing."""
+    states = sea(lanes.LANES)
+    row = np.zeros(lanes.SIZE)
+    head, low = impact.transfer(BALL.k)
+    for i in range(lanes.LANES):
+        lanes._board(row, i, *(a[i] for a in states), 10**6, BALL.k, BALL.g, head, low)
+    left, then = 0, np.zeros(lanes.SIZE)
+    for _ in range(3000):
+        lanes._look(row, BALL.k, BALL.g, head, low)
+        lanes._march(row, BALL.g)
+        lanes._land(row)
+        lanes._follow(row, BALL.g)
+        left += lanes._arrive(row, then, BALL.k, BALL.g, head, low)
+        row, then = then, row
+        for i in range(lanes.LANES):
+            if row[lanes.ODD + i]:
+                lanes._attend(row, i, BALL.k, BALL.g, head, low)
+    done = np.sum(10**6 - row[lanes.LEFT : lanes.LEFT + lanes.LANES])
+    assert done > 1000 * lanes.LANES
+    assert left < 0.05 * done
+
+
+@pytest.mark.parametrize("threads", ["1", "3", "8", "", "many"])
+def test_threads_do_not_matter(threads, monkeypatch):
+    states = sea(300)
+    expected = alone(states, BALL, 60)
+    monkeypatch.setenv("OMP_NUM_THREADS", threads)
+    out = np.empty_like(expected)
+    ensemble.history(*(a.copy() for a in states), BALL.k, BALL.g, out)
+    assert np.array_equal(out, expected)
+    ends, tau = [a.copy() for a in states], np.empty(300)
+    ensemble.steps(*ends, BALL.k, BALL.g, 60, tau)
+    assert np.array_equal(np.stack([*ends, tau], axis=1), expected[:, -1])
+
+
+def test_an_orbit_does_not_depend_on_its_company():
+    states = sea(90)
+    many = orbit(BALL, states, 100)
+    for i in (0, 31, 32, 89):
+        one = orbit(BALL, [a[i] for a in states], 100)
+        for name in ("x", "xdot", "udot", "tau"):
+            assert np.array_equal(many[name][:, i], one[name])
+    last = orbit(BALL, states, 100, keep="last")
+    assert np.array_equal(last.x, many.x[-1])
+
+
+def test_no_impacts_leave_the_states():
+    states = sea(40)
+    ends = [a.copy() for a in states]
+    ensemble.steps(*ends, BALL.k, BALL.g, 0, np.empty(40))
+    assert all(np.array_equal(a, b) for a, b in zip(ends, states, strict=True))
