@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 from numpy._core._multiarray_umath import __cpu_features__
 
-from pseudorigid import arithmetic, impact, lyapunov, orbits, periodic
+from pseudorigid import arithmetic, ensemble, impact, lyapunov, orbits, periodic
 from pseudorigid.ball import Ball
 from pseudorigid.compiled import jit
 
@@ -87,6 +87,15 @@ def orbit(impacts):
     return digest(out)
 
 
+def ensemble_of(count, impacts):
+    """The hash of every impact of many orbits at once, in lanes and threads."""
+    centre, radius = BALL.section(ENERGY)
+    x = centre + radius * (2.0 * np.random.default_rng(21).random(count) - 1.0)
+    out = np.empty((count, impacts, 4))
+    ensemble.history(*BALL.state_xy(x, np.zeros(count), ENERGY), BALL.k, BALL.g, out)
+    return digest(out)
+
+
 AXES = {
     "x": {"limits": [-0.2, 0.6], "ticks": [0, 0.4]},
     "xdot": {"limits": [-0.4, 0.4], "ticks": [-0.4, 0, 0.4]},
@@ -115,6 +124,7 @@ def everything():
     yield "table", table(200_000)
     yield from short()
     yield "orbit", orbit(3000)
+    yield "ensemble", ensemble_of(100, 300)
     folder = tempfile.TemporaryDirectory()
     hashes = {}
 
