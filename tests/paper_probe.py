@@ -43,6 +43,7 @@ def run(script, name, inputs, output, **params):
     made.record = provenance.record_path(output)
     job = SimpleNamespace(
         rule=Path(script).stem,
+        threads=1,
         wildcards=SimpleNamespace(scene=name),
         input=given,
         output=made,

@@ -56,12 +56,14 @@ def launch(x, c, s, g, amplitude):
 
 @jit
 def soar(x, b, g, amplitude):
-    """The times between which f < b t + g t^2/2 + x + A < 0: no impact from `enter` to `leave`."""
+    """(rise, fast, leave): no impact at t < leave where t fast >= rise, as there
+    f < b t + g t^2/2 + x + A < 0.
+    """
     square = b * b - 2.0 * g * (x + amplitude)
     if not (b < 0.0 and square > 0.0):
-        return math.inf, 0.0
+        return 0.0, 0.0, 0.0
     fast = math.sqrt(square) - b
-    return 2.0 * (x + amplitude) / fast, fast / g
+    return 2.0 * (x + amplitude), fast, fast * (1.0 / g)
 
 
 @jit
@@ -186,8 +188,8 @@ def _first_impact(x, b, c, s, g):
     t = launch(x, c, s, g, amplitude)
     if t == 0.0:
         return 0.0, x, c, 0
-    enter, leave = soar(x, b, g, amplitude)
-    if enter <= t < leave:
+    rise, fast, leave = soar(x, b, g, amplitude)
+    if t < leave and t * fast >= rise:
         t = leave
     f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
     looks = 1
@@ -197,7 +199,7 @@ def _first_impact(x, b, c, s, g):
         if after == t:
             return t, p, q, looks
         t = after
-        if enter <= t < leave:
+        if t < leave and t * fast >= rise:
             t = leave
         f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
         looks += 1

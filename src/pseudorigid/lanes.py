@@ -33,13 +33,13 @@ LANES = 32
 # The state of a lane, the flight that led there, and how many impacts are left; of the flight under
 # way the time to look at, 1 once it is close to its root, the bracket then, the times between which
 # it can jump, and how many looks it took.
-X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, ENTER, LEAVE, LOOKS = (i * LANES for i in range(12))
+X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, FAST, LEAVE, LOOKS = (i * LANES for i in range(13))
 # What a look shows; the next time by the march and 1 if that is a plain step of it; the step to the
 # root and 1 if it is the last; then the next time, 1 for an impact there, 1 to leave the lane to
 # `_attend`.
-F, DF, DDF, P, Q, B, C, S = (i * LANES for i in range(12, 20))
-AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(20, 27))
-SIZE = 27 * LANES
+F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
+AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
+SIZE = 29 * LANES
 _PATIENCE = 50.0  # looks after which a flight is left to `impact.step`
 
 
@@ -51,26 +51,20 @@ def _look(lanes, k, g, head, low):
         s = max(s, 0.0)
         f, df, ddf, p, q = look(t, x, b, c, s, g, narrow_quadrant(t))
         lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i] = f, df, ddf, p, q
-        lanes[B + i], lanes[C + i], lanes[S + i] = b, c, s
+        lanes[B + i], lanes[C + i], lanes[S + i], lanes[A + i] = b, c, s, amplitude_bound(x, c)
 
 
 @jit
 def _march(lanes, g):
     for i in range(LANES):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
-        x, c, t, enter, leave = (
-            lanes[X + i],
-            lanes[C + i],
-            lanes[T + i],
-            lanes[ENTER + i],
-            lanes[LEAVE + i],
-        )
-        amplitude = amplitude_bound(x, c)
+        t, amplitude = lanes[T + i], lanes[A + i]
+        rise, fast, leave = lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i]
         sure = sure_stride(-f, df, g, amplitude)
         bounded = stride(-f, df, ddf, q, g, amplitude, 2.0 * sure)
         ahead = t + max(sure, bounded)
         marches = (bounded < 2.0 * sure) & (ahead != t)
-        ahead = leave if (enter <= ahead) & (ahead < leave) else ahead
+        ahead = leave if (ahead < leave) & (ahead * fast >= rise) else ahead
         lanes[AHEAD + i] = ahead
         lanes[MARCHES + i] = 1.0 if marches else 0.0
 
@@ -79,8 +73,7 @@ def _march(lanes, g):
 def _land(lanes):
     for i in range(LANES):
         f, df, ddf, p, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i]
-        x, c, t = lanes[X + i], lanes[C + i], lanes[T + i]
-        h, near, last = series(f, df, ddf, p, q, t, amplitude_bound(x, c))
+        h, near, last = series(f, df, ddf, p, q, lanes[T + i], lanes[A + i])
         h = h if near else newton(f, df, ddf, p, q)
         lanes[STEP + i] = h
         lanes[LAST + i] = 1.0 if last & near else 0.0
@@ -91,26 +84,18 @@ def _follow(lanes, g):
     """Where each lane goes from here, as in `flight.first_impact`."""
     for i in range(LANES):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
-        x, b, c, s, t = lanes[X + i], lanes[B + i], lanes[C + i], lanes[S + i], lanes[T + i]
+        t, amplitude = lanes[T + i], lanes[A + i]
         was_landing, low, high = lanes[LANDING + i] != 0.0, lanes[LOW + i], lanes[HIGH + i]
         looks, h, ahead = lanes[LOOKS + i], lanes[STEP + i], lanes[AHEAD + i]
         marches, last = lanes[MARCHES + i] != 0.0, lanes[LAST + i] != 0.0
-        amplitude = amplitude_bound(x, c)
         below = f < 0.0
         landing = was_landing | (not below) | rises_to_its_root(-f, df, ddf, q, g, amplitude)
         low = t if (not was_landing) | below else low
         high = (high if below else t) if was_landing else math.inf
         after = t + h
         lands = (df > 0.0) & (f != 0.0) & (last | ((low < after) & (after < high) & (after != t)))
-        size = abs(x) + abs(b) + abs(c) + abs(s) + g
-        plain = (
-            (lands if landing else marches)
-            & (abs(t) < WIDE)
-            & (t > 0.0)
-            & (size < HUGE)
-            & (size > 1.0 / HUGE)
-            & (looks < _PATIENCE)
-        )
+        usual = (t > 0.0) & (t < WIDE) & (looks < _PATIENCE)
+        plain = (lands if landing else marches) & usual
         flag = 1.0 if landing else 0.0
         done = 1.0 if landing & last else 0.0
         odd = 0.0 if plain else 1.0
@@ -128,12 +113,8 @@ def _arrive(lanes, then, k, g, head, low):
     wanting = 0
     for i in range(LANES):
         x, v, w, tau, t = (lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i], lanes[T + i])
-        enter, leave, looks, left = (
-            lanes[ENTER + i],
-            lanes[LEAVE + i],
-            lanes[LOOKS + i],
-            lanes[LEFT + i],
-        )
+        rise, fast, leave = lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i]
+        looks, left = lanes[LOOKS + i], lanes[LEFT + i]
         landing, after, odd = lanes[LANDING + i], lanes[NEXT + i], lanes[ODD + i]
         low_end, high_end = lanes[LOW + i], lanes[HIGH + i]
         moved = (lanes[DONE + i] != 0.0) & (odd == 0.0) & (left > 0.0)
@@ -143,18 +124,18 @@ def _arrive(lanes, then, k, g, head, low):
         b, c, s = rebound(v1, q, k, head, low)
         amplitude = amplitude_bound(p, c)
         first = launch(p, c, max(s, 0.0), g, amplitude)
-        enter1, leave1 = soar(p, b, g, amplitude)
-        first = leave1 if (enter1 <= first) & (first < leave1) else first
+        rise1, fast1, leave1 = soar(p, b, g, amplitude)
+        first = leave1 if (first < leave1) & (first * fast1 >= rise1) else first
         x, v, w, tau = (p, v1, q, after) if moved else (x, v, w, tau)
         t = first if moved else (after if odd == 0.0 else t)
-        enter, leave, landing, looks = (
-            (enter1, leave1, 0.0, 0.0) if moved else (enter, leave, landing, looks)
-        )
+        rise, fast, leave = (rise1, fast1, leave1) if moved else (rise, fast, leave)
+        landing, looks = (0.0, 0.0) if moved else (landing, looks)
         left = left - 1.0 if moved else left
         odd = 1.0 if (odd != 0.0) & (left > 0.0) | moved & (left == 0.0) else 0.0
         then[X + i], then[V + i], then[W + i], then[TAU + i] = x, v, w, tau
-        then[T + i], then[ENTER + i], then[LEAVE + i], then[LOOKS + i] = t, enter, leave, looks
-        then[LANDING + i], then[LEFT + i], then[ODD + i] = landing, left, odd
+        then[RISE + i], then[FAST + i], then[LEAVE + i], then[T + i] = rise, fast, leave, t
+        then[LANDING + i], then[LOOKS + i], then[LEFT + i] = landing, looks, left
+        then[ODD + i] = odd
         then[LOW + i], then[HIGH + i] = low_end, high_end
         wanting += int(odd)
     return wanting
@@ -167,12 +148,14 @@ def _take_off(lanes, i, k, g, head, low):
     b, c, s = rebound(lanes[V + i], lanes[W + i], k, head, low)
     amplitude = amplitude_bound(x, c)
     t = launch(x, c, max(s, 0.0), g, amplitude)
-    enter, leave = soar(x, b, g, amplitude)
-    lanes[T + i], lanes[ENTER + i], lanes[LEAVE + i] = t, enter, leave
-    if enter <= t < leave:
-        lanes[T + i] = leave
+    rise, fast, leave = soar(x, b, g, amplitude)
+    if t < leave and t * fast >= rise:
+        t = leave
+    lanes[T + i], lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i] = t, rise, fast, leave
+    size = abs(x) + abs(b) + abs(c) + abs(s) + g
+    usual = 1.0 / HUGE < size < HUGE  # or the unit of length has to be changed
+    lanes[LOOKS + i] = 0.0 if usual else math.inf
     lanes[LANDING + i] = 0.0
-    lanes[LOOKS + i] = 0.0
 
 
 @jit
