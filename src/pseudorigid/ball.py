@@ -230,7 +230,9 @@ class Ball:
     def on_section(self, x, xdot, udot):
         """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
         x, xdot, udot = _floats(x, xdot, udot)
-        if np.any(xdot + udot < 0.0):
+        with np.errstate(invalid="ignore"):  # inf - inf
+            off = np.any(xdot + udot < 0.0)
+        if off:
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
