@@ -1,6 +1,6 @@
 """Ratios of speed: medians of repetitions taken in turn, in one run.
 
-`run` returns rows of text; nothing here enters a figure. One thread throughout.
+`run` returns rows of text; nothing here enters a figure. One core throughout.
 """
 
 import os
@@ -171,5 +171,12 @@ def _along(state, count):
     return out[0, :, 0].copy(), out[1, :, 0].copy(), out[2, :, 0].copy()
 
 
+def on_one_core():
+    """Keep this process on one core: whatever starts threads gains nothing by them."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
 if __name__ == "__main__":
+    on_one_core()
     print("\n".join(run()))
