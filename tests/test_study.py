@@ -93,6 +93,14 @@ def test_brentq_and_solve_ivp_find_easy_roots():
         assert count.min() > 5
 
 
+@pytest.mark.parametrize("solver", scipy_events.SOLVERS)
+def test_solve_ivp_sees_short_flights(solver):
+    columns = states.distance(6, 1, 20)
+    truth = OURS.solve(BALL, *columns)[0]
+    tau, _ = scipy_events.ivp_method(solver, 1e-9).solve(BALL, *columns)
+    assert np.abs(tau / truth - 1).max() < 0.1
+
+
 def test_heyoka_finds_easy_roots():
     pytest.importorskip("heyoka")
     from pseudorigid.study import taylor
