@@ -79,7 +79,7 @@ def _solve(f, slope, low, high, guess):
     t = mpf(guess)
     if not low < t < high:
         t = (low + high) / 2
-    for _ in range(400):
+    for _ in range(4000):  # a flight of 1e-300 is a thousand halvings away
         value = f(t)
         if value == 0:
             return t

@@ -23,6 +23,7 @@ from numpy._core._multiarray_umath import __cpu_features__
 from pseudorigid import arithmetic, ensemble, impact, lyapunov, orbits, periodic
 from pseudorigid.ball import Ball
 from pseudorigid.compiled import jit
+from pseudorigid.scan import ScannedBall
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01
@@ -96,6 +97,17 @@ def ensemble_of(count, impacts):
     return digest(out)
 
 
+def scanned():
+    """The hash of orbits, exponents and inverses by the paper's own method."""
+    ball = ScannedBall(BALL.k, BALL.g, step=0.1, tolerance=1e-12)
+    state = ball.start(SEA, ENERGY)
+    track = orbits.orbit(ball, state, 1000)
+    last = orbits.orbit(ball, state, 100, keep="last")
+    spectrum = lyapunov.lyapunov_spectrum(ball, state, 500)
+    parts = [*(track[name] for name in orbits.NAMES), last["x"], spectrum["exponent"]]
+    return digest(*parts, ball.inverse_impact(*state), ball.jacobian(*state), ball.map.missed)
+
+
 AXES = {
     "x": {"limits": [-0.2, 0.6], "ticks": [0, 0.4]},
     "xdot": {"limits": [-0.4, 0.4], "ticks": [-0.4, 0, 0.4]},
@@ -125,6 +137,7 @@ def everything():
     yield from short()
     yield "orbit", orbit(3000)
     yield "ensemble", ensemble_of(100, 300)
+    yield "scanned", scanned()
     folder = tempfile.TemporaryDirectory()
     hashes = {}
 

@@ -117,6 +117,33 @@ def test_the_committed_config_is_good():
         ("ball.k", None, ["ball.k: nothing"]),
         ("ball.k", float("nan"), ["ball.k: nan"]),
         ("ball.k", [0.2], ["ball.k: [0.2]"]),
+        ("scenes.a_portrait.method", {"scan": 0}, ["a_portrait.method.tolerance: missing"]),
+        ("scenes.a_portrait.method", "scan", ["method: 'scan'", "the keys scan and tolerance"]),
+        *(
+            (f"scenes.{scene}.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
+            for scene in SCENES
+            for scan in (0, -0.1, 1e-4, 1.5, float("nan"), float("inf"))
+        ),
+        *(
+            (f"scenes.{scene}.method", {"scan": 0.1, "tolerance": tolerance}, ["method.tolerance"])
+            for scene in SCENES
+            for tolerance in (0, -1e-9, 1e-16, 0.01, float("nan"))
+        ),
+        (
+            "scenes.a_tangle.method",
+            {"scan": 0.1, "tolerance": 1e-6},
+            ["a_tangle.method.tolerance: 1e-06", "from 1e-15 to 1e-12, for manifolds"],
+        ),
+        (
+            "scenes.a_closeup.method",
+            {"scan": 0.1, "tolerance": 1e-6},
+            ["a_closeup.method.tolerance: 1e-06", "from 1e-15 to 1e-12, for manifolds"],
+        ),
+        (
+            "scenes.exponents.method",
+            {"scan": 0.1, "tolerance": "1e-6"},
+            ["exponents.method.tolerance: '1e-6'", "this is text to YAML, write 1.0e-06"],
+        ),
         ("ball.g", 0, ["ball.g: 0", "0 < g < k"]),
         ("ball.g", -1e-9, ["ball.g: -1e-09", "0 < g < k"]),
         ("ball.g", 0.2, ["ball.g: 0.2", "0 < g < k = 0.2"]),

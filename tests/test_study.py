@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 from conftest import ROOT
 
-from pseudorigid import Ball, sources
+from pseudorigid import Ball, lyapunov_spectrum, sources
 from pseudorigid.figures import panel, study
 from pseudorigid.study import counted, parts, scipy_events, states
 from pseudorigid.study.counted import OURS, engine_method, scan_method
@@ -93,6 +93,14 @@ def test_brentq_and_solve_ivp_find_easy_roots():
         assert count.min() > 5
 
 
+@pytest.mark.parametrize("solver", scipy_events.SOLVERS)
+def test_solve_ivp_sees_short_flights(solver):
+    columns = states.distance(6, 1, 20)
+    truth = OURS.solve(BALL, *columns)[0]
+    tau, _ = scipy_events.ivp_method(solver, 1e-9).solve(BALL, *columns)
+    assert np.abs(tau / truth - 1).max() < 0.1
+
+
 def test_heyoka_finds_easy_roots():
     pytest.importorskip("heyoka")
     from pseudorigid.study import taylor
@@ -102,6 +110,16 @@ def test_heyoka_finds_easy_roots():
     for direction in taylor.DIRECTIONS:
         tau, _ = taylor.Taylor(1e-15, direction).solve(BALL, *columns)
         assert np.abs(tau - truth).max() < 1e-13
+
+
+def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
+    pytest.importorskip("pynamicalsys")
+    from pseudorigid.study import toolkit
+
+    start, impacts = states.chaotic(), 20_000
+    found = np.sort(toolkit.spectrum(BALL, start, impacts))[::-1]
+    ours = lyapunov_spectrum(BALL, start, impacts, records=1)["exponent"].values[-1]
+    assert np.abs(found - ours).max() < 1e-3  # it starts from other tangent vectors
 
 
 def test_the_judge_agrees_with_the_map():
@@ -150,6 +168,27 @@ def named(count):
         "name": ("method", np.array([f"m{i}" for i in range(count)], dtype=object)),
         "family": ("method", np.array(["certified march"] * count, dtype=object)),
     }
+
+
+def test_the_table_of_ratios_has_every_row(monkeypatch):
+    for package in ("heyoka", "pynamicalsys"):
+        pytest.importorskip(package)
+    from pseudorigid.study import bench
+
+    monkeypatch.setattr(bench, "IMPACTS", 1000)
+    lines = bench.run(repetitions=1)
+    rows = [re.split(r"  +", line) for line in lines[1:8]]
+    assert [(row[0], row[3]) for row in rows] == [
+        ("one orbit, an impact", "three dependent sincos"),
+        ("scan 0.1 and bisection to 1e-12", "one orbit"),
+        ("heyoka, default tolerance", "one orbit"),
+        ("solve_ivp DOP853, rtol 1e-9", "one orbit"),
+        ("spectrum by pynamicalsys", "spectrum here"),
+        ("ensemble, the end only", "one dependent sincos"),
+        ("ensemble, every impact stored", "one dependent sincos"),
+    ]
+    assert all(float(row[2]) > 0 for row in rows)
+    assert "numba" in lines[-1] and "processor" in lines[-1]
 
 
 def test_charts_can_be_drawn():

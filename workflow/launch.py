@@ -209,9 +209,31 @@ def table(rows: list[tuple[str, str, str]]) -> None:
         print(f"{scene:{widths[0]}}  {name:{widths[1]}}  {size:>{widths[2]}}  {state}")
 
 
+def floor_report(scenes: dict[str, dict], shown, variant: str = "paper") -> list[str]:
+    """Of each scene in `shown` with a `method`: how many impacts it missed, one line a scene."""
+    owners = config.owners(scenes)
+    lines = []
+    for scene in shown:
+        block = scenes[scene]
+        if "method" not in block:
+            continue
+        from pseudorigid.artifacts import load  # takes a while
+
+        found = [
+            load(ROOT / config.artifact(stage, owners[scene, stage], variant)).attrs
+            for stage, parameters in config.stages(block).items()
+            if "method" in parameters
+        ]
+        missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
+        how = ", ".join(f"{key} {value:g}" for key, value in block["method"].items())
+        lines.append(f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})")
+    return lines
+
+
 def workflow(arguments: list[str]) -> int:
     """Check the config, run snakemake, and say what became of the figures."""
-    figures = config.figures(config.load(ROOT / "config.yaml")["scenes"])
+    scenes = config.load(ROOT / "config.yaml")["scenes"]
+    figures = config.figures(scenes)
     lock = hold_lock()
     if lock is None:
         print(BUSY, file=sys.stderr)
@@ -234,6 +256,8 @@ def workflow(arguments: list[str]) -> int:
             rows.append((scene, name, "recomputed" if drawn else "current"))
     if rows:
         table(rows)
+        for line in floor_report(scenes, dict.fromkeys(scene for scene, _, _ in rows)):
+            print(line)
     return 0
 
 

@@ -28,10 +28,13 @@ def makers(scenes):
     return found
 
 
-def audit(root, scenes):
-    """(problems, missing): each result that is not as it should be -> why; those not there."""
+def audit(root, makers):
+    """(problems, missing): each result that is not as it should be -> why; those not there.
+
+    `makers` has the Maker of every result.
+    """
     problems, missing = {}, []
-    for path, maker in makers(scenes).items():
+    for path, maker in makers.items():
         if file_hash(root / path) is None:
             missing.append(path)
             continue
@@ -39,7 +42,7 @@ def audit(root, scenes):
         if problem:
             problems[path] = problem
     # What was made from a result that has a problem shares it.
-    for path in makers(scenes):
+    for path in makers:
         if path not in problems and path not in missing:
             for used, digest in _record(root, path)["inputs"].items():
                 if used not in problems and file_hash(root / used) != digest:

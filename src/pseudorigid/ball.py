@@ -60,6 +60,8 @@ class Ball:
     k: float
     g: float
 
+    scan = None  # (step, tolerance) of the paper's method, where scan.ScannedBall uses it
+
     def __post_init__(self):
         for name in ("k", "g"):
             value = getattr(self, name)
@@ -70,6 +72,13 @@ class Ball:
             raise ValueError(f"k = {self.k!r} is not allowed: 0 < k <= 1")
         if not 0.0 < self.g < math.inf:
             raise ValueError(f"g = {self.g!r} is not allowed: g > 0, finite")
+
+    @property
+    def map(self):
+        """The compiled map, which stands above this module and is loaded when first needed."""
+        from . import ensemble
+
+        return ensemble
 
     def energy(self, x, xdot, udot):
         """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
@@ -184,7 +193,7 @@ class Ball:
         state = self.on_section(x, xdot, udot)
         x, xdot, udot = (a.flatten() for a in state)
         out = np.empty((x.size, 3, 3))
-        _kernel().jacobians(x, xdot, udot, self.k, self.g, impacts, out)
+        self.map.jacobians(x, xdot, udot, self.k, self.g, impacts, out)
         return out.reshape(*state[0].shape, 3, 3)
 
     def _each(self, loop, x, xdot, udot):
@@ -192,7 +201,7 @@ class Ball:
         shape = state[0].shape
         x, xdot, udot = (a.flatten() for a in state)
         tau = np.empty(x.size)
-        getattr(_kernel(), loop)(x, xdot, udot, self.k, self.g, 1, tau)
+        getattr(self.map, loop)(x, xdot, udot, self.k, self.g, 1, tau)
         return tuple(_plain(a.reshape(shape)) for a in (x, xdot, udot, tau))
 
     def chart_jacobian(self, x, xdot, udot, impacts=1):
@@ -221,16 +230,11 @@ class Ball:
     def on_section(self, x, xdot, udot):
         """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
         x, xdot, udot = _floats(x, xdot, udot)
-        if np.any(xdot + udot < 0.0):
+        with np.errstate(invalid="ignore"):  # inf - inf
+            off = np.any(xdot + udot < 0.0)
+        if off:
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
-
-
-def _kernel():
-    """The compiled map, which stands above this module and is loaded when it is first needed."""
-    from . import impact
-
-    return impact
 
 
 def _floats(*values):

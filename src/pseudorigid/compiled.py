@@ -13,7 +13,15 @@ from pathlib import Path
 import numba
 
 _HERE = Path(__file__).parent
-_KERNEL = ("arithmetic.py", "ball.py", "compiled.py", "flight.py", "impact.py", "lanes.py")
+_KERNEL = (
+    "arithmetic.py",
+    "ball.py",
+    "compiled.py",
+    "flight.py",
+    "impact.py",
+    "lanes.py",
+    "scan.py",
+)
 
 
 def _cache() -> str:

@@ -31,6 +31,8 @@ STAGES = {
     },
     "exponents": {"lyapunov": ("starts", "impacts", "records")},
 }
+# The stages that follow orbits: a scene's `method`, where it has one, decides their data too.
+FOLLOWING = ("orbits", "motion", "manifolds", "lyapunov")
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 
 
@@ -277,8 +279,10 @@ def _shown(value) -> str:
 
 def stages(block: dict) -> dict[str, dict]:
     """Stage -> the smallest block that decides its data, for one scene of a checked config."""
+    method = {"method": block["method"]} if "method" in block else {}
     return {
         stage: {field: block[field] for field in ("ball", "energy", *fields)}
+        | (method if stage in FOLLOWING else {})
         for stage, fields in STAGES[block["picture"]].items()
     }
 

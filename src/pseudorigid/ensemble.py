@@ -1,4 +1,6 @@
-"""Many orbits at once, in SIMD lanes and on all cores. Each has the bits it has alone."""
+"""The map of many states: orbits in SIMD lanes and on all cores, each with the bits it has alone;
+and, state by state, the way back and the Jacobian.
+"""
 
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -7,6 +9,9 @@ import numba
 import numpy as np
 
 from . import impact, lanes
+from .impact import jacobians, steps_back
+
+__all__ = ["history", "jacobians", "steps", "steps_back", "threads"]
 
 # Fewer orbits than this are faster one after the other.
 _FEW = 12

@@ -27,6 +27,7 @@ from .compiled import jit
 MOST_LOOKS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
+_NO_SPEED = 1e-140
 HUGE = 2.0**200
 # 1/3!, 1/4!, ...: a product costs a third of a division
 _R3, _R4, _R5, _R6, _R7 = (1.0 / n for n in (6.0, 24.0, 120.0, 720.0, 5040.0))
@@ -186,6 +187,12 @@ def turn(p, q, h):
 def _first_impact(x, b, c, s, g):
     amplitude = amplitude_bound(x, c)
     t = launch(x, c, s, g, amplitude)
+    if g + x > 0.0 and amplitude * t <= _SLACK * (g + x):  # t to a rounding; maybe 0
+        p, q = turn(x, c, t)
+        return t, p, q, 0
+    if s < _NO_SPEED * amplitude:  # its square would underflow; it moves no tau by 1e-70
+        s = 0.0
+        t = launch(x, c, s, g, amplitude)
     if t == 0.0:
         return 0.0, x, c, 0
     rise, fast, leave = soar(x, b, g, amplitude)
@@ -245,8 +252,9 @@ def first_impact(x, b, c, s, g):
     input that is not finite. Raises ArithmeticError at MOST_LOOKS.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
+    s = max(s, 0.0)  # it may be 0 to rounding, of either sign
     if 1.0 / HUGE < size < HUGE:
-        return _first_impact(x, b, c, max(s, 0.0), g)  # s may be 0 to rounding, of either sign
+        return _first_impact(x, b, c, s, g)
     if not size < math.inf:
         return math.nan, math.nan, math.nan, 0
     # tau does not depend on the unit of length; fourth powers must neither over- nor underflow
@@ -255,5 +263,5 @@ def first_impact(x, b, c, s, g):
         d *= HUGE
     while size * d >= HUGE:
         d /= HUGE
-    tau, p, q, looks = _first_impact(x * d, b * d, c * d, max(s, 0.0) * d, g * d)
+    tau, p, q, looks = _first_impact(x * d, b * d, c * d, s * d, g * d)
     return tau, p / d, q / d, looks

@@ -40,7 +40,9 @@ X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, FAST, LEAVE, LOOKS = (i * LANES
 F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
 AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
 SIZE = 29 * LANES
-_PATIENCE = 50.0  # looks after which a flight is left to `impact.step`
+# What is left to `impact.step`: flights of more looks, and of shorter times or lower speeds.
+_PATIENCE = 50.0
+_TINY = 1e-15
 
 
 @jit
@@ -94,7 +96,7 @@ def _follow(lanes, g):
         high = (high if below else t) if was_landing else math.inf
         after = t + h
         lands = (df > 0.0) & (f != 0.0) & (last | ((low < after) & (after < high) & (after != t)))
-        usual = (t > 0.0) & (t < WIDE) & (looks < _PATIENCE)
+        usual = (t > _TINY) & (t < WIDE) & (lanes[S + i] > _TINY) & (looks < _PATIENCE)
         plain = (lands if landing else marches) & usual
         flag = 1.0 if landing else 0.0
         done = 1.0 if landing & last else 0.0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import config, manifest
+from . import manifest
 from .artifacts import ArtifactError, canonical_values, load
 from .audit import brief, differing_files, differing_key, differing_package
 from .pictures import PictureError, describe, difference
@@ -18,26 +18,25 @@ from .provenance import file_hash, git, versions
 
 
 class Comparison:
-    """A tree at `root` with its checked `scenes` against the manifest `committed`.
+    """A tree at `root` with its `contract` against the manifest `committed`.
 
     `against` is a folder with a second copy, a tree or its results, or None: it serves to say how
     large a difference is.
     """
 
-    def __init__(self, root, scenes, committed, against=None):
-        self.root, self.scenes, self.committed = root, scenes, committed
+    def __init__(self, root, contract, committed, against=None):
+        self.root, self.contract, self.committed = root, contract, committed
         self.against = against
-        self.data = manifest.scene_data(scenes)
         self.versions = versions()
         self.file_hash = cache(lambda path: file_hash(root / path))
-        self.sources = cache(lambda scene: manifest.scene_sources(scenes[scene]))
         self.differing_data = cache(self._differing_data)
 
     def findings(self, scene, name):
         """Yield (layer, words) for each layer of a figure that differs, the cause first."""
         entry = self.committed["scenes"].get(scene)
         if entry is None or name not in entry["figures"]:
-            yield "config", f"{name} is not in {manifest.MANIFEST}: ./reproduce accept adds it"
+            where = f"{self.contract.folder}/{manifest.MANIFEST}"
+            yield "config", f"{name} is not in {where}: ./reproduce accept adds it"
             return
         layers = {
             "config": self._config(scene, entry),
@@ -45,11 +44,11 @@ class Comparison:
             "environment": self._environment(),
             "data": self._data(scene, entry),
         }
-        layers |= self._drawing_and_file(scene, name, entry["figures"][name])
+        layers |= self._drawing_and_file(name, entry["figures"][name])
         yield from ((layer, words) for layer, words in layers.items() if words)
 
     def _config(self, scene, entry):
-        found = differing_key(entry["config"], config.drawing(self.scenes[scene]))
+        found = differing_key(entry["config"], self.contract.config[scene])
         if found:
             key, before, after = found
             return f"{key}: {brief(before)} in the manifest, {brief(after)} in config.yaml"
@@ -57,7 +56,8 @@ class Comparison:
 
     def _source(self, scene, entry):
         before = {path: self.committed["sources"][path] for path in entry["sources"]}
-        return differing_files(before, {path: self.file_hash(path) for path in self.sources(scene)})
+        now = {path: self.file_hash(path) for path in self.contract.sources[scene]}
+        return differing_files(before, now)
 
     def _environment(self):
         found = differing_package(self.committed["environment"], self.versions)
@@ -68,7 +68,7 @@ class Comparison:
         return None
 
     def _data(self, scene, entry):
-        for stage, path in self.data[scene].items():
+        for stage, path in self.contract.data[scene].items():
             before = self.committed["data"].get(entry["data"].get(stage))
             if before is not None and self.file_hash(path) is not None:
                 words = self.differing_data(path, entry["data"][stage])
@@ -108,7 +108,7 @@ class Comparison:
     def _size_of_difference(self, path, name, dataset):
         if self.against is None:
             return ""
-        copy = _find(self.against, Path(path).name)
+        copy = self._find(self.against, Path(path).name)
         if copy is None:
             return f"; no {Path(path).name} in {self.against}"
         try:
@@ -120,12 +120,12 @@ class Comparison:
         words = _ulps_in_words(dataset.variables[name], other.variables[name])
         return f"; {words}, compared with {copy}"
 
-    def _drawing_and_file(self, scene, name, entry):
+    def _drawing_and_file(self, name, entry):
         """{"drawing": words} or {"file": words}, of the published file or the one in results."""
-        published = f"{manifest.FOLDER}/{name}"
-        drawn = config.drawn(scene, Path(name).suffix[1:])
+        published, drawn = f"{self.contract.folder}/{name}", self.contract.drawn[name]
         if self.file_hash(published) is None:
-            return {"file": f"{published} is missing: ./reproduce {published} makes it"}
+            how = self.contract.command.format(published)
+            return {"file": f"{published} is missing: {how} makes it"}
         encoding = {}
         for path in (published, drawn):
             if self.file_hash(path) in (entry["sha256"], None):
@@ -143,26 +143,26 @@ class Comparison:
     def _how_drawn(self, path, name, entry, others):
         with tempfile.TemporaryDirectory() as folder:
             candidates = [self.root / other for other in others]
-            blob = git("show", f"HEAD:./{manifest.FOLDER}/{name}", root=self.root)
+            blob = git("show", f"HEAD:./{self.contract.folder}/{name}", root=self.root)
             if blob is not None:
                 candidates.append(Path(folder) / name)
                 candidates[-1].write_bytes(blob)
             if self.against is not None:
-                candidates.append(_find(self.against, name))
+                candidates.append(self._find(self.against, name))
             for candidate in candidates:
                 if candidate is not None and file_hash(candidate) == entry["sha256"]:
-                    image = f"results/paper/differences/{name}"
+                    image = f"{self.contract.results}/differences/{name}"
                     words, drawn = difference(self.root / path, candidate, self.root / image)
                     return f"{words}: see {image}" if drawn else words
         return "another picture; no copy of the committed one is at hand to count what differs"
 
-
-def _find(folder, name):
-    """The file of this name in another tree or its results, or None."""
-    for place in (".", "figures", "paper_figures", "results/paper", "results/paper/figures"):
-        if (folder / place / name).is_file():
-            return folder / place / name
-    return None
+    def _find(self, folder, name):
+        """The file of this name in another tree or its results, or None."""
+        results = self.contract.results
+        for place in (".", "figures", self.contract.folder, results, f"{results}/figures"):
+            if (folder / place / name).is_file():
+                return folder / place / name
+        return None
 
 
 def ulps(a, b):

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from . import impact as kernel
+from . import scan as scanned
 from .arithmetic import log
 from .ball import whole_number
 from .compiled import jit
@@ -41,7 +42,10 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     dims = orbit_dims(shape)
     at = (np.arange(1, records + 1) * impacts) // records
     out = np.empty((records, state[0].size, 3))
-    _spectrum(*(a.flatten() for a in state), ball.k, ball.g, at, out)
+    columns = (a.flatten() for a in state)
+    missed = _spectrum(*columns, ball.k, ball.g, at, out, ball.scan)
+    if ball.scan is not None:
+        ball.map.count(impacts * state[0].size, missed)
     exponent = (
         ("impact", *dims, "index"),
         out.reshape(records, *shape, 3),
@@ -80,9 +84,13 @@ def _orthonormal(a, b, c):
 
 
 @jit
-def _spectrum(x, v, w, k, g, at, out):
-    """Exponents of the states (n,) after each of `at` (m,) impacts: out (m, n, 3)."""
+def _spectrum(x, v, w, k, g, at, out, scan):
+    """Exponents of the states (n,) after each of `at` (m,) impacts: out (m, n, 3).
+
+    Along the scan's orbits where `scan` is not None; returns how many impacts those missed.
+    """
     head, low = kernel.transfer(k)
+    missed = 0
     for i in range(x.size):
         y0, y1, y2 = x[i], v[i], w[i]
         a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -92,9 +100,15 @@ def _spectrum(x, v, w, k, g, at, out):
         for j in range(at.size):
             grown_a, grown_b, grown_c = 1.0, 1.0, 1.0
             while done < at[j]:
-                y0, y1, y2, _, sine, cosine, tau_x, tau_s, tau_c = kernel.step_with_flight(
-                    y0, y1, y2, k, g, head, low
-                )
+                if scan is None:  # decided when this is compiled
+                    y0, y1, y2, _, sine, cosine, tau_x, tau_s, tau_c = kernel.step_with_flight(
+                        y0, y1, y2, k, g, head, low
+                    )
+                else:
+                    y0, y1, y2, _, sine, cosine, tau_x, tau_s, tau_c, late = (
+                        scanned.step_with_flight(y0, y1, y2, k, g, head, low, scan)
+                    )
+                    missed += late
                 a = kernel.tangent(*a, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
                 b = kernel.tangent(*b, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
                 c = kernel.tangent(*c, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
@@ -116,3 +130,4 @@ def _spectrum(x, v, w, k, g, at, out):
                     grown_a, grown_b, grown_c = 1.0, 1.0, 1.0
             sum_a, sum_b, sum_c = sum_a + log(grown_a), sum_b + log(grown_b), sum_c + log(grown_c)
             out[j, i, 0], out[j, i, 1], out[j, i, 2] = sum_a / done, sum_b / done, sum_c / done
+    return missed

@@ -1,6 +1,6 @@
-"""The contract: SHA256SUMS and MANIFEST.json in paper_figures/, committed beside the figures.
+"""A contract as written down: SHA256SUMS and MANIFEST.json, committed beside the files.
 
-The manifest has, layer by layer, what the figures were made from: config, source, environment,
+The manifest has, layer by layer, what these were made from: config, source, environment,
 data, drawing, file. Nothing in it depends on the day, the folder or the commit.
 """
 
@@ -14,8 +14,8 @@ from .files import replacing
 from .pictures import describe
 
 FOLDER = "paper_figures"
-MANIFEST = f"{FOLDER}/MANIFEST.json"
-SUMS = f"{FOLDER}/SHA256SUMS"
+MANIFEST = "MANIFEST.json"
+SUMS = "SHA256SUMS"
 BLOCK = 1024  # values hashed together, so that a difference can be placed
 _SHORT = 16  # hex digits of the hash of a block or an attribute
 
@@ -69,65 +69,64 @@ def describe_data(dataset):
     return {"attributes": _attributes(dataset), "sizes": sizes, "variables": variables}
 
 
-def build(root, scenes):
+def build(root, contract):
     """The manifest of a tree that has its results and figures; raises ValueError or OSError."""
-    files = published(scenes)
-    data = scene_data(scenes)
-    artifacts = sorted({path for stages in data.values() for path in stages.values()})
-    behind = {scene: scene_sources(block) for scene, block in scenes.items()}
+    artifacts = sorted({path for stages in contract.data.values() for path in stages.values()})
     return {
         "environment": provenance.versions(),
         "sources": {
             path: provenance.file_hash(root / path)
-            for path in sorted(set().union(*behind.values()))
+            for path in sorted(set().union(*contract.sources.values()))
         },
         "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
         "scenes": {
             scene: {
-                "config": config.drawing(block),
-                "sources": behind[scene],
-                "data": {stage: Path(path).name for stage, path in data[scene].items()},
+                "config": block,
+                "sources": contract.sources[scene],
+                "data": {stage: Path(path).name for stage, path in contract.data[scene].items()},
                 "figures": {
                     Path(path).name: {
                         "drawing": describe(root / path),
                         "sha256": provenance.file_hash(root / path),
                     }
-                    for path in sorted(files)
-                    if files[path] == scene
+                    for path in sorted(contract.figures)
+                    if contract.figures[path] == scene
                 },
             }
-            for scene, block in scenes.items()
+            for scene, block in contract.config.items()
         },
     }
 
 
-def read(root):
+def read(root, folder=FOLDER):
     """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
+    name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads((root / MANIFEST).read_text(encoding="utf-8"))
+        manifest = json.loads((root / name).read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise ContractError(f"{MANIFEST}: missing") from None
+        raise ContractError(f"{name}: missing") from None
     except (OSError, ValueError, RecursionError) as error:
-        raise ContractError(f"{MANIFEST}: broken: {error}") from None
+        raise ContractError(f"{name}: broken: {error}") from None
     # It covers every entry: none can be lost or changed without a word.
     if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
-        raise ContractError(f"{MANIFEST}: was edited: its content does not fit its own checksum")
+        raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
     return manifest
 
 
-def read_sums(root):
+def read_sums(root, folder=FOLDER):
     """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
+    path = f"{folder}/{SUMS}"
     found = {}
     try:
-        lines = (root / SUMS).read_text(encoding="utf-8").splitlines()
+        lines = (root / path).read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
-        raise ContractError(f"{SUMS}: missing") from None
+        raise ContractError(f"{path}: missing") from None
     except (OSError, ValueError) as error:
-        raise ContractError(f"{SUMS}: cannot be read: {error}") from None
+        raise ContractError(f"{path}: cannot be read: {error}") from None
     for number, line in enumerate(lines, 1):
         digest, mark, name = line[:64], line[64:66], line[66:]
         if len(digest) < 64 or set(digest) - set("0123456789abcdef") or not name or mark != "  ":
-            raise ContractError(f"{SUMS}: line {number} is not a sha256 and a file's name")
+            raise ContractError(f"{path}: line {number} is not a sha256 and a file's name")
         found[name] = digest
     return found
 
@@ -146,12 +145,12 @@ def sums(manifest):
     return {name: entry["sha256"] for name, entry in sorted(figures(manifest).items())}
 
 
-def write(root, manifest):
+def write(root, folder, manifest):
     """Write both files of the contract."""
-    with replacing(root / MANIFEST) as part:
+    with replacing(root / folder / MANIFEST) as part:
         text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
         part.write_text(text + "\n", encoding="utf-8")
-    with replacing(root / SUMS) as part:
+    with replacing(root / folder / SUMS) as part:
         lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
         part.write_text("".join(lines), encoding="utf-8")
 

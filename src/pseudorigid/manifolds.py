@@ -11,7 +11,6 @@ mirrored point, mirrored.
 import numpy as np
 import xarray as xr
 
-from . import ensemble
 from .arithmetic import sincos
 from .orbits import variables
 
@@ -226,7 +225,7 @@ class _Branch:
             (rows,) = np.nonzero(image == m)
             columns = [a.copy() for a in states[:, rows]]
             impacts = int(m) * self.period
-            ensemble.steps(*columns, self.ball.k, self.ball.g, impacts, np.empty(rows.size))
+            self.ball.map.steps(*columns, self.ball.k, self.ball.g, impacts, np.empty(rows.size))
             states[:, rows] = columns
         return np.stack(self.ball.reflect(*states)) if self.mirrored else states
 

@@ -2,10 +2,11 @@
 between impacts.
 """
 
+import itertools
+
 import numpy as np
 import xarray as xr
 
-from . import ensemble
 from . import impact as kernel
 from .arithmetic import sincos
 from .ball import whole_number
@@ -61,11 +62,11 @@ def orbit(ball, state, impacts, keep="all"):
     columns = [a.flatten() for a in state]
     if keep == "last":
         tau = np.empty(columns[0].size)
-        ensemble.steps(*columns, ball.k, ball.g, impacts, tau)
+        ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
         values = [a.reshape(shape) for a in (*columns, tau)]
         return xr.Dataset(variables(dims, values), coords={"impact": impacts})
     out = np.empty((columns[0].size, impacts, 4))
-    ensemble.history(*columns, ball.k, ball.g, out)
+    ball.map.history(*columns, ball.k, ball.g, out)
     values = [a.reshape(impacts, *shape) for a in out.T]
     return xr.Dataset(
         variables(("impact", *dims), values), coords={"impact": np.arange(1, impacts + 1)}
@@ -86,7 +87,7 @@ def scene_orbits(ball, energy, starts, impacts):
     pieces = []
     for start, count in zip(starts, impacts, strict=True):
         out = np.empty((1, count, 4))
-        kernel.history(*(np.array([a]) for a in ball.start(start, energy)), ball.k, ball.g, out)
+        ball.map.history(*(np.array([a]) for a in ball.start(start, energy)), ball.k, ball.g, out)
         pieces.append(out[0].T)
     data = variables("point", np.concatenate(pieces, axis=1))
     data["start"] = (
@@ -110,8 +111,23 @@ def _flight_samples(x, b, c, g, t, position, strain):
         strain[i] = c * sine - x * cosine
 
 
+def _flights(ball, orbit):
+    """(x, xdot, udot, tau) of one flight after the other from a periodic orbit's first point."""
+    columns = (orbit[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
+    points = list(zip(*columns, strict=True))
+    if ball.scan is None:
+        yield from itertools.cycle(points)
+    *state, _ = points[0]
+    while True:
+        *after, tau = ball.impact(*state)
+        yield (*state, tau)
+        state = after
+
+
 def motion(ball, orbit, duration):
     """x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
+
+    The orbit's own points are repeated; a scan.ScannedBall follows its first one impact by impact.
 
     Args:
         orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from periodic.of_type.
@@ -121,15 +137,14 @@ def motion(ball, orbit, duration):
         Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
         where position = -strain exactly; impact_t and impact_position on `impact`.
     """
-    states = [orbit[name].values for name in ("x", "xdot", "udot", "tau")]
-    period = states[0].size
+    flights = _flights(ball, orbit)
+    following = next(flights)
     head, low = kernel.transfer(ball.k)
     columns = [[], [], []]
     impacts = [[], []]
     time = 0.0
-    flight = 0
     while time <= duration:
-        x, xdot, udot, tau = (float(a[flight % period]) for a in states)
+        (x, xdot, udot, tau), following = following, next(flights)
         impacts[0].append(time)
         impacts[1].append(x)
         b, c, _ = kernel.rebound(xdot, udot, ball.k, head, low)
@@ -140,12 +155,11 @@ def motion(ball, orbit, duration):
         _flight_samples(x, b, c, ball.g, t, position, strain)
         position[0], strain[0] = x, -x
         if time + tau <= duration:
-            end = float(states[0][(flight + 1) % period])
+            end = following[0]
             position[-1], strain[-1] = end, -end
         for column, values in zip(columns, (time + t, position, strain), strict=True):
             column.append(values)
         time += tau
-        flight += 1
     names = {"t": "time", "position": "position of the mass centre, downwards", "strain": "strain"}
     data = variables("sample", [np.concatenate(c) for c in columns], names)
     names = {"impact_t": "time of impact", "impact_position": "position at impact, downwards"}

@@ -10,8 +10,6 @@ time: b + g tau/2 = 0. Orbits without that symmetry are not looked for.
 import numpy as np
 import xarray as xr
 
-from . import ensemble
-from . import impact as kernel
 from .arithmetic import sincos
 from .ball import rebound, transfer, whole_number
 from .compiled import jit
@@ -177,7 +175,7 @@ def _roots(ball, start, parameters, defect, impacts):
 
     def value(p):
         state = [np.array(a) for a in start(p)]
-        ensemble.steps(*state, ball.k, ball.g, impacts, np.empty(p.size))
+        ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(p.size))
         return defect(*state)
 
     def halve(low, high, goes_right):
@@ -216,7 +214,7 @@ def _solutions(ball, energy, line, period, radius):
 def _gaps(ball, states, period):
     """Largest coordinate of P^n z - z, (n,), for states (3, n)."""
     after = states.copy()
-    ensemble.steps(*after, ball.k, ball.g, period, np.empty(states.shape[1]))
+    ball.map.steps(*after, ball.k, ball.g, period, np.empty(states.shape[1]))
     return after, _distance(after, states)
 
 
@@ -256,7 +254,7 @@ def _follow(ball, state, period):
     comes first.
     """
     out = np.empty((1, period, 4))
-    kernel.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
+    ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
     out = out[0].T
     out[:3, 1:] = out[:3, :-1].copy()
     out[:3, 0] = state

@@ -15,6 +15,7 @@ from pseudorigid.config import (
     stages,
 )
 from pseudorigid.provenance import record_path
+from pseudorigid.study import parts
 
 ROOT = Path(workflow.basedir)
 
@@ -69,3 +70,10 @@ def study_inputs(part):
     """The figures' own artifacts that a part of the study compares with."""
     stages = ("periodic", "manifolds") if part == "needs" else ()
     return sorted(artifact(s, owner) for (_, s), owner in OWNERS.items() if s in stages)
+
+
+def study_code(part):
+    """What a part of the study runs, the libraries' rivals where they are measured."""
+    rivals = ("scipy_events", "taylor", "bench") if part in parts.MEASURED else ()
+    modules = [f"pseudorigid.study.{name}" for name in rivals]
+    return [*code("study.py", *modules), "requirements/study.txt"]

@@ -1,21 +1,14 @@
 # Accuracy against speed, and where methods fail: `./reproduce study`. No part of the figures needs it.
 # Its jobs take every core, one after the other: seconds are measured, and nothing else may run.
-from pseudorigid.study import parts
 
 
 rule study_data:
     input:
         figures=lambda wildcards: study_inputs(wildcards.scene),
-        config="config.yaml",
-        code=code(
-            "study.py",
-            "pseudorigid.study.scipy_events",
-            "pseudorigid.study.taylor",
-            "pseudorigid.study.bench",
-        ),
-        lock="requirements/study.txt",
+        code=lambda wildcards: study_code(wildcards.scene),
     output:
         "results/study/{scene}.nc",
+        record="results/study/provenance/{scene}.nc.json",
     log:
         "results/study/logs/{scene}.log",
     wildcard_constraints:
@@ -23,6 +16,8 @@ rule study_data:
     conda:
         "../envs/python.yaml"
     threads: workflow.cores
+    params:
+        block=lambda wildcards: parts.block(wildcards.scene, SCENES),
     script:
         "../scripts/study.py"
 
@@ -33,6 +28,7 @@ rule study_chart:
         code=code("chart.py"),
     output:
         "results/study/figures/{scene}.png",
+        record="results/study/provenance/{scene}.png.json",
     log:
         "results/study/logs/chart_{scene}.log",
     wildcard_constraints:
@@ -60,6 +56,8 @@ rule study_publish:
 
 rule study:
     input:
-        expand("results/study/{part}.nc", part=(*parts.FIXED, *parts.MEASURED)),
-        expand("results/study/figures/{chart}.png", chart=parts.CHARTS),
-        expand("study_figures/{chart}.png", chart=parts.CHARTS),
+        [parts.data(part) for part in (*parts.FIXED, *parts.MEASURED)],
+        [record_path(parts.data(part)) for part in (*parts.FIXED, *parts.MEASURED)],
+        [parts.drawn(chart) for chart in parts.CHARTS],
+        [record_path(parts.drawn(chart)) for chart in parts.CHARTS],
+        [parts.published(chart) for chart in parts.CHARTS],

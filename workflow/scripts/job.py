@@ -44,16 +44,25 @@ def recorded(snakemake, config):
 
 
 def save_stage(snakemake, compute):
-    """Save what `compute(ball, energy, **fields of the stage's block)` returns."""
+    """Save what `compute(ball, energy, **fields of the stage's block)` returns.
+
+    A block with a `method` is computed by it, and its data say how many impacts that missed.
+    """
     from pseudorigid import artifacts
     from pseudorigid.ball import Ball
+    from pseudorigid.scan import ScannedBall
 
     block = snakemake.params.block
     os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
     with one_line_errors(snakemake), recorded(snakemake, block):
-        fields = {key: value for key, value in block.items() if key not in ("ball", "energy")}
-        ball = Ball(**block["ball"])
+        taken = ("ball", "energy", "method")
+        fields = {key: value for key, value in block.items() if key not in taken}
+        ball, method = Ball(**block["ball"]), block.get("method")
+        if method:
+            ball = ScannedBall(ball.k, ball.g, method["scan"], method["tolerance"])
         dataset = compute(ball, block["energy"], **fields)
+        if method:
+            dataset.attrs |= {"impacts": ball.map.impacts, "impacts_missed": ball.map.missed}
         artifacts.save(
             dataset,
             snakemake.output[0],

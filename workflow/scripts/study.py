@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from job import one_line_errors
+from job import one_line_errors, recorded
 from pseudorigid import artifacts, config
 from pseudorigid.study import fails, needs, states, work
 
@@ -42,7 +42,7 @@ PARTS = {
     "missed_all": lambda: fails.missed(edge_rivals()),
 }
 
-with one_line_errors(snakemake):
+with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
     part = snakemake.wildcards.scene
     dataset = PARTS[part]()
     if part.endswith("_all"):

@@ -1,6 +1,6 @@
 """Ratios of speed: medians of repetitions taken in turn, in one run.
 
-`run` returns rows of text; nothing here enters a figure. One thread throughout.
+`run` returns rows of text; nothing here enters a figure. One core throughout.
 """
 
 import os
@@ -12,7 +12,7 @@ from importlib.metadata import version
 
 import numpy as np
 
-from .. import impact as kernel
+from .. import ensemble
 from ..arithmetic import sincos
 from ..compiled import jit
 from ..lyapunov import lyapunov_spectrum
@@ -134,23 +134,23 @@ def _processor():
 
 def _orbit(state, impacts):
     x, v, w = (np.array([a]) for a in state)
-    kernel.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(1))
+    ensemble.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(1))
 
 
 def _ensemble(lanes, impacts):
     x, v, w = _many(lanes)
-    kernel.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
+    ensemble.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
 
 
 def _stored(lanes, impacts):
     x, v, w = _many(lanes)
-    kernel.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
+    ensemble.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
 
 
 @cache
 def _room(lanes, impacts):
     """Memory for a history, kept between calls: fresh pages are not the method's cost."""
-    return np.empty((4, impacts, lanes))
+    return np.empty((lanes, impacts, 4))
 
 
 def _many(lanes):
@@ -165,11 +165,18 @@ def _start(lanes):
 
 def _along(state, count):
     """The first `count` states of an orbit, as columns."""
-    out = np.empty((4, count, 1))
+    out = np.empty((1, count, 4))
     columns = (np.array([float(a)]) for a in state)
-    kernel.history(*columns, states.BALL.k, states.BALL.g, out)
-    return out[0, :, 0].copy(), out[1, :, 0].copy(), out[2, :, 0].copy()
+    ensemble.history(*columns, states.BALL.k, states.BALL.g, out)
+    return tuple(a.copy() for a in out[0].T[:3])
+
+
+def on_one_core():
+    """Keep this process on one core: whatever starts threads gains nothing by them."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
 if __name__ == "__main__":
+    on_one_core()
     print("\n".join(run()))

@@ -18,43 +18,9 @@ import numpy as np
 from .. import impact as kernel
 from ..arithmetic import sincos
 from ..compiled import jit
+from ..scan import MOST, scan
 
 EXACT, SCAN, ENGINE = 0, 1, 2
-# A flight takes some 3 time units; a method that needs more steps than this gives up.
-MOST = 50_000_000
-
-
-@jit
-def gap(t, x, b, c, g):
-    """f(t) of eq. (21) as it stands in the paper."""
-    sine, cosine = sincos(t)
-    return (x + t * (b + 0.5 * g * t)) + (c * sine - x * cosine)
-
-
-@jit
-def scan(x, b, c, g, step, tolerance):
-    """(tau, evaluations) of the paper's method; NaN where it ends without a change of sign."""
-    low = 0.0
-    high = 0.0
-    count = 0
-    while True:
-        count += 1
-        high = count * step
-        if gap(high, x, b, c, g) > 0.0:
-            break
-        low = high
-        if not count < MOST:
-            return math.nan, count
-    while high - low > tolerance:
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            break
-        count += 1
-        if gap(middle, x, b, c, g) > 0.0:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high), count
 
 
 @jit

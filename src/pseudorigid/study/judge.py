@@ -12,7 +12,7 @@ from flint import arb, ctx
 START_BITS, MOST_BITS = 384, 8192
 
 
-class _UndecidedErrorError(Exception):
+class _UndecidedError(Exception):
     pass
 
 
@@ -23,7 +23,7 @@ def _sign(value):
         return -1
     if value == 0:
         return 0
-    raise _UndecidedErrorError
+    raise _UndecidedError
 
 
 class _Gap:
@@ -73,7 +73,7 @@ def first_root(k, g, x, v, w):
         ctx.prec = bits
         try:
             return _first_root(*(arb(a) for a in (k, g, x, v, w)))
-        except _UndecidedErrorError:
+        except _UndecidedError:
             bits *= 2
     raise ArithmeticError("the judge cannot tell a touch from a miss")
 
@@ -157,11 +157,11 @@ def _solve(f, low, high):
     for _ in range(12):
         value, df, _ = f.look(t)
         if not df > 0:
-            raise _UndecidedErrorError
+            raise _UndecidedError
         t = (t - value / df).mid()
     beside = t * arb(2) ** -150
     if not (f.look(t - beside)[0] < 0 and f.look(t + beside)[0] > 0):
-        raise _UndecidedErrorError
+        raise _UndecidedError
     return t
 
 

@@ -23,3 +23,24 @@ FOLDER = "study_figures"
 def data(part):
     """Where the data of a part are, from the project's root."""
     return f"results/study/{part}.nc"
+
+
+def drawn(chart):
+    """Where a chart is drawn."""
+    return f"results/study/figures/{chart}.png"
+
+
+def published(chart):
+    """Where users look for it."""
+    return f"{FOLDER}/{chart}.png"
+
+
+def block(part, scenes):
+    """What decides the data of a part: the scenes of the config where they are looked at."""
+    return {"part": part} | ({"scenes": scenes} if part == "needs" else {})
+
+
+def drawing(chart):
+    """What decides how a chart is drawn."""
+    _, function, arguments = CHARTS[chart]
+    return {"chart": function, "arguments": list(arguments)}

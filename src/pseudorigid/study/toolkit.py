@@ -18,11 +18,19 @@ def _mapping(u, parameters):
 
 @numba.njit
 def _jacobian(u, parameters, *_):
-    """The analytic Jacobian, eq. (33)."""
-    state = np.array([[u[0]], [u[1]], [u[2]]])
-    out = np.empty((1, 3, 3))
-    kernel.jacobians(state[0], state[1], state[2], parameters[0], parameters[1], 1, out)
-    return out[0]
+    """The analytic Jacobian, eq. (33), column by column."""
+    k, g = parameters[0], parameters[1]
+    head, low = kernel.transfer(k)
+    p, _, q, _, sine, cosine, tau_x, tau_s, tau_c = kernel.step_with_flight(
+        u[0], u[1], u[2], k, g, head, low
+    )
+    out = np.empty((3, 3))
+    for j in range(3):
+        out[0, j], out[1, j], out[2, j] = kernel.tangent(
+            1.0 if j == 0 else 0.0, 1.0 if j == 1 else 0.0, 1.0 if j == 2 else 0.0,
+            k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c,
+        )  # fmt: skip
+    return out
 
 
 def spectrum(ball, state, impacts):

@@ -21,7 +21,7 @@ def counted(count=2000):
     return _errors(own.METHODS, _sets(count))
 
 
-def measured(methods, count=200, repetitions=3):
+def measured(methods, count=200, repetitions=5):
     """The same of any methods, with the median and quartiles of seconds a flight.
 
     The repetitions are interleaved: all methods once, then all again. The first `solve` of each,
