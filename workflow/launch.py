@@ -78,10 +78,18 @@ def add_study_packages() -> int:
     return status
 
 
+def variant(arguments: list[str]) -> int:
+    """The figures of one variant."""
+    from variants import variant
+
+    return variant(arguments)
+
+
 WORDS = {
     "test": test,
     "verify": verify,
     "accept": accept,
+    "variant": variant,
     "study": study,
     "benchmark": benchmark,
 }

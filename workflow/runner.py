@@ -117,7 +117,7 @@ def table(rows: list[tuple[str, str, str]]) -> None:
 
 def workflow(arguments: list[str]) -> int:
     """Check the config, run snakemake, and say what became of the figures."""
-    figures = config.figures(config.load(ROOT / "config.yaml")["scenes"])
+    figures = config.figures(config.load(ROOT / "config.yaml")["variants"])
     lock = hold_lock()
     if lock is None:
         print(BUSY, file=sys.stderr)

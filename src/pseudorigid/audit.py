@@ -16,11 +16,11 @@ class Maker(NamedTuple):
 
 def makers(scenes):
     """Each result of the scenes, from the root -> what should have made it."""
-    owners = config.owners(scenes)
+    serves = config.served({config.PAPER: scenes})
     found = {}
     for scene, block in scenes.items():
         for stage, parameters in config.stages(block).items():
-            path = config.artifact(stage, owners[scene, stage])
+            path = serves[config.PAPER, scene, stage]
             found[path] = Maker(parameters, sources.stage_code(stage))
         drawn = Maker(config.drawing(block), sources.drawing_code(block["picture"]))
         for extension in block["formats"]:

@@ -185,7 +185,9 @@ def _listed(paths):
 
 
 def _say_what_is_missing(scenes, missing):
-    everything = {path for _, behind in config.figures(scenes).values() for path in behind}
+    everything = {
+        path for _, behind in config.figures({config.PAPER: scenes}).values() for path in behind
+    }
     if set(missing) == everything:
         print("no results here: only the committed files were checked (./reproduce makes the rest)")
     elif missing:
@@ -199,7 +201,7 @@ def _not_ready(root, scenes):
         return f"{missing[0]} is missing"
     for path, problem in problems.items():
         return f"{path}: {problem}"
-    for path, (_, behind) in config.figures(scenes).items():
+    for path, (_, behind) in config.figures({config.PAPER: scenes}).items():
         if file_hash(root / path) != file_hash(root / behind[-1]):
             return f"{path} is not {behind[-1]}"
     return None

@@ -5,14 +5,16 @@ from pathlib import Path
 
 from pseudorigid import sources
 from pseudorigid.config import (
+    PAPER,
     STAGES,
     ConfigError,
-    artifact,
+    absent_file,
     drawing,
     figures,
     load,
-    owners,
+    served,
     stages,
+    wanted_orbits,
 )
 from pseudorigid.provenance import record_path
 
@@ -24,29 +26,34 @@ sys.executable = shlex.quote(sys.executable)
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    SCENES = load(ROOT / "config.yaml")["scenes"]
+    VARIANTS = load(ROOT / "config.yaml")["variants"]
 except ConfigError as error:
     sys.exit(str(error))
 
-OWNERS = owners(SCENES)
-FIGURES = figures(SCENES)
+SCENES = VARIANTS[PAPER]
+SERVED = served(VARIANTS)
+FIGURES = figures(VARIANTS)
 
 
 def artifacts(*stages):
     """Input function: the artifacts of some stages that serve the scene, in this order."""
-    return lambda wildcards: [
-        artifact(stage, OWNERS[wildcards.scene, stage], wildcards.variant) for stage in stages
-    ]
+    return lambda wildcards: [SERVED[wildcards.variant, wildcards.scene, stage] for stage in stages]
 
 
 def stage_block(stage):
     """Params function: what decides the data of a stage, and nothing else."""
-    return lambda wildcards: stages(SCENES[wildcards.scene])[stage]
+    return lambda wildcards: stages(VARIANTS[wildcards.variant][wildcards.scene])[stage]
 
 
 def drawn_block(wildcards):
     """Params function: what decides how a scene is drawn."""
-    return drawing(SCENES[wildcards.scene])
+    return drawing(VARIANTS[wildcards.variant][wildcards.scene])
+
+
+def with_records(figures):
+    """The files of some figures, those on the way and their records: what was deleted comes back."""
+    files = {file for _, behind in figures.values() for file in behind}
+    return sorted({*figures, *files, *map(record_path, files)})
 
 
 def scenes_of(*pictures):
@@ -68,4 +75,4 @@ def code(script, *modules):
 def study_inputs(part):
     """The figures' own artifacts that a part of the study compares with."""
     stages = ("periodic", "manifolds") if part == "needs" else ()
-    return sorted(artifact(s, owner) for (_, s), owner in OWNERS.items() if s in stages)
+    return sorted({file for (v, _, s), file in SERVED.items() if v == PAPER and s in stages})

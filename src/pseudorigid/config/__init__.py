@@ -5,21 +5,38 @@ and what is allowed. Importing this package is cheap: it is part of every start.
 """
 
 from .checking import check
-from .needs import SHOWN, STAGES, artifact, drawing, drawn, figures, owners, shown, stages
+from .needs import (
+    SHOWN,
+    STAGES,
+    absent_file,
+    artifact,
+    drawing,
+    drawn,
+    figures,
+    served,
+    shown,
+    stages,
+    wanted_orbits,
+)
 from .reading import load
+from .variants import PAPER, unknown
 from .words import ConfigError
 
 __all__ = [
+    "PAPER",
     "SHOWN",
     "STAGES",
     "ConfigError",
+    "absent_file",
     "artifact",
     "check",
     "drawing",
     "drawn",
     "figures",
     "load",
-    "owners",
+    "served",
     "shown",
     "stages",
+    "unknown",
+    "wanted_orbits",
 ]

@@ -3,30 +3,55 @@
 from fractions import Fraction
 
 from .structure import check_structure
+from .variants import PAPER, derive, scaled
 from .words import refusal, shown
 
 LARGEST = 10_000_000  # impacts of a scene, and points of a manifold: above it a number is a slip
 
 
 def check(document) -> dict:
-    """The complete config of a parsed YAML `document`; raises ConfigError where there is none."""
+    """The complete config of a parsed YAML `document`; raises ConfigError where there is none.
+
+    Its `variants` begin with the paper itself: name -> scene -> block.
+    """
     check_structure(document, "config", ())
     ball = document["ball"]
     _check_ball(ball, ("ball",))
-    scenes = {}
-    for name, given in document["scenes"].items():
-        place = ("scenes", name)
-        check_structure(given, "scene", place, extra_keys=True)
-        check_structure(given, given["picture"], place)
-        block = {"ball": ball, "formats": ["png"]} | given
-        if "png" not in block["formats"]:
-            raise refusal((*place, "formats"), block["formats"], "a list that has png in it")
-        _check_ball(block["ball"], (*place, "ball"))
-        _check_energy(block, place)
-        _check_amounts(block, place)
-        _check_ranges(block, place)
-        scenes[name] = block
-    return {"ball": ball, "scenes": scenes}
+    scenes = {
+        name: _scene(given, ball, ("scenes", name)) for name, given in document["scenes"].items()
+    }
+    variants = {PAPER: scenes}
+    for name in document.get("variants", {}):
+        variants[name] = _variant(document, name)
+    return {"ball": ball, "scenes": scenes, "variants": variants}
+
+
+def _variant(document, name):
+    place = ("variants", name)
+    ball, scenes, energy_places = derive(document, name, place)
+    _check_ball(ball, (*place, "ball"))
+    checked = {
+        scene: _scene(given, ball, (*place, "scenes", scene), energy_places[scene])
+        for scene, given in scenes.items()
+    }
+    scale = document["variants"][name].get("scale", 1)
+    if scale == 1:
+        return checked
+    return {scene: scaled(block, scale) for scene, block in checked.items()}
+
+
+def _scene(given, ball, place, energy_place=None):
+    """The checked and complete block of one scene."""
+    check_structure(given, "scene", place, extra_keys=True)
+    check_structure(given, given["picture"], place)
+    block = {"ball": ball, "formats": ["png"]} | given
+    if "png" not in block["formats"]:
+        raise refusal((*place, "formats"), block["formats"], "a list that has png in it")
+    _check_ball(block["ball"], (*place, "ball"))
+    _check_energy(block, energy_place or (*place, "energy"))
+    _check_amounts(block, place)
+    _check_ranges(block, place)
+    return block
 
 
 def _check_ball(ball, place):
@@ -39,7 +64,6 @@ def _check_energy(block, place):
     # The decimals as written: as floats 0.2 / 2 - 0.04 is a little more than 0.06.
     k, g, energy = (Fraction(str(x)) for x in (ball["k"], ball["g"], block["energy"]))
     lowest, highest = -g * g / (2 * k), k / 2 - g
-    place = (*place, "energy")
     if not energy > lowest:
         what = f"a number above -g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
         raise refusal(place, block["energy"], what)

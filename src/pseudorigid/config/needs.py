@@ -2,6 +2,8 @@
 
 import json
 
+from .variants import PAPER
+
 # What each kind of picture is drawn from: stage -> the fields of the scene that decide its data.
 STAGES = {
     "portrait": {"orbits": ("starts", "impacts")},
@@ -33,40 +35,53 @@ def drawing(block: dict) -> dict:
     return {key: value for key, value in block.items() if key != "formats"}
 
 
-def owners(scenes: dict[str, dict]) -> dict[tuple[str, str], str]:
-    """(scene, stage) -> the scene whose artifact serves it: the first with the same parameters."""
+def served(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
+    """(variant, scene, stage) -> the artifact: that of the first with the same parameters."""
     first, serves = {}, {}
-    for name, block in scenes.items():
-        for stage, parameters in stages(block).items():
-            key = stage, json.dumps(parameters, sort_keys=True)
-            serves[name, stage] = first.setdefault(key, name)
+    for variant, scenes in variants.items():
+        for scene, block in scenes.items():
+            for stage, parameters in stages(block).items():
+                key = stage, json.dumps(parameters, sort_keys=True)
+                path = first.setdefault(key, artifact(stage, scene, variant))
+                serves[variant, scene, stage] = path
     return serves
 
 
-def artifact(stage: str, owner: str, variant: str = "paper") -> str:
+def artifact(stage: str, scene: str, variant: str = PAPER) -> str:
     """Where the data of a stage are, from the project's root."""
-    return f"results/{variant}/{stage}_{owner}.nc"
+    return f"results/{variant}/{stage}_{scene}.nc"
 
 
-def drawn(scene: str, extension: str, variant: str = "paper") -> str:
+def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
     """Where a figure is drawn."""
     return f"results/{variant}/figures/{scene}.{extension}"
 
 
-def shown(scene: str, extension: str) -> str:
+def shown(scene: str, extension: str, variant: str = PAPER) -> str:
     """Where users look for the figure: in paper_figures/, or in results if it is not published."""
-    return f"paper_figures/{scene}.{extension}" if extension in SHOWN else drawn(scene, extension)
+    published = variant == PAPER and extension in SHOWN
+    return f"paper_figures/{scene}.{extension}" if published else drawn(scene, extension, variant)
 
 
-def figures(scenes: dict[str, dict]) -> dict[str, tuple[str, list[str]]]:
+def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
     """Each figure, where users look for it -> its scene, its data files and last its drawing."""
-    serves = owners(scenes)
+    serves = served(variants)
     return {
-        shown(name, extension): (
+        shown(name, extension, variant): (
             name,
-            [artifact(stage, serves[name, stage]) for stage in STAGES[block["picture"]]]
-            + [drawn(name, extension)],
+            [serves[variant, name, stage] for stage in STAGES[block["picture"]]]
+            + [drawn(name, extension, variant)],
         )
-        for name, block in scenes.items()
+        for name, block in variants[variant].items()
         for extension in block["formats"]
     }
+
+
+def wanted_orbits(scenes: dict[str, dict]) -> dict[str, str]:
+    """Scene -> the type of the periodic orbit that it cannot do without."""
+    return {name: block["type"] for name, block in scenes.items() if "type" in block}
+
+
+def absent_file(variant: str) -> str:
+    """Where it says which figures of a variant cannot exist: JSON, scene -> reason."""
+    return f"results/{variant}/absent.json"

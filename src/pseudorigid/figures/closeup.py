@@ -15,9 +15,9 @@ def draw(scene, manifolds):
     unstable ones blue, as in the paper.
     """
     names = (style.NAMES["x"], style.NAMES["xdot"])
-    if "axes" not in scene:
-        edges = {name: manifolds.attrs[f"window_{name}"] for name in ("x", "xdot")}
-        scene = scene | {"axes": {name: of_window(*map(float, e)) for name, e in edges.items()}}
+    edges = {name: manifolds.attrs[f"window_{name}"] for name in ("x", "xdot")}
+    window = {name: of_window(*map(float, ends)) for name, ends in edges.items()}
+    scene = scene | {"axes": window | scene.get("axes", {})}
     refuse_empty(scene["axes"], manifolds)
     plane = Plane(scene, ("x", "xdot"), names, high=900, right=75)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values

@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import style
+from .limits import around
 from .plane import Plane
 
 
@@ -12,9 +13,10 @@ def draw(scene, lyapunov):
 
     `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
     """
+    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    scene = around(scene, impact=([0, scene["impacts"]],), exponent=(exponent,))
     names = ("Number of impacts", "Lyapunov exponents")
     plane = Plane(scene, ("impact", "exponent"), names, right=84)
-    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     _, orbits, indices = exponent.shape
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
