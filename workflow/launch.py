@@ -85,11 +85,19 @@ def variant(arguments: list[str]) -> int:
     return variant(arguments)
 
 
+def compare(arguments: list[str]) -> int:
+    """What differs between two variants."""
+    from variants import compare
+
+    return compare(arguments)
+
+
 WORDS = {
     "test": test,
     "verify": verify,
     "accept": accept,
     "variant": variant,
+    "compare": compare,
     "study": study,
     "benchmark": benchmark,
 }

@@ -1,9 +1,10 @@
-"""./reproduce variant NAME: the figures of a variant, and why some of them cannot exist."""
+"""./reproduce variant NAME and compare A B."""
 
 import json
 import sys
 import time
 
+from interrupts import tidying_up
 from pseudorigid import config
 from runner import BUSY, CORES, ROOT, hold_lock, identity, last_words, run_snakemake, table
 
@@ -38,6 +39,34 @@ def variant(arguments: list[str]) -> int:
         table(rows)
     for scene, reason in absent.items() if not _only_said(options) else ():
         print(f"{scene}  cannot exist: {reason}")
+    return 0
+
+
+def compare(arguments: list[str]) -> int:
+    """Make what is missing of two variants, and say what differs between them."""
+    variants = config.load(ROOT / "config.yaml")["variants"]
+    names, options = arguments[:2], arguments[2:]
+    for name in names:
+        if name not in variants and not name.startswith("-"):
+            print(f"reproduce: {config.unknown('variant', name, list(variants))}", file=sys.stderr)
+            return 1
+    if len(set(names) & set(variants)) < 2:
+        message = f"reproduce: compare needs two names of {_listed(variants)}"
+        print(message, file=sys.stderr)
+        return 1
+    lock = hold_lock()
+    if lock is None:
+        print(BUSY, file=sys.stderr)
+        return 1
+    targets = ["all" if name == config.PAPER else f"variant_{name}" for name in names]
+    status = make(targets, options)
+    if status or _only_said(options):
+        return status
+    from pseudorigid.compare import compare
+
+    with tidying_up():
+        print()
+        compare(ROOT, variants, names, [read_absent(name) for name in names])
     return 0
 
 

@@ -14,7 +14,7 @@ def draw(scene, lyapunov):
     `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    scene = around(scene, impact=([0, scene["impacts"]],), exponent=(exponent,))
+    scene = around(scene, impact=(0, scene["impacts"]), exponent=(exponent,))
     names = ("Number of impacts", "Lyapunov exponents")
     plane = Plane(scene, ("impact", "exponent"), names, right=84)
     _, orbits, indices = exponent.shape
@@ -22,6 +22,6 @@ def draw(scene, lyapunov):
         hue = style.HUES[orbit % len(style.HUES)]
         for index in range(indices):
             plane.line(impact, exponent[:, orbit, index], color=hue, lw=0.8)
-    for index in range(indices):
-        plane.beside(np.median(exponent[-1, :, index]), rf"$\lambda_{index + 1}$")
+    ends = np.median(exponent[-1], axis=0)
+    plane.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return plane.figure

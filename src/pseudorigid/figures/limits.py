@@ -17,17 +17,17 @@ def of_window(low, high):
     return {"limits": [low, high], "ticks": ticks}
 
 
-def of_data(*values, margin=0.0, most=6):
+def of_data(*values, margin=0.0, room=0.03, most=6):
     """An axis around all finite `values` (arrays): round limits, at most `most` steps of ticks.
 
-    `margin` is the part of the axis at either end that stays without a tick: where axes meet, the
-    labels of two would.
+    `room` is left between data and limits, as a part of the data's span. `margin` is the part of
+    the axis at either end that stays without a tick: where axes meet, the labels of two would.
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
     if not high > low:
-        room = abs(low) or 1.0
-        low, high = low - 0.5 * room, high + 0.5 * room
+        low, high = low - (abs(low) or 1.0), high + (abs(low) or 1.0)
+    low, high = low - room * (high - low), high + room * (high - low)
     digit, power = _step((high - low) / most)
     # limits in fifths of a step
     fine = 2 * digit, power - 1
@@ -39,11 +39,16 @@ def of_data(*values, margin=0.0, most=6):
 
 
 def around(scene, **data):
-    """The scene with an axis for each name of `data`: its own, or one around these arrays."""
+    """The scene with an axis for each name of `data`: its own, or one around these arrays.
+
+    Two numbers in the place of arrays are where the axis is to begin and to end.
+    """
     own = scene.get("axes", {})
-    box = "view" in scene
+    margin = 0.08 if "view" in scene else 0.0
     axes = {
-        name: own[name] if name in own else of_data(*values, margin=0.08 if box else 0.0)
+        name: own[name]
+        if name in own
+        else of_data(*values, margin=margin, room=0.03 if np.ndim(values[0]) else 0.0)
         for name, values in data.items()
     }
     return scene | {"axes": axes}

@@ -15,7 +15,7 @@ def draw(scene, motion):
     from one impact to the next, and impact_t, impact_position (impact), which are marked.
     """
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
-    scene = around(scene, t=([0.0, scene["duration"]],), displacement=(-x, u))
+    scene = around(scene, t=(0.0, scene["duration"]), displacement=(-x, u))
     plane = Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
     mass = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
