@@ -6,6 +6,9 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 
 
@@ -19,6 +22,7 @@ include: "workflow/rules/compute.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/publish.smk"
 include: "workflow/rules/variants.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/study.smk"
 
 

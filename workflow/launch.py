@@ -92,12 +92,20 @@ def compare(arguments: list[str]) -> int:
     return compare(arguments)
 
 
+def report(arguments: list[str]) -> int:
+    """One HTML page with the figures."""
+    from reporting import report
+
+    return report(arguments)
+
+
 WORDS = {
     "test": test,
     "verify": verify,
     "accept": accept,
     "variant": variant,
     "compare": compare,
+    "report": report,
     "study": study,
     "benchmark": benchmark,
 }

@@ -1,4 +1,5 @@
 # The checked config, and what the rules ask of it.
+import json
 import shlex
 import sys
 from pathlib import Path
@@ -50,10 +51,29 @@ def drawn_block(wildcards):
     return drawing(VARIANTS[wildcards.variant][wildcards.scene])
 
 
-def with_records(figures):
+def with_records(figures, published=True):
     """The files of some figures, those on the way and their records: what was deleted comes back."""
     files = {file for _, behind in figures.values() for file in behind}
-    return sorted({*figures, *files, *map(record_path, files)})
+    return sorted({*(figures if published else ()), *files, *map(record_path, files)})
+
+
+def reported(picture):
+    """A drawing, with the caption of its kind of picture in the report."""
+    return report(
+        "results/{variant}/figures/{scene}.{extension}",
+        caption=str(ROOT / "workflow" / "report" / f"{picture}.rst"),
+        category="Figures",
+        labels=figure_labels,
+    )
+
+
+def figure_labels(wildcards):
+    """The line on a figure in the report's list, read when the report is made.
+
+    One column: a second one with two values in it would become a switch between figures.
+    """
+    labels = json.loads((ROOT / "results" / "report" / "labels.json").read_text(encoding="utf-8"))
+    return {"figure": labels[wildcards.scene]}
 
 
 def scenes_of(*pictures):

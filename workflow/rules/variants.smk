@@ -1,6 +1,5 @@
 # Variants: the same rules in folders of their own, without publishing. Which figures exist is known
 # once the periodic orbits are.
-import json
 
 
 checkpoint absent:

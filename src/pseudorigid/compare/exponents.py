@@ -19,8 +19,12 @@ def table(one, other, names):
 
 def spread(values):
     """`mean ± standard deviation`, and the two ends."""
-    mean = float(np.mean(values))
     if values.size == 1:
-        return f"{mean:.4f}"
-    ends = f"{np.min(values):.4f} to {np.max(values):.4f}"
-    return f"{mean:.4f} ± {np.std(values, ddof=1):.4f} ({ends})"
+        return _fixed(values[0])
+    ends = f"{_fixed(np.min(values))} to {_fixed(np.max(values))}"
+    return f"{_fixed(np.mean(values))} ± {_fixed(np.std(values, ddof=1))} ({ends})"
+
+
+def _fixed(value):
+    text = f"{value:.4f}"
+    return text.removeprefix("-") if float(text) == 0.0 else text

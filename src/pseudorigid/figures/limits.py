@@ -25,8 +25,9 @@ def of_data(*values, margin=0.0, room=0.03, most=6):
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
-    if not high > low:
-        low, high = low - (abs(low) or 1.0), high + (abs(low) or 1.0)
+    size = max(abs(low), abs(high))
+    if not high - low > 1e-9 * size:  # one value, as far as a label can tell
+        low, high = low - (size or 1.0), high + (size or 1.0)
     low, high = low - room * (high - low), high + room * (high - low)
     digit, power = _step((high - low) / most)
     # limits in fifths of a step
