@@ -129,6 +129,19 @@ def test_both_figures_are_side_by_side(compared):
     assert np.array_equal(one[75:, : drawn.shape[1]], drawn)
 
 
+def test_a_damaged_artifact_is_one_line_that_names_it(compared):
+    artifact = compared.path / "results" / "low" / "lyapunov_fig7.nc"
+    whole = artifact.read_bytes()
+    artifact.write_bytes(whole[:3000])
+    result = compared.run("compare", "paper", "low")
+    artifact.write_bytes(whole)
+    assert result.returncode == 1
+    assert "Traceback" not in result.stdout
+    last = result.stdout.splitlines()[-1]
+    assert last.startswith("reproduce: results/low/lyapunov_fig7.nc: damaged")
+    assert last.endswith("delete it and run ./reproduce again")
+
+
 @pytest.mark.parametrize(
     ("words", "line"),
     [

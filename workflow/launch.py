@@ -5,11 +5,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-from interrupts import tidying_up  # first: Ctrl-C is no traceback from here on
-
 START = Path.cwd()
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "src"))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "src"), str(HERE)]
 
+from interrupts import tidying_up  # noqa: E402  (from here on Ctrl-C is no traceback)
 from pseudorigid import config  # noqa: E402  (imports nothing heavy)
 from runner import BUSY, ROOT, hold_lock, workflow  # noqa: E402  (needs the path above)
 

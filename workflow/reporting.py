@@ -6,7 +6,7 @@ import sys
 
 from interrupts import tidying_up
 from runner import BUSY, ROOT, hold_lock
-from variants import make
+from variants import make, only_said
 
 PAGE = "results/report/report.html"
 
@@ -18,7 +18,7 @@ def report(arguments: list[str]) -> int:
         print(BUSY, file=sys.stderr)
         return 1
     status = make(["report"], arguments)
-    if status or "-n" in arguments or "--dry-run" in arguments:
+    if status or only_said(arguments):
         return status
     part = ROOT / "results" / "report" / "part.html"  # snakemake wants a name that ends so
     command = [sys.executable, "-m", "snakemake", "report", "--report", str(part)]

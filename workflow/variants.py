@@ -33,11 +33,11 @@ def variant(arguments: list[str]) -> int:
     rows = []
     for path, (scene, _) in figures.items():
         drawn = identity(path) != before[path]
-        if scene not in absent and (drawn or not _only_said(options)):
+        if scene not in absent and (drawn or not only_said(options)):
             rows.append((scene, path, "recomputed" if drawn else "current"))
     if rows:
         table(rows)
-    for scene, reason in absent.items() if not _only_said(options) else ():
+    for scene, reason in absent.items() if not only_said(options) else ():
         print(f"{scene}  cannot exist: {reason}")
     return 0
 
@@ -60,13 +60,17 @@ def compare(arguments: list[str]) -> int:
         return 1
     targets = ["all" if name == config.PAPER else f"variant_{name}" for name in names]
     status = make(targets, options)
-    if status or _only_said(options):
+    if status or only_said(options):
         return status
     from pseudorigid.compare import compare
 
     with tidying_up():
         print()
-        compare(ROOT, variants, names, [read_absent(name) for name in names])
+        try:
+            compare(ROOT, variants, names, [read_absent(name) for name in names])
+        except ValueError as error:  # a damaged file, named
+            print(f"reproduce: {error}".replace(f"{ROOT}/", ""), file=sys.stderr)
+            return 1
     return 0
 
 
@@ -92,6 +96,6 @@ def _listed(names):
     return ", ".join(names) or "none"
 
 
-def _only_said(options):
+def only_said(options):
     """Whether these options of snakemake make nothing."""
     return any(option.startswith("-") and not CORES.fullmatch(option) for option in options)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import style
-from .limits import around
+from .limits import complete, of_data
 from .plane import Plane
 
 
@@ -14,7 +14,11 @@ def draw(scene, lyapunov):
     `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    scene = around(scene, impact=(0, scene["impacts"]), exponent=(exponent,))
+    scene = complete(
+        scene,
+        impact=lambda: of_data([0, scene["impacts"]], room=0.0),
+        exponent=lambda: of_data(exponent),
+    )
     names = ("Number of impacts", "Lyapunov exponents")
     plane = Plane(scene, ("impact", "exponent"), names, right=84)
     _, orbits, indices = exponent.shape

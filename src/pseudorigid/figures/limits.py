@@ -39,20 +39,23 @@ def of_data(*values, margin=0.0, room=0.03, most=6):
     return {"limits": limits, "ticks": [_decimal(tick, (digit, power)) for tick in ticks]}
 
 
-def around(scene, **data):
-    """The scene with an axis for each name of `data`: its own, or one around these arrays.
-
-    Two numbers in the place of arrays are where the axis is to begin and to end.
-    """
+def complete(scene, **axes):
+    """The scene with an axis of each name: its own, or what the function of that name returns."""
     own = scene.get("axes", {})
-    margin = 0.08 if "view" in scene else 0.0
-    axes = {
-        name: own[name]
-        if name in own
-        else of_data(*values, margin=margin, room=0.03 if np.ndim(values[0]) else 0.0)
-        for name, values in data.items()
+    return scene | {
+        "axes": {name: own[name] if name in own else make() for name, make in axes.items()}
     }
-    return scene | {"axes": axes}
+
+
+def complete_box(scene, names, *datasets):
+    """The scene with these axes, its own or around the data, for a box, whose corners meet."""
+    return complete(
+        scene,
+        **{
+            name: lambda name=name: of_data(*(d[name].values for d in datasets), margin=0.08)
+            for name in names
+        },
+    )
 
 
 def _step(least):

@@ -2,7 +2,7 @@
 
 from . import style
 from .box import Box
-from .limits import around, refuse_empty
+from .limits import complete_box, refuse_empty
 from .ragged import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
@@ -17,7 +17,7 @@ def draw(scene, orbits):
     on the far side of the surface is pale and behind the rest. Axes that the scene does not give
     are those of the orbits. Raises ValueError for a sea that the scene does not have.
     """
-    scene = around(scene, **{name: (orbits[name].values,) for name in style.NAMES})
+    scene = complete_box(scene, style.NAMES, orbits)
     refuse_empty(scene["axes"], orbits)
     box = Box(scene)
     spans = rows(orbits["row_size"].values)
