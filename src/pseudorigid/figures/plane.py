@@ -85,7 +85,9 @@ class Plane:
             x = float(self.place(tick, 0)[0])
             self._ink([x, x], [bottom, bottom - _TICK * POINT])
             y = bottom - (_TICK + _GAP) * POINT
-            self._text(x, y, style.number(tick, power), "center", "top")
+            label = style.number(tick, power)
+            half = 0.32 * len(label) * style.PLAIN * POINT  # at most: a long one stays on the sheet
+            self._text(min(x, style.COLUMN - half - 6), y, label, "center", "top")
         for tick in up:
             y = float(self.place(0, tick)[1])
             self._ink([left, left - _TICK * POINT], [y, y])
