@@ -155,7 +155,7 @@ def test_axes_hold_the_data_and_have_ticks(low, span, margin):
 
 
 def test_limits_and_ticks_are_round_numbers():
-    axis = of_data(np.array([-0.174, 0.573]))
+    axis = of_data(np.array([-0.174, 0.573]), most=6)
     assert axis == {"limits": [-0.2, 0.6], "ticks": [-0.2, 0.0, 0.2, 0.4, 0.6]}
     assert of_data([0, 200000], room=0.0)["limits"] == [0, 200000]
 

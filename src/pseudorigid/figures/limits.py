@@ -17,7 +17,7 @@ def of_window(low, high):
     return {"limits": [low, high], "ticks": ticks}
 
 
-def of_data(*values, margin=0.0, room=0.03, most=6):
+def of_data(*values, margin=0.0, room=0.03, most=8):
     """An axis around all finite `values` (arrays): round limits, at most `most` steps of ticks.
 
     `room` is left between data and limits, as a part of the data's span. `margin` is the part of
@@ -52,7 +52,9 @@ def complete_box(scene, names, *datasets):
     return complete(
         scene,
         **{
-            name: lambda name=name: of_data(*(d[name].values for d in datasets), margin=0.08)
+            name: lambda name=name: of_data(
+                *(d[name].values for d in datasets), margin=0.08, most=6
+            )
             for name in names
         },
     )
