@@ -43,7 +43,7 @@ def run(script, name, inputs, output, **params):
     made.record = provenance.record_path(output)
     job = SimpleNamespace(
         rule=Path(script).stem,
-        wildcards=SimpleNamespace(scene=name),
+        wildcards={"scene": name},
         input=given,
         output=made,
         log=["log"],
