@@ -6,11 +6,14 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 
 
 wildcard_constraints:
-    variant="paper",
+    variant="|".join(VARIANTS),
     scene="|".join(SCENES),
     extension="png|svg|pdf",
 
@@ -18,13 +21,12 @@ wildcard_constraints:
 include: "workflow/rules/compute.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/publish.smk"
+include: "workflow/rules/variants.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/study.smk"
 
 
-# Every file by name, also those on the way: one that was deleted comes back.
 rule all:
     default_target: True
     input:
-        sorted(FIGURES),
-        sorted({file for _, behind in FIGURES.values() for file in behind}),
-        sorted({record_path(file) for _, behind in FIGURES.values() for file in behind}),
+        with_records(FIGURES),

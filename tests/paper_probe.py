@@ -44,7 +44,7 @@ def run(script, name, inputs, output, **params):
     job = SimpleNamespace(
         rule=Path(script).stem,
         threads=1,
-        wildcards=SimpleNamespace(scene=name),
+        wildcards={"scene": name},
         input=given,
         output=made,
         log=["log"],
@@ -56,12 +56,12 @@ def run(script, name, inputs, output, **params):
 def paper(names):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
     scenes = config.load(ROOT / "config.yaml")["scenes"]
-    owners = config.owners(scenes)
+    serves = config.served({"paper": scenes})
     for scene in names or scenes:
         block = scenes[scene]
 
         def data(stages, scene=scene):
-            return [config.artifact(stage, owners[scene, stage]) for stage in stages]
+            return [serves["paper", scene, stage] for stage in stages]
 
         for stage, parameters in config.stages(block).items():
             (output,) = data([stage])

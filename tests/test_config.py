@@ -296,11 +296,11 @@ def test_a_missing_file_is_refused_in_one_line(tmp_path):
 def test_equal_stages_are_computed_once():
     scenes = copy.deepcopy(SCENES)
     scenes["again"] = scenes["a_closeup"] | {"energy": 0.02}
-    serves = config.owners(config.check({"ball": GOOD["ball"], "scenes": scenes})["scenes"])
-    assert serves["a_tangle", "periodic"] == "a_motion"
-    assert serves["a_closeup", "periodic"] == "a_motion"
-    assert serves["a_closeup", "manifolds"] == "a_closeup"
-    assert serves["again", "periodic"] == "again"
+    serves = config.served(config.check({"ball": GOOD["ball"], "scenes": scenes})["variants"])
+    assert serves["paper", "a_tangle", "periodic"] == "results/paper/periodic_a_motion.nc"
+    assert serves["paper", "a_closeup", "periodic"] == "results/paper/periodic_a_motion.nc"
+    assert serves["paper", "a_closeup", "manifolds"] == "results/paper/manifolds_a_closeup.nc"
+    assert serves["paper", "again", "periodic"] == "results/paper/periodic_again.nc"
 
 
 def test_drawing_does_not_decide_data():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pseudorigid.figures import box, plane, projection, save, sheet, style
+from pseudorigid.figures import box, limits, plane, projection, save, sheet, style
 
 VIEW = {"elevation": 40, "azimuth": 115}
 SPACE = {
@@ -239,9 +239,49 @@ def test_png_holds_exactly_the_pixels(kind, tmp_path):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_text_is_whole_and_apart(kind):
+    assert_text_is_whole_and_apart(draw(kind))
+
+
+def lengths_scaled(data, scale):
+    """The data with every length multiplied, times and exponents as they are."""
+    names = {"x", "xdot", "udot", "position", "strain", "impact_position"} & set(data.variables)
+    edges = {"window_x": [0.2101, 0.2116], "window_xdot": [0.0925, 0.0932]}
+    edges = {name: [scale * edge for edge in ends] for name, ends in edges.items()}
+    points = {name: scale * data.attrs[name] for name in data.attrs if name.startswith("point_")}
+    changed = data.assign({name: scale * data[name] for name in names})
+    return changed.assign_attrs(edges | points | {"g": scale * data.attrs["g"]})
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0, 0.37, 0.1, 5000.0])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
+    scene = {key: value for key, value in SCENES[kind].items() if key != "axes"}
+    scene |= {"duration": 15.5, "impacts": 200_000}
+    data = [lengths_scaled(part, scale) for part in DATA[kind]()]
+    figure = import_module(f"pseudorigid.figures.{kind}").draw(scene, *data)
+    assert_text_is_whole_and_apart(figure)
+
+
+def test_an_axis_that_a_scene_gives_is_kept():
+    given = {"limits": [0, 8], "ticks": [0, 8]}
+    scene = limits.complete({"axes": {"t": given}}, t=lambda: 1 / 0, x=lambda: "made")
+    assert scene == {"axes": {"t": given, "x": "made"}}
+
+
+def test_names_of_exponents_that_coincide_are_moved_apart():
+    data = exponents()
+    data["exponent"] *= 0.0
+    picture = import_module("pseudorigid.figures.exponents")
+    figure = picture.draw(SCENES["exponents"], data)
+    assert_text_is_whole_and_apart(figure)
+    texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
+    names = [text.get_text() for text in texts if "lambda" in text.get_text()]
+    assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
+
+
+def assert_text_is_whole_and_apart(figure):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    figure = draw(kind)
     with style.pinned():
         renderer = FigureCanvasAgg(figure).get_renderer()
         boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]

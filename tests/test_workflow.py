@@ -165,7 +165,9 @@ def test_a_setting_for_windows_does_not_matter(done, monkeypatch):
     assert result.returncode == 0, result.stdout
 
 
-@pytest.mark.parametrize("file", ["src/pseudorigid/config.py", "src/snakemake/cli.py", "Snakefile"])
+@pytest.mark.parametrize(
+    "file", ["src/pseudorigid/config/__init__.py", "src/snakemake/cli.py", "Snakefile"]
+)
 def test_interrupting_the_start_is_no_traceback(tree, file):
     reached = tree.path / "reached"
     path = tree.path / file
@@ -307,7 +309,7 @@ def used(script):
 
 def test_a_script_depends_on_what_it_imports_and_no_more():
     assert {"__init__.py", "lyapunov.py", "impact.py", "arithmetic.py"} <= used("lyapunov.py")
-    assert not used("lyapunov.py") & {"manifolds.py", "periodic.py", "config.py"}
+    assert not used("lyapunov.py") & {"manifolds.py", "periodic.py", "config/__init__.py"}
     assert not {name for name in used("orbits.py") if name.startswith("figures")}
     assert "figures/portrait.py" not in used("draw.py")
 

@@ -16,11 +16,11 @@ class Maker(NamedTuple):
 
 def makers(scenes):
     """Each result of the scenes, from the root -> what should have made it."""
-    owners = config.owners(scenes)
+    serves = config.served({config.PAPER: scenes})
     found = {}
     for scene, block in scenes.items():
         for stage, parameters in config.stages(block).items():
-            path = config.artifact(stage, owners[scene, stage])
+            path = serves[config.PAPER, scene, stage]
             found[path] = Maker(parameters, sources.stage_code(stage))
         drawn = Maker(config.drawing(block), sources.drawing_code(block["picture"]))
         for extension in block["formats"]:
@@ -50,19 +50,23 @@ def audit(root, makers):
     return problems, missing
 
 
-def differing_key(before, after, place=""):
+def differing_key(before, after):
     """(dotted key, value before, value after) of the first difference of two blocks, or None."""
+    return next(differing_keys(before, after), None)
+
+
+def differing_keys(before, after, place=""):
+    """Yield (dotted key, value before, value after) for each difference of two blocks."""
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
             where = f"{place}.{key}" if place else key
             if key not in before or key not in after:
-                return where, before.get(key, "nothing"), after.get(key, "nothing")
-            found = differing_key(before[key], after[key], where)
-            if found:
-                return found
-        return None
+                yield where, before.get(key, "nothing"), after.get(key, "nothing")
+            else:
+                yield from differing_keys(before[key], after[key], where)
     # 1 and 1.0 differ as text and as data, true and 1 too.
-    return None if json.dumps(before) == json.dumps(after) else (place, before, after)
+    elif json.dumps(before) != json.dumps(after):
+        yield place, before, after
 
 
 def differing_files(before, after):

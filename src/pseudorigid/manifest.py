@@ -26,7 +26,7 @@ class ContractError(Exception):
 
 def published(scenes):
     """Each figure of the contract -> its scene: the files of the config that users see."""
-    found = {path: scene for path, (scene, _) in config.figures(scenes).items()}
+    found = {path: scene for path, (scene, _) in config.figures({config.PAPER: scenes}).items()}
     return {path: scene for path, scene in found.items() if path.startswith(f"{FOLDER}/")}
 
 
@@ -38,11 +38,9 @@ def scene_sources(block):
 
 def scene_data(scenes):
     """Scene -> stage -> the artifact that it is drawn from."""
-    owners = config.owners(scenes)
+    serves = config.served({config.PAPER: scenes})
     return {
-        scene: {
-            stage: config.artifact(stage, owners[scene, stage]) for stage in config.stages(block)
-        }
+        scene: {stage: serves[config.PAPER, scene, stage] for stage in config.stages(block)}
         for scene, block in scenes.items()
     }
 

@@ -1,18 +1,21 @@
 # The checked config, and what the rules ask of it.
+import json
 import shlex
 import sys
 from pathlib import Path
 
 from pseudorigid import sources
 from pseudorigid.config import (
+    PAPER,
     STAGES,
     ConfigError,
-    artifact,
+    absent_file,
     drawing,
     figures,
     load,
-    owners,
+    served,
     stages,
+    wanted_orbits,
 )
 from pseudorigid.provenance import record_path
 from pseudorigid.study import parts
@@ -25,29 +28,53 @@ sys.executable = shlex.quote(sys.executable)
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    SCENES = load(ROOT / "config.yaml")["scenes"]
+    VARIANTS = load(ROOT / "config.yaml")["variants"]
 except ConfigError as error:
     sys.exit(str(error))
 
-OWNERS = owners(SCENES)
-FIGURES = figures(SCENES)
+SCENES = VARIANTS[PAPER]
+SERVED = served(VARIANTS)
+FIGURES = figures(VARIANTS)
 
 
 def artifacts(*stages):
     """Input function: the artifacts of some stages that serve the scene, in this order."""
-    return lambda wildcards: [
-        artifact(stage, OWNERS[wildcards.scene, stage], wildcards.variant) for stage in stages
-    ]
+    return lambda wildcards: [SERVED[wildcards.variant, wildcards.scene, stage] for stage in stages]
 
 
 def stage_block(stage):
     """Params function: what decides the data of a stage, and nothing else."""
-    return lambda wildcards: stages(SCENES[wildcards.scene])[stage]
+    return lambda wildcards: stages(VARIANTS[wildcards.variant][wildcards.scene])[stage]
 
 
 def drawn_block(wildcards):
     """Params function: what decides how a scene is drawn."""
-    return drawing(SCENES[wildcards.scene])
+    return drawing(VARIANTS[wildcards.variant][wildcards.scene])
+
+
+def with_records(figures, published=True):
+    """The files of some figures, those on the way and their records: what was deleted comes back."""
+    files = {file for _, behind in figures.values() for file in behind}
+    return sorted({*(figures if published else ()), *files, *map(record_path, files)})
+
+
+def reported(picture):
+    """A drawing, with the caption of its kind of picture in the report."""
+    return report(
+        "results/{variant}/figures/{scene}.{extension}",
+        caption=str(ROOT / "workflow" / "report" / f"{picture}.rst"),
+        category="Figures",
+        labels=figure_labels,
+    )
+
+
+def figure_labels(wildcards):
+    """The line on a figure in the report's list, read when the report is made.
+
+    One column: a second one with two values in it would become a switch between figures.
+    """
+    labels = json.loads((ROOT / "results" / "report" / "labels.json").read_text(encoding="utf-8"))
+    return {"figure": labels[wildcards.scene]}
 
 
 def scenes_of(*pictures):
@@ -69,7 +96,7 @@ def code(script, *modules):
 def study_inputs(part):
     """The figures' own artifacts that a part of the study compares with."""
     stages = ("periodic", "manifolds") if part == "needs" else ()
-    return sorted(artifact(s, owner) for (_, s), owner in OWNERS.items() if s in stages)
+    return sorted({file for (v, _, s), file in SERVED.items() if v == PAPER and s in stages})
 
 
 def study_code(part):

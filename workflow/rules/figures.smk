@@ -6,7 +6,7 @@ rule draw_portrait:
         data=artifacts("orbits"),
         code=code("draw.py", "pseudorigid.figures.portrait"),
     output:
-        "results/{variant}/figures/{scene}.{extension}",
+        reported("portrait"),
         record="results/{variant}/provenance/{scene}.{extension}.json",
     log:
         "results/{variant}/logs/draw_{scene}_{extension}.log",
@@ -24,6 +24,9 @@ use rule draw_portrait as draw_motion with:
     input:
         data=artifacts("motion"),
         code=code("draw.py", "pseudorigid.figures.motion"),
+    output:
+        reported("motion"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     wildcard_constraints:
         scene=scenes_of("motion"),
 
@@ -32,6 +35,9 @@ use rule draw_portrait as draw_tangle with:
     input:
         data=artifacts("orbits", "manifolds", "periodic"),
         code=code("draw.py", "pseudorigid.figures.tangle"),
+    output:
+        reported("tangle"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     wildcard_constraints:
         scene=scenes_of("tangle"),
 
@@ -40,6 +46,9 @@ use rule draw_portrait as draw_closeup with:
     input:
         data=artifacts("manifolds"),
         code=code("draw.py", "pseudorigid.figures.closeup"),
+    output:
+        reported("closeup"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     wildcard_constraints:
         scene=scenes_of("closeup"),
 
@@ -48,5 +57,8 @@ use rule draw_portrait as draw_exponents with:
     input:
         data=artifacts("lyapunov"),
         code=code("draw.py", "pseudorigid.figures.exponents"),
+    output:
+        reported("exponents"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     wildcard_constraints:
         scene=scenes_of("exponents"),

@@ -24,11 +24,17 @@ def one_line_errors(snakemake):
         message = " ".join(str(error).split())
         if not isinstance(error, ValueError):  # ValueErrors are written for the user
             message = f"{type(error).__name__}: {message} (traceback in {log})"
-        message = f"pseudorigid: {snakemake.wildcards.scene}: {message}"
+        message = f"pseudorigid: {_subject(snakemake.wildcards)}: {message}"
         with open(log, "w", encoding="utf-8") as file:
             file.write(f"{traceback.format_exc()}\n{message}\n")
         print(message, file=sys.stderr)
         sys.exit(1)
+
+
+def _subject(wildcards):
+    """What the job is about: a scene of the paper, a variant's scene, or a variant."""
+    parts = [wildcards.get("variant", "paper"), wildcards.get("scene")]
+    return "/".join(part for part in parts if part not in ("paper", None))
 
 
 @contextmanager

@@ -23,13 +23,12 @@ def edge_rivals():
 
 def scenes_needs():
     scenes = config.load("config.yaml")["scenes"]
-    owners = config.owners(scenes)
     loaded = {
-        (scene, stage): artifacts.load(config.artifact(stage, owner))
-        for (scene, stage), owner in owners.items()
+        (stage, scene): artifacts.load(path)
+        for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()
         if stage in ("periodic", "manifolds")
     }
-    return needs.needs(scenes, {(stage, scene): data for (scene, stage), data in loaded.items()})
+    return needs.needs(scenes, loaded)
 
 
 PARTS = {

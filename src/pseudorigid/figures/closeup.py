@@ -1,7 +1,7 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
 from . import style
-from .limits import of_window, refuse_empty
+from .limits import complete, of_window, refuse_empty
 from .plane import Plane
 from .ragged import rows
 
@@ -15,9 +15,11 @@ def draw(scene, manifolds):
     unstable ones blue, as in the paper.
     """
     names = (style.NAMES["x"], style.NAMES["xdot"])
-    if "axes" not in scene:
-        edges = {name: manifolds.attrs[f"window_{name}"] for name in ("x", "xdot")}
-        scene = scene | {"axes": {name: of_window(*map(float, e)) for name, e in edges.items()}}
+    scene = complete(
+        scene,
+        x=lambda: of_window(*map(float, manifolds.attrs["window_x"])),
+        xdot=lambda: of_window(*map(float, manifolds.attrs["window_xdot"])),
+    )
     refuse_empty(scene["axes"], manifolds)
     plane = Plane(scene, ("x", "xdot"), names, high=900, right=75)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values

@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import style
+from .limits import complete, of_data
 from .plane import Plane
 
 
@@ -12,14 +13,19 @@ def draw(scene, lyapunov):
 
     `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
     """
+    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    scene = complete(
+        scene,
+        impact=lambda: of_data([0, scene["impacts"]], room=0.0),
+        exponent=lambda: of_data(exponent),
+    )
     names = ("Number of impacts", "Lyapunov exponents")
     plane = Plane(scene, ("impact", "exponent"), names, right=84)
-    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     _, orbits, indices = exponent.shape
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
         for index in range(indices):
             plane.line(impact, exponent[:, orbit, index], color=hue, lw=0.8)
-    for index in range(indices):
-        plane.beside(np.median(exponent[-1, :, index]), rf"$\lambda_{index + 1}$")
+    ends = np.median(exponent[-1], axis=0)
+    plane.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return plane.figure

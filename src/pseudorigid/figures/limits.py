@@ -1,4 +1,6 @@
-"""Limits of axes: those of a window where a scene gives none, and whether they show anything."""
+"""Limits of axes: those of the data or of a window where a scene gives none, and whether they show
+anything.
+"""
 
 import math
 
@@ -13,6 +15,73 @@ def of_window(low, high):
         if ticks[1] - ticks[0] >= 0.6 * (high - low):
             break
     return {"limits": [low, high], "ticks": ticks}
+
+
+def of_data(*values, margin=0.0, room=0.03, most=8):
+    """An axis around all finite `values` (arrays): round limits, at most `most` steps of ticks.
+
+    `room` is left between data and limits, as a part of the data's span. `margin` is the part of
+    the axis at either end that stays without a tick: where axes meet, the labels of two would.
+    """
+    low = min(float(np.nanmin(part)) for part in values)
+    high = max(float(np.nanmax(part)) for part in values)
+    size = max(abs(low), abs(high))
+    if not high - low > 1e-9 * size:  # one value, as far as a label can tell
+        low, high = low - (size or 1.0), high + (size or 1.0)
+    low, high = low - room * (high - low), high + room * (high - low)
+    digit, power = _step((high - low) / most)
+    # limits in fifths of a step
+    fine = 2 * digit, power - 1
+    low, high = _below(low, fine), -_below(-high, fine)
+    limits = [_decimal(low, fine), _decimal(high, fine)]
+    first, last = low + margin * (high - low), high - margin * (high - low)
+    ticks = range(-int(-first // 5), int(last // 5) + 1)
+    return {"limits": limits, "ticks": [_decimal(tick, (digit, power)) for tick in ticks]}
+
+
+def complete(scene, **axes):
+    """The scene with an axis of each name: its own, or what the function of that name returns."""
+    own = scene.get("axes", {})
+    return scene | {
+        "axes": {name: own[name] if name in own else make() for name, make in axes.items()}
+    }
+
+
+def complete_box(scene, names, *datasets):
+    """The scene with these axes, its own or around the data, for a box, whose corners meet."""
+    return complete(
+        scene,
+        **{
+            name: lambda name=name: of_data(
+                *(d[name].values for d in datasets), margin=0.08, most=6
+            )
+            for name in names
+        },
+    )
+
+
+def _step(least):
+    """(digit, power): the smallest of 1, 2, 5 times a power of ten that is at least `least`."""
+    power = int(f"{least:e}".partition("e")[2])
+    for digit, more in ((1, 0), (2, 0), (5, 0), (1, 1)):
+        if _decimal(1, (digit, power + more)) >= least:
+            return digit, power + more
+    return 2, power + 1
+
+
+def _below(value, unit):
+    """The largest whole number of units up to `value`."""
+    count = math.floor(value / _decimal(1, unit))
+    while _decimal(count + 1, unit) <= value:
+        count += 1
+    while _decimal(count, unit) > value:
+        count -= 1
+    return count
+
+
+def _decimal(count, unit):
+    """`count` units of digit * 10**power, the double that is nearest."""
+    return float(f"{count * unit[0]}e{unit[1]}")
 
 
 def refuse_empty(axes, data):

@@ -1,6 +1,7 @@
 """A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
 
 from . import style
+from .limits import complete, of_data
 from .plane import Plane
 
 _DOT = 2.4  # points
@@ -13,8 +14,13 @@ def draw(scene, motion):
     `motion` is the artifact of a sampled motion: t, position, strain (sample), each flight sampled
     from one impact to the next, and impact_t, impact_position (impact), which are marked.
     """
-    plane = Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
+    scene = complete(
+        scene,
+        t=lambda: of_data([0.0, scene["duration"]], room=0.0),
+        displacement=lambda: of_data(-x, u),
+    )
+    plane = Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
     mass = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
     plane.line(t, -x, **mass)

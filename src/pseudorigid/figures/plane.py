@@ -1,5 +1,7 @@
 """A plane picture: frame, ticks and names; limits and ticks as the scene gives them."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from . import style
@@ -47,10 +49,17 @@ class Plane:
         """Draw dots of `size` points across, on the frame too."""
         self._dots(*self.place(x, y), color, size, **how)
 
-    def beside(self, y, text):
-        """Write `text` to the right of the frame at the height y."""
-        right = self.frame[2]
-        self._text(right + 4 * POINT, float(self.place(0, y)[1]), text, "left", "center_baseline")
+    def beside(self, entries):
+        """Write texts to the right of the frame: entries of (height y, text), from above.
+
+        Where they would cover each other they are moved apart.
+        """
+        heights = [float(self.place(0, y)[1]) for y, _ in entries]
+        middle, step = sum(heights) / len(heights), 1.3 * style.PLAIN * POINT
+        if any(above - below < step for above, below in pairwise(heights)):
+            heights = [middle + (0.5 * (len(heights) - 1) - i) * step for i in range(len(heights))]
+        for height, (_, text) in zip(heights, entries, strict=True):
+            self._text(self.frame[2] + 4 * POINT, height, text, "left", "center_baseline")
 
     def legend(self, *entries):
         """Name lines above the frame's right-hand end, where no data can be.
@@ -76,7 +85,9 @@ class Plane:
             x = float(self.place(tick, 0)[0])
             self._ink([x, x], [bottom, bottom - _TICK * POINT])
             y = bottom - (_TICK + _GAP) * POINT
-            self._text(x, y, style.number(tick, power), "center", "top")
+            label = style.number(tick, power)
+            half = 0.32 * len(label) * style.PLAIN * POINT  # at most: a long one stays on the sheet
+            self._text(min(x, style.COLUMN - half - 6), y, label, "center", "top")
         for tick in up:
             y = float(self.place(0, tick)[1])
             self._ink([left, left - _TICK * POINT], [y, y])

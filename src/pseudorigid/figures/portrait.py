@@ -2,7 +2,7 @@
 
 from . import style
 from .box import Box
-from .limits import refuse_empty
+from .limits import complete_box, refuse_empty
 from .ragged import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
@@ -14,9 +14,10 @@ def draw(scene, orbits):
 
     `orbits` is the artifact of stage orbits: x, xdot, udot (point), row_size (orbit). The orbits
     with index in scene["sea"] come first, in grey; each other one has a hue of its own. What lies
-    on the far side of the surface is pale and behind the rest. Raises ValueError for a sea that
-    the scene does not have.
+    on the far side of the surface is pale and behind the rest. Axes that the scene does not give
+    are those of the orbits. Raises ValueError for a sea that the scene does not have.
     """
+    scene = complete_box(scene, style.NAMES, orbits)
     refuse_empty(scene["axes"], orbits)
     box = Box(scene)
     spans = rows(orbits["row_size"].values)

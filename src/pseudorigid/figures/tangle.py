@@ -4,7 +4,7 @@ import numpy as np
 
 from . import style
 from .box import Box
-from .limits import refuse_empty
+from .limits import complete_box, refuse_empty
 from .ragged import rows
 
 _BACKDROP, _SADDLE = 0.5, 3.6  # points
@@ -20,6 +20,7 @@ def draw(scene, orbits, manifolds, periodic):
     marked are the points of the first orbit of `periodic` whose type is scene["type"]. Stable
     branches are green, unstable ones blue; what lies on the surface's far side is pale.
     """
+    scene = complete_box(scene, style.NAMES, orbits, manifolds)
     refuse_empty(scene["axes"], manifolds)
     box = Box(scene)
     near = box.near(orbits)
