@@ -1,5 +1,7 @@
 """./reproduce compare: config, norms, periodic orbits, exponents, and the picture."""
 
+import os
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -131,10 +133,13 @@ def test_both_figures_are_side_by_side(compared):
 
 def test_a_damaged_artifact_is_one_line_that_names_it(compared):
     artifact = compared.path / "results" / "low" / "lyapunov_fig7.nc"
-    whole = artifact.read_bytes()
+    whole, status = artifact.read_bytes(), artifact.stat()
+    times = (status.st_atime_ns, status.st_mtime_ns)  # a newer file would be drawn again first
     artifact.write_bytes(whole[:3000])
+    os.utime(artifact, ns=times)
     result = compared.run("compare", "paper", "low")
     artifact.write_bytes(whole)
+    os.utime(artifact, ns=times)
     assert result.returncode == 1
     assert "Traceback" not in result.stdout
     last = result.stdout.splitlines()[-1]
