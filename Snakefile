@@ -19,6 +19,7 @@ include: "workflow/rules/compute.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/publish.smk"
 include: "workflow/rules/study.smk"
+include: "workflow/rules/sweep.smk"
 
 
 # Every file by name, also those on the way: one that was deleted comes back.

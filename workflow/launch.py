@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "src"))
 
 from pseudorigid import config  # noqa: E402  (needs the path above; imports nothing heavy)
+from pseudorigid.sweep import grid  # noqa: E402
 
 CORES = re.compile(r"--(cores|jobs)(=.*)?|-[cj](all|\d*)|all|\d+")
 
@@ -71,7 +72,7 @@ def accept(arguments: list[str]) -> int:
 
 def study(arguments: list[str]) -> int:
     """The study's data and charts, with the packages of its rivals."""
-    return add_study_packages() or workflow(["study", *arguments])
+    return add_packages("study") or workflow(["study", *arguments])
 
 
 def benchmark(arguments: list[str]) -> int:
@@ -79,23 +80,63 @@ def benchmark(arguments: list[str]) -> int:
     if arguments:
         print("reproduce: benchmark takes no arguments", file=sys.stderr)
         return 1
-    return add_study_packages() or subprocess.call(
+    return add_packages("study") or subprocess.call(
         [sys.executable, "-m", "pseudorigid.study.bench"]
     )
 
 
-def add_study_packages() -> int:
-    """Install requirements/study.txt on top of the lock where that is not done; the exit status."""
-    wanted = (ROOT / "requirements" / "study.txt").read_bytes()
-    stamp = ROOT / ".venv" / "study-stamp"  # goes with .venv when that is made anew
+def add_packages(name: str) -> int:
+    """Install requirements/<name>.txt on top of the lock if that is not done; the exit status."""
+    wanted = (ROOT / "requirements" / f"{name}.txt").read_bytes()
+    stamp = ROOT / ".venv" / f"{name}-stamp"  # goes with .venv when that is made anew
     if stamp.is_file() and stamp.read_bytes() == wanted:
         return 0
-    print("reproduce: installing the packages of the study into .venv (once)", file=sys.stderr)
+    print(f"reproduce: installing requirements/{name}.txt into .venv (once)", file=sys.stderr)
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / "study.txt")]
+    pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / f"{name}.txt")]
     status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
     if status == 0:
         stamp.write_bytes(wanted)
+    return status
+
+
+def sweep(arguments: list[str]) -> int:
+    """The datasets of the sweeps, or of those named first."""
+    return swept(arguments, lambda names: [grid.dataset(name) for name in names])
+
+
+def atlas(arguments: list[str]) -> int:
+    """The pictures of the sweeps, and whatever they still need."""
+    return swept(
+        arguments,
+        lambda names: [
+            file for name in names for file in (grid.dataset(name), *grid.pictures(name))
+        ],
+    )
+
+
+def swept(arguments: list[str], targets) -> int:
+    """Snakemake for sweeps: damaged files go before, and it is told how far the cells are."""
+    from pseudorigid.sweep import run
+
+    sweeps = config.load(ROOT / "config.yaml")["sweeps"]
+    names, options = run.chosen(sweeps, arguments)
+    if "--slurm" in options:
+        options[options.index("--slurm")] = f"--profile={ROOT / 'workflow' / 'profiles' / 'slurm'}"
+        if status := add_packages("slurm"):
+            return status
+    lock = hold_lock()
+    if lock is None:
+        print(BUSY, file=sys.stderr)
+        return 1
+    dry = {"-n", "--dry-run", "--dryrun"} & set(options)
+    for line in run.discard(sweeps, names) if not dry else ():
+        print(f"reproduce: {line}", file=sys.stderr)
+    start = time.time() - 1
+    with run.progress(*run.lacking(sweeps, names)):
+        status = run_snakemake([*targets(names), *options], [])
+    for line in last_words(start) if status else ():
+        print(line, file=sys.stderr)
     return status
 
 
@@ -105,6 +146,8 @@ WORDS = {
     "accept": accept,
     "study": study,
     "benchmark": benchmark,
+    "sweep": sweep,
+    "atlas": atlas,
 }
 BUSY = "reproduce: another ./reproduce is running in this folder"
 

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import yaml
 
+from .sweep import grid
+
 SCHEMA = Path(__file__).resolve().parents[2] / "workflow" / "schemas" / "config.schema.yaml"
 LARGEST = 10_000_000  # impacts of a scene, and points of a manifold: above it a number is a slip
 
@@ -108,7 +110,8 @@ def check(document) -> dict:
         _check_amounts(block, place)
         _check_ranges(block, place)
         scenes[name] = block
-    return {"ball": ball, "scenes": scenes}
+    sweeps = grid.check(document.get("sweeps", {}), _check_structure, _refusal)
+    return {"ball": ball, "scenes": scenes, "sweeps": sweeps}
 
 
 def _check_ball(ball, place):

@@ -24,10 +24,11 @@ sys.executable = shlex.quote(sys.executable)
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    SCENES = load(ROOT / "config.yaml")["scenes"]
+    CONFIG = load(ROOT / "config.yaml")
 except ConfigError as error:
     sys.exit(str(error))
 
+SCENES, SWEEPS = CONFIG["scenes"], CONFIG["sweeps"]
 OWNERS = owners(SCENES)
 FIGURES = figures(SCENES)
 
@@ -50,8 +51,12 @@ def drawn_block(wildcards):
 
 
 def scenes_of(*pictures):
-    """A pattern for the names of the scenes of these kinds; it matches nothing where there is none."""
-    names = [name for name, block in SCENES.items() if block["picture"] in pictures]
+    """A pattern for the names of the scenes of these kinds."""
+    return any_of(name for name, block in SCENES.items() if block["picture"] in pictures)
+
+
+def any_of(names):
+    """A pattern for these names; it matches nothing where there is none."""
     return "|".join(names) or "(?!)"
 
 

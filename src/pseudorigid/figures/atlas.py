@@ -1,0 +1,208 @@
+"""The atlas: how much of the section is regular and how chaotic the rest, over k and E/g^2."""
+
+import matplotlib
+import numpy as np
+
+from ..sweep import fixed_point
+from . import style
+from .panel import Axis, Panel, log10
+from .sheet import POINT, Sheet
+
+RESONANCES = tuple((1, q) for q in (2, 3, 4, 5, 6, 8, 10))
+PAPER = (0.2, (0.625, 6.25))  # k, and E/g^2 of Figures 8 and 2
+LEFT, RIGHT = 120, 885
+_SIZE = 6.0  # points: text beside lines
+_STEPS = 64  # colours of a scale
+
+
+@style.pinned()
+def plane(sweep, data):
+    """Regular share and the sea's exponent, a coloured cell each, over E/g^2 and k.
+
+    `data` is the dataset of the sweep. Curves: where the fixed point's rotation number is a
+    simple fraction; circles: the paper's two cases.
+    """
+    sheet = Sheet(style.COLUMN, 1425)
+    high = float(np.nanmax(data["exponent"].values, initial=0.05))
+    values = (
+        ("Regular share of the section", data["regular"].values, 1.0, "viridis"),
+        ("Lyapunov exponent of the sea", data["exponent"].values, high, "magma"),
+    )
+    for i, (title, shade, largest, colors) in enumerate(values):
+        bottom = 795 - i * 680
+        frame = (LEFT, bottom, RIGHT, bottom + 500)
+        across = _energy_axis(sweep["energy"], r"$E/g^2$")
+        up = _linear(_edges(np.array(sweep["k"])), "$k$")
+        panel = Panel(sheet, frame, across, up, grid=False)
+        _cells(panel, sweep, shade / largest, colors)
+        _scale(sheet, frame, largest, colors)
+        sheet.text(RIGHT, frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
+        _resonances(panel, sweep)
+        for e in PAPER[1]:
+            if _inside(across, e) and _inside(up, PAPER[0]):
+                panel.dots(e, PAPER[0], "white", size=5.0, hollow=True)
+                panel.dots(e, PAPER[0], style.BLACK, size=2.5)
+    return sheet.figure
+
+
+@style.pinned()
+def line(sweep, data):
+    """Regular share with its 95 % interval, and the sea's exponent with quartiles, against energy.
+
+    `data` is the dataset of a sweep with one k; with a g the energy is the paper's E, else E/g^2.
+    """
+    sheet = Sheet(style.COLUMN, 1200)
+    unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0
+    energy = np.array(sweep["energy"]) * unit
+    name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
+    across = _linear((min(0.0, energy[0]), energy[-1] * 1.02), name, 8)
+    blank = Axis(across.limits, across.ticks, labels=("",) * len(across.ticks))
+    top = 1.0
+    share = _linear((0.0, top), "Regular share of the section", 5)
+    exponents = data["exponent_high"].values[0]
+    exponent = _linear((0.0, float(np.nanmax(exponents, initial=0.05)) * 1.02), "", 4)
+    frames = (LEFT, 560, 1010, 1050), (LEFT, 135, 1010, 490)
+    panels = Panel(sheet, frames[0], blank, share), Panel(sheet, frames[1], across, exponent)
+    sheet.text(
+        LEFT,
+        frames[1][3] + 4 * POINT,
+        "Lyapunov exponent of the sea",
+        ha="left",
+        va="bottom",
+        size=7,
+    )
+    for turns, impacts in RESONANCES:
+        at = fixed_point.resonance(sweep["k"][0], turns, impacts) * unit
+        if across.limits[0] < at < across.limits[1]:
+            for panel in panels:
+                _, low, _, high = panel.frame
+                x = float(panel.place(at, 0)[0][0])
+                sheet.draw([x, x], [low, high], color=style.BACKDROP, lw=0.7, zorder=0.8)
+            text = f"{turns}/{impacts}"
+            sheet.text(x, 1050 + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+    _bars(panels[0], energy, data, "regular", style.BLUE)
+    _bars(panels[1], energy, data, "exponent", style.VERMILION)
+    note = (
+        "the paper: “regular trajectories are progressively",
+        "destroyed as the energy increases”",
+    )
+    for i, text in enumerate(note):
+        sheet.text(990, 1020 - i * 34, text, ha="right", va="top", size=_SIZE)
+    return sheet.figure
+
+
+def _bars(panel, x, data, name, color):
+    """A dot a cell, joined, with its bar from name_low to name_high."""
+    values = (data[key].values[0] for key in (name, f"{name}_low", f"{name}_high"))
+    values, low, high = values
+    panel.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
+    for at, *span in zip(x, low, high, strict=True):
+        if not np.isnan(span[0]):
+            panel.line([at, at], span, color=color, lw=0.7, zorder=2)
+    seen = ~np.isnan(values)
+    panel.dots(x[seen], values[seen], color, size=2.2)
+
+
+def _resonances(panel, sweep):
+    """The curves of the fixed point's resonances, named where they leave the frame at the top."""
+    bottom, top = panel.up.limits
+    k = bottom + (top - bottom) * np.arange(1, 201) / 200
+    for turns, impacts in RESONANCES:
+        e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
+        inside = np.array([_inside(panel.across, one) for one in e])
+        e = np.where(inside, e, np.nan)
+        panel.line(k * 0 + e, k, color=style.BLACK, lw=1.3, zorder=2)
+        panel.line(k * 0 + e, k, color="white", lw=0.6, zorder=2.1)
+        if inside[-1]:
+            x, y = (float(place[0]) for place in panel.place(e[-1], top))
+            text = f"{turns}/{impacts}"
+            panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+
+
+def _cells(panel, sweep, shades, colors):
+    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN."""
+    scale = _colors(colors)
+    left, bottom, right, top = panel.frame
+    energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
+    along = log10(energy) if panel.across.decades else energy
+    x = _pixels(_edges(along), panel.across.limits, left, right)
+    y = _pixels(_edges(k), panel.up.limits, bottom, top)
+    for row in range(k.size):
+        for column in range(energy.size):
+            shade = shades[row, column]
+            color = style.GRID if np.isnan(shade) else scale[min(int(shade * _STEPS), _STEPS - 1)]
+            _fill(panel.sheet, x[column], y[row], x[column + 1], y[row + 1], color)
+
+
+def _scale(sheet, frame, largest, colors):
+    """The colours beside the frame, from 0 to `largest`."""
+    left, right = frame[2] + 25, frame[2] + 55
+    edges = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), frame[1], frame[3])
+    for i, color in enumerate(_colors(colors)):
+        _fill(sheet, left, edges[i], right, edges[i + 1], color)
+    for tick in _ticks(0.0, largest, 5):
+        y = frame[1] + tick / largest * (frame[3] - frame[1])
+        sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
+        text = style.number(tick)
+        sheet.text(right + 4 * POINT, y, text, ha="left", va="center", size=_SIZE)
+
+
+def _colors(name):
+    """_STEPS colours of one of matplotlib's tables, as #rrggbb."""
+    table = matplotlib.colormaps[name].colors
+    rows = [table[(2 * i + 1) * len(table) // (2 * _STEPS)] for i in range(_STEPS)]
+    return ["#" + "".join(f"{int(part * 255 + 0.5):02x}" for part in row) for row in rows]
+
+
+def _fill(sheet, left, bottom, right, top, color):
+    """A rectangle between whole pixels, as a line of its height."""
+    middle = (bottom + top) / 2
+    height = (top - bottom) / POINT
+    sheet.draw([left, right], [middle, middle], lw=height, color=color, zorder=0.6, snap=False)
+
+
+def _pixels(values, limits, start, end):
+    """Whole pixels of values between limits that lie at `start` and `end`."""
+    low, high = limits
+    return [int(start + (value - low) / (high - low) * (end - start) + 0.5) for value in values]
+
+
+def _edges(values):
+    """The borders between cells: halfway, and as far again outside; a single one is a unit wide."""
+    if values.size == 1:
+        return np.array([values[0] - 0.5, values[0] + 0.5])
+    middle = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
+
+
+def _energy_axis(values, name):
+    """A logarithmic axis where the cells are spaced so, from edge to edge of the cells."""
+    values = np.array(values)
+    if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
+        return _linear(_edges(values), name)
+    edges = _edges(log10(values))
+    ticks = range(int(np.ceil(edges[0])), int(np.floor(edges[-1])) + 1)
+    labels = tuple(f"{10.0**tick:g}" for tick in ticks)
+    return Axis((float(edges[0]), float(edges[-1])), tuple(ticks), name, True, labels)
+
+
+def _linear(edges, name, count=5):
+    low, high = float(edges[0]), float(edges[-1])
+    return Axis((low, high), tuple(_ticks(low, high, count)), name)
+
+
+def _ticks(low, high, count):
+    """About `count` round numbers from low to high."""
+    step, factors = 1e-12, (2.0, 2.5, 2.0)
+    i = 0
+    while (high - low) / step > count:
+        step *= factors[i % 3]
+        i += 1
+    first = int(np.ceil(low / step - 1e-9))
+    last = int(np.floor(high / step + 1e-9))
+    return [float(f"{i * step:.10g}") for i in range(first, last + 1)]
+
+
+def _inside(axis, value):
+    """Whether a value lies within the limits of an axis."""
+    return 0.0 <= float(axis.fraction(value)[0]) <= 1.0
