@@ -133,8 +133,10 @@ def swept(arguments: list[str], targets) -> int:
     for line in run.discard(sweeps, names) if not dry else ():
         print(f"reproduce: {line}", file=sys.stderr)
     start = time.time() - 1
-    with run.progress(*run.lacking(sweeps, names)):
-        status = run_snakemake([*targets(names), *options], [])
+    blocks, cells = run.lacking(sweeps, names)
+    # Snakemake would not miss a block that a dataset has already been joined from.
+    with run.progress(blocks, cells):
+        status = run_snakemake([*targets(names), *blocks, *options], [])
     for line in last_words(start) if status else ():
         print(line, file=sys.stderr)
     return status

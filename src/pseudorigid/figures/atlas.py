@@ -9,7 +9,12 @@ from .panel import Axis, Panel, log10
 from .sheet import POINT, Sheet
 
 RESONANCES = tuple((1, q) for q in (2, 3, 4, 5, 6, 8, 10))
-PAPER = (0.2, (0.625, 6.25))  # k, and E/g^2 of Figures 8 and 2
+PAPER = (0.2, {"Figure 8": 0.625, "Figure 2": 6.25})  # k, and E/g^2 of the paper's two cases
+NOTE = (
+    "the paper: “regular trajectories",
+    "are progressively destroyed",
+    "as the energy increases”",
+)
 LEFT, RIGHT = 120, 885
 _SIZE = 6.0  # points: text beside lines
 _STEPS = 64  # colours of a scale
@@ -20,16 +25,16 @@ def plane(sweep, data):
     """Regular share and the sea's exponent, a coloured cell each, over E/g^2 and k.
 
     `data` is the dataset of the sweep. Curves: where the fixed point's rotation number is a
-    simple fraction; circles: the paper's two cases.
+    simple fraction; circles: the paper's two cases. Grey: no sea.
     """
-    sheet = Sheet(style.COLUMN, 1425)
+    sheet = Sheet(style.COLUMN, 1500)
     high = float(np.nanmax(data["exponent"].values, initial=0.05))
     values = (
         ("Regular share of the section", data["regular"].values, 1.0, "viridis"),
         ("Lyapunov exponent of the sea", data["exponent"].values, high, "magma"),
     )
     for i, (title, shade, largest, colors) in enumerate(values):
-        bottom = 795 - i * 680
+        bottom = 855 - i * 720
         frame = (LEFT, bottom, RIGHT, bottom + 500)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
         up = _linear(_edges(np.array(sweep["k"])), "$k$")
@@ -37,8 +42,8 @@ def plane(sweep, data):
         _cells(panel, sweep, shade / largest, colors)
         _scale(sheet, frame, largest, colors)
         sheet.text(RIGHT, frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
-        _resonances(panel, sweep)
-        for e in PAPER[1]:
+        _resonances(panel, named=i == 0)
+        for e in PAPER[1].values():
             if _inside(across, e) and _inside(up, PAPER[0]):
                 panel.dots(e, PAPER[0], "white", size=5.0, hollow=True)
                 panel.dots(e, PAPER[0], style.BLACK, size=2.5)
@@ -51,14 +56,13 @@ def line(sweep, data):
 
     `data` is the dataset of a sweep with one k; with a g the energy is the paper's E, else E/g^2.
     """
-    sheet = Sheet(style.COLUMN, 1200)
+    sheet = Sheet(style.COLUMN, 1125)
     unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0
     energy = np.array(sweep["energy"]) * unit
     name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
     across = _linear((min(0.0, energy[0]), energy[-1] * 1.02), name, 8)
     blank = Axis(across.limits, across.ticks, labels=("",) * len(across.ticks))
-    top = 1.0
-    share = _linear((0.0, top), "Regular share of the section", 5)
+    share = _linear((0.0, 1.0), "Regular share of the section", 5)
     exponents = data["exponent_high"].values[0]
     exponent = _linear((0.0, float(np.nanmax(exponents, initial=0.05)) * 1.02), "", 4)
     frames = (LEFT, 560, 1010, 1050), (LEFT, 135, 1010, 490)
@@ -79,15 +83,18 @@ def line(sweep, data):
                 x = float(panel.place(at, 0)[0][0])
                 sheet.draw([x, x], [low, high], color=style.BACKDROP, lw=0.7, zorder=0.8)
             text = f"{turns}/{impacts}"
-            sheet.text(x, 1050 + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+            sheet.text(x + 2 * POINT, frames[0][3] - 4, text, ha="left", va="top", size=_SIZE)
     _bars(panels[0], energy, data, "regular", style.BLUE)
     _bars(panels[1], energy, data, "exponent", style.VERMILION)
-    note = (
-        "the paper: “regular trajectories are progressively",
-        "destroyed as the energy increases”",
-    )
-    for i, text in enumerate(note):
-        sheet.text(990, 1020 - i * 34, text, ha="right", va="top", size=_SIZE)
+    for i, text in enumerate(NOTE):
+        y = frames[0][3] - 60 - i * 34
+        sheet.text(RIGHT + 105, y, text, ha="right", va="top", size=_SIZE)
+    for name, e in PAPER[1].items():
+        if sweep["k"][0] == PAPER[0] and e in sweep["energy"]:
+            at, value = e * unit, float(data["regular"].sel(energy=e).values[0])
+            panels[0].dots(at, value, style.BLACK, size=4.5, hollow=True)
+            panels[0].dots(at, value, style.BLUE, size=2.2)
+            panels[0].note(at, value, name, shift=(3, 12))
     return sheet.figure
 
 
@@ -103,18 +110,20 @@ def _bars(panel, x, data, name, color):
     panel.dots(x[seen], values[seen], color, size=2.2)
 
 
-def _resonances(panel, sweep):
-    """The curves of the fixed point's resonances, named where they leave the frame at the top."""
+def _resonances(panel, named):
+    """The curves of the fixed point's resonances, named where they leave the frame."""
     bottom, top = panel.up.limits
     k = bottom + (top - bottom) * np.arange(1, 201) / 200
     for turns, impacts in RESONANCES:
         e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
         inside = np.array([_inside(panel.across, one) for one in e])
         e = np.where(inside, e, np.nan)
-        panel.line(k * 0 + e, k, color=style.BLACK, lw=1.3, zorder=2)
-        panel.line(k * 0 + e, k, color="white", lw=0.6, zorder=2.1)
-        if inside[-1]:
-            x, y = (float(place[0]) for place in panel.place(e[-1], top))
+        panel.line(e, k, color=style.BLACK, lw=1.3, zorder=2)
+        panel.line(e, k, color="white", lw=0.6, zorder=2.1)
+        if named and inside.any():
+            last = int(np.flatnonzero(inside)[-1])
+            x, y = (float(place[0]) for place in panel.place(e[last], k[last]))
+            x = max(x, panel.frame[0] + 12 * POINT)
             text = f"{turns}/{impacts}"
             panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
