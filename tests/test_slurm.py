@@ -1,7 +1,6 @@
 """Sweeps on a real Slurm of one node: ./reproduce test -m slurm, as root on Debian."""
 
 import hashlib
-import os
 import signal
 import subprocess
 
@@ -97,18 +96,19 @@ def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(node, local,
     assert hashes(tree) == local
 
 
-def test_a_rerun_after_the_nodes_daemon_and_the_run_died_finishes_with_the_same_bytes(
-    node, local, tmp_path
-):
+def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(node, local, tmp_path):
     tree = small_tree(tmp_path)
     process = begin(tree, node)
     slurm_node.wait(lambda: node.jobs("R"), 60, "a job")
     node.stop("slurmd", signal.SIGKILL)
-    process.send_signal(signal.SIGKILL)
+    slurm_node.wait(
+        lambda: "down" in node.ask("sinfo", "-h", "-o", "%T"), 120, "a node that is down"
+    )
+    process.send_signal(signal.SIGKILL)  # the run goes with it
     process.communicate()
-    for job in node.jobs("R,PD"):
-        node.ask("scancel", job)
+    assert hashes(tree) != local
     node.start("slurmd", "-D")
+    node.ask("scancel", "--user", "root")
     slurm_node.wait(
         lambda: "idle" in node.ask("sinfo", "-h", "-o", "%t") and not node.jobs("R,PD,CG"),
         120,
@@ -118,4 +118,4 @@ def test_a_rerun_after_the_nodes_daemon_and_the_run_died_finishes_with_the_same_
     status, output = finish(begin(tree, node))
     assert status == 0, output
     assert hashes(tree) == local
-    assert not [name for name in os.listdir(tree.path / "results/sweep") if ".part" in name]
+    assert not list((tree.path / "results/sweep").rglob("*.part"))
