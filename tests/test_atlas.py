@@ -35,9 +35,9 @@ def test_a_cell_has_the_colour_of_its_value():
     width, height = (atlas.RIGHT - atlas.LEFT) / 4, 500 / 3
     for row in range(3):
         for column in range(4):
-            at = int(atlas.LEFT + (column + 0.3) * width), int(855 + (row + 0.3) * height)
+            at = int(atlas.LEFT + (column + 0.3) * width), int(825 + (row + 0.3) * height)
             assert commonest(image, *at) == scale[int(share[row, column] * 64)]
-    at = int(atlas.LEFT + 3.3 * width), int(135 + 2.3 * height)
+    at = int(atlas.LEFT + 3.3 * width), int(120 + 2.3 * height)
     assert commonest(image, *at) == style.GRID  # no sea
 
 
@@ -54,7 +54,7 @@ def test_a_resonance_is_drawn_where_the_closed_form_has_it():
     k = 0.2
     e = fixed_point.resonance(k, 1, 6)
     across = atlas.LEFT + (np.log10(e) + 1.5) / 4 * (atlas.RIGHT - atlas.LEFT)
-    up = 855 + (k - 0.05) / 0.3 * 500
+    up = 825 + (k - 0.05) / 0.3 * 500
     image = save.pixels(figure)[::-1]
     patch = image[int(up) - 3 : int(up) + 4, int(across) - 3 : int(across) + 4].reshape(-1, 3)
     assert patch.sum(axis=1).max() > 700

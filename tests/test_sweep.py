@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -293,6 +294,14 @@ def test_a_full_disk_leaves_one_line_and_no_file(tmp_path):
     assert "block.nc: cannot be written" in str(caught.value)
     assert "\n" not in str(caught.value)
     assert os.listdir(tmp_path) == []
+
+
+def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=30_000_000))
+    assert run.shortage({}, 0) is None
+    assert run.shortage(dict.fromkeys(range(300)), 1000) is None
+    line = run.shortage(dict.fromkeys(range(300)), 10_000)
+    assert line == "the disk is full: about 34 MB are needed here, 30 are free"
 
 
 # ---- the run ----

@@ -134,6 +134,9 @@ def swept(arguments: list[str], targets) -> int:
         print(f"reproduce: {line}", file=sys.stderr)
     start = time.time() - 1
     blocks, cells = run.lacking(sweeps, names)
+    if line := run.shortage(blocks, cells):
+        print(f"reproduce: {line}", file=sys.stderr)
+        return 1
     if not any(option.startswith(("-q", "--quiet")) for option in options):
         options += ["--quiet", "rules", "host", "reason", "progress"]
     # Snakemake would not miss a block that a dataset has already been joined from.

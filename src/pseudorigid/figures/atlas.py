@@ -27,14 +27,14 @@ def plane(sweep, data):
     `data` is the dataset of the sweep. Curves: where the fixed point's rotation number is a
     simple fraction; circles: the paper's two cases. Grey: no sea.
     """
-    sheet = Sheet(style.COLUMN, 1500)
+    sheet = Sheet(style.COLUMN, 1425)
     high = float(np.nanmax(data["exponent"].values, initial=0.05))
     values = (
         ("Regular share of the section", data["regular"].values, 1.0, "viridis"),
         ("Lyapunov exponent of the sea", data["exponent"].values, high, "magma"),
     )
     for i, (title, shade, largest, colors) in enumerate(values):
-        bottom = 855 - i * 720
+        bottom = 825 - i * 705
         frame = (LEFT, bottom, RIGHT, bottom + 500)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
         up = _linear(_edges(np.array(sweep["k"])), "$k$")

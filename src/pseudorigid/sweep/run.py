@@ -5,6 +5,7 @@ Snakemake looks at times and parameters, not into files.
 
 import difflib
 import os
+import shutil
 import sys
 import threading
 import time
@@ -16,6 +17,9 @@ from ..config import ConfigError
 from . import grid
 
 PAUSE = 1.0  # seconds between two looks at the files
+# Bytes of disk, rounded up from what was measured: a cell in its block and in the dataset, a block
+# and snakemake's records of it, and what snakemake writes for any run.
+CELL, BLOCK, RUN = 600, 60_000, 10_000_000
 
 
 def chosen(sweeps, words) -> tuple[list[str], list[str]]:
@@ -71,6 +75,15 @@ def lacking(sweeps, names) -> tuple[dict[str, tuple[int, int]], int]:
                 pass
             found[path] = stop - start, (stop - start) * each
     return found, sum(grid.cells(sweeps[name]) for name in names)
+
+
+def shortage(blocks, total) -> str | None:
+    """One line if the disk has not the space for `blocks` and a dataset of `total` cells."""
+    need = RUN + CELL * total + BLOCK * len(blocks)
+    free = shutil.disk_usage(".").free
+    if free >= need:
+        return None
+    return f"the disk is full: about {need / 1e6:.0f} MB are needed here, {free / 1e6:.0f} are free"
 
 
 @contextmanager
