@@ -2,7 +2,7 @@
 
 import sys
 import traceback
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 
 
 def _uncaught(kind, error, trace):
@@ -24,7 +24,7 @@ def one_line_errors(snakemake):
         if not isinstance(error, ValueError):  # ValueErrors are written for the user
             message = f"{type(error).__name__}: {message} (traceback in {log})"
         message = f"pseudorigid: {snakemake.wildcards.scene}: {message}"
-        with suppress(OSError), open(log, "w", encoding="utf-8") as file:  # a full disk
+        with open(log, "w", encoding="utf-8") as file:
             file.write(f"{traceback.format_exc()}\n{message}\n")
         print(message, file=sys.stderr)
         sys.exit(1)
