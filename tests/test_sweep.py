@@ -452,3 +452,27 @@ def test_the_start_imports_nothing_heavy():
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
     )
     assert result.stdout == "False\n"
+
+
+CODE = """
+from pseudorigid.artifacts import content_hash
+from pseudorigid.sweep import store
+block = {"cells": [[0.2, 6.25], [0.1, 0.3]], "starts": 20, "impacts": 2000}
+print(content_hash(store.compute(block)))
+"""
+
+
+def test_other_processors_give_the_same_bits(tmp_path):
+    found = set()
+    for extra in ({}, {"NUMBA_CPU_NAME": "generic", "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}):
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "PYTHONWARNINGS": "ignore"}
+        environment |= extra | {"NUMBA_CACHE_DIR": str(tmp_path / str(len(extra)))}
+        result = subprocess.run(
+            [sys.executable, "-c", CODE],
+            capture_output=True,
+            text=True,
+            env=environment,
+            check=True,
+        )
+        found.add(result.stdout)
+    assert len(found) == 1

@@ -113,7 +113,7 @@ def _bars(panel, x, data, name, color):
 def _resonances(panel, named):
     """The curves of the fixed point's resonances, named where they leave the frame."""
     bottom, top = panel.up.limits
-    k = bottom + (top - bottom) * np.arange(1, 201) / 200
+    k = bottom + (top - bottom) * np.arange(1, 1001) / 1000
     for turns, impacts in RESONANCES:
         e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
         inside = np.array([_inside(panel.across, one) for one in e])
