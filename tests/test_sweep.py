@@ -6,6 +6,7 @@ import io
 import math
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -441,6 +442,28 @@ def test_mistakes_end_in_one_line_before_any_job(sweeping):
     assert not (sweeping.path / "results").exists()
 
 
+def test_slurm_where_there_is_none_is_one_line(sweeping, monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    result = sweeping.run("sweep", "--slurm")
+    assert result.returncode == 1
+    assert result.stdout == "reproduce: --slurm: there is no sbatch on this machine\n"
+
+
+def test_the_atlas_is_drawn_and_published(sweeping):
+    path = sweeping.path / "config.yaml"
+    document = yaml.safe_load(path.read_text())
+    document["sweeps"]["one"] = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
+    path.write_text(yaml.safe_dump(document, sort_keys=False))
+    result = sweeping.run("atlas", "-c", "1")
+    assert result.returncode == 0, result.stdout
+    for name in ("small.png", "small.svg", "one.png", "one.svg"):
+        drawn = (sweeping.path / "results/sweep/figures" / name).read_bytes()
+        assert (sweeping.path / "atlas_figures" / name).read_bytes() == drawn
+        assert drawn.startswith((b"\x89PNG", b"<?xml"))
+    result = sweeping.run("atlas", "-c", "1")
+    assert "Nothing to be done" in result.stdout
+
+
 def test_the_papers_figures_need_no_sweep(sweeping):
     assert not [path for path in sweeping.planned() if "sweep" in path or "atlas" in path]
 
@@ -476,3 +499,16 @@ def test_other_processors_give_the_same_bits(tmp_path):
         )
         found.add(result.stdout)
     assert len(found) == 1
+
+
+def test_the_packages_for_slurm_are_pinned_hashed_and_those_of_the_lock():
+    text = (ROOT / "requirements" / "slurm.txt").read_text()
+    assert "://" not in text
+    entries = re.split(r"^(?=[a-z0-9])", text, flags=re.MULTILINE)[1:]
+    pins = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", text, re.MULTILINE))
+    lock = (ROOT / "requirements" / "lock.txt").read_text()
+    locked = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", lock, re.MULTILINE))
+    assert "snakemake-executor-plugin-slurm" in pins
+    assert len(entries) == len(pins)
+    assert all("--hash=sha256:" in entry for entry in entries)
+    assert all(version == locked.get(name, version) for name, version in pins.items())

@@ -4,6 +4,7 @@ import fcntl
 import filecmp
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -122,6 +123,9 @@ def swept(arguments: list[str], targets) -> int:
     sweeps = config.load(ROOT / "config.yaml")["sweeps"]
     names, options = run.chosen(sweeps, arguments)
     if "--slurm" in options:
+        if shutil.which("sbatch") is None:
+            print("reproduce: --slurm: there is no sbatch on this machine", file=sys.stderr)
+            return 1
         options[options.index("--slurm")] = f"--profile={ROOT / 'workflow' / 'profiles' / 'slurm'}"
         if status := add_packages("slurm"):
             return status
