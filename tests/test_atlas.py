@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pseudorigid.figures import atlas, save, style
+from pseudorigid.figures import atlas, raster, save, style
 from pseudorigid.sweep import cell, fixed_point
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
@@ -31,7 +31,7 @@ def test_a_cell_has_the_colour_of_its_value():
     share = np.linspace(0, 0.99, 12).reshape(3, 4)
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
     image = save.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
-    scale = atlas._colors("viridis")
+    scale = raster.colors("viridis")
     width, height = (atlas.RIGHT - atlas.LEFT) / 4, 500 / 3
     for row in range(3):
         for column in range(4):
@@ -43,7 +43,7 @@ def test_a_cell_has_the_colour_of_its_value():
 
 def test_the_scales_are_sixty_four_colours_in_order():
     for name in ("viridis", "magma"):
-        colors = atlas._colors(name)
+        colors = raster.colors(name)
         assert len(set(colors)) == 64
         light = [sum(int(c[at : at + 2], 16) for at in (1, 3, 5)) for c in colors]
         assert light[0] < light[20] < light[40] < light[63]
@@ -74,7 +74,8 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
 
 def test_no_sea_anywhere_can_be_drawn():
     nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
-    for sweep, draw in ((PLANE, atlas.plane), (LINE, atlas.line)):
+    wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # whose edges go beyond k = 0
+    for sweep, draw in ((PLANE, atlas.plane), (wide, atlas.plane), (LINE, atlas.line)):
         draw(sweep, dataset(sweep, **nothing))
 
 
@@ -88,9 +89,9 @@ def test_no_sea_anywhere_can_be_drawn():
     ],
 )
 def test_ticks_are_round(low, high, count, wanted):
-    assert atlas._ticks(low, high, count) == wanted
+    assert raster.ticks(low, high, count) == wanted
 
 
 def test_edges_lie_halfway():
-    assert atlas._edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
-    assert atlas._edges(np.array([1.0])).tolist() == [0.5, 1.5]
+    assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
+    assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]

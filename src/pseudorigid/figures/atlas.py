@@ -1,10 +1,9 @@
 """The atlas: how much of the section is regular and how chaotic the rest, over k and E/g^2."""
 
-import matplotlib
 import numpy as np
 
 from ..sweep import fixed_point
-from . import style
+from . import raster, style
 from .panel import Axis, Panel, log10
 from .sheet import POINT, Sheet
 
@@ -17,7 +16,6 @@ NOTE = (
 )
 LEFT, RIGHT = 120, 885
 _SIZE = 6.0  # points: text beside lines
-_STEPS = 64  # colours of a scale
 
 
 @style.pinned()
@@ -37,10 +35,10 @@ def plane(sweep, data):
         bottom = 825 - i * 705
         frame = (LEFT, bottom, RIGHT, bottom + 500)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
-        up = _linear(_edges(np.array(sweep["k"])), "$k$")
+        up = _linear(raster.edges(np.array(sweep["k"])), "$k$")
         panel = Panel(sheet, frame, across, up, grid=False)
-        _cells(panel, sweep, shade / largest, colors)
-        _scale(sheet, frame, largest, colors)
+        raster.cells(panel, sweep, shade / largest, colors)
+        raster.scale(sheet, frame, largest, colors)
         sheet.text(RIGHT, frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
         _resonances(panel, named=i == 0)
         for e in PAPER[1].values():
@@ -114,6 +112,7 @@ def _resonances(panel, named):
     """The curves of the fixed point's resonances, named where they leave the frame."""
     bottom, top = panel.up.limits
     k = bottom + (top - bottom) * np.arange(1, 1001) / 1000
+    k = k[k > 0.0]
     for turns, impacts in RESONANCES:
         e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
         inside = np.array([_inside(panel.across, one) for one in e])
@@ -128,68 +127,12 @@ def _resonances(panel, named):
             panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
-def _cells(panel, sweep, shades, colors):
-    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN."""
-    scale = _colors(colors)
-    left, bottom, right, top = panel.frame
-    energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
-    along = log10(energy) if panel.across.decades else energy
-    x = _pixels(_edges(along), panel.across.limits, left, right)
-    y = _pixels(_edges(k), panel.up.limits, bottom, top)
-    for row in range(k.size):
-        for column in range(energy.size):
-            shade = shades[row, column]
-            color = style.GRID if np.isnan(shade) else scale[min(int(shade * _STEPS), _STEPS - 1)]
-            _fill(panel.sheet, x[column], y[row], x[column + 1], y[row + 1], color)
-
-
-def _scale(sheet, frame, largest, colors):
-    """The colours beside the frame, from 0 to `largest`."""
-    left, right = frame[2] + 25, frame[2] + 55
-    edges = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), frame[1], frame[3])
-    for i, color in enumerate(_colors(colors)):
-        _fill(sheet, left, edges[i], right, edges[i + 1], color)
-    for tick in _ticks(0.0, largest, 5):
-        y = frame[1] + tick / largest * (frame[3] - frame[1])
-        sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
-        text = style.number(tick)
-        sheet.text(right + 4 * POINT, y, text, ha="left", va="center", size=_SIZE)
-
-
-def _colors(name):
-    """_STEPS colours of one of matplotlib's tables, as #rrggbb."""
-    table = matplotlib.colormaps[name].colors
-    rows = [table[(2 * i + 1) * len(table) // (2 * _STEPS)] for i in range(_STEPS)]
-    return ["#" + "".join(f"{int(part * 255 + 0.5):02x}" for part in row) for row in rows]
-
-
-def _fill(sheet, left, bottom, right, top, color):
-    """A rectangle between whole pixels, as a line of its height."""
-    middle = (bottom + top) / 2
-    height = (top - bottom) / POINT
-    sheet.draw([left, right], [middle, middle], lw=height, color=color, zorder=0.6, snap=False)
-
-
-def _pixels(values, limits, start, end):
-    """Whole pixels of values between limits that lie at `start` and `end`."""
-    low, high = limits
-    return [int(start + (value - low) / (high - low) * (end - start) + 0.5) for value in values]
-
-
-def _edges(values):
-    """The borders between cells: halfway, and as far again outside; a single one is a unit wide."""
-    if values.size == 1:
-        return np.array([values[0] - 0.5, values[0] + 0.5])
-    middle = 0.5 * (values[1:] + values[:-1])
-    return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
-
-
 def _energy_axis(values, name):
     """A logarithmic axis where the cells are spaced so, from edge to edge of the cells."""
     values = np.array(values)
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        return _linear(_edges(values), name)
-    edges = _edges(log10(values))
+        return _linear(raster.edges(values), name)
+    edges = raster.edges(log10(values))
     ticks = range(int(np.ceil(edges[0])), int(np.floor(edges[-1])) + 1)
     labels = tuple(f"{10.0**tick:g}" for tick in ticks)
     return Axis((float(edges[0]), float(edges[-1])), tuple(ticks), name, True, labels)
@@ -197,19 +140,7 @@ def _energy_axis(values, name):
 
 def _linear(edges, name, count=5):
     low, high = float(edges[0]), float(edges[-1])
-    return Axis((low, high), tuple(_ticks(low, high, count)), name)
-
-
-def _ticks(low, high, count):
-    """About `count` round numbers from low to high."""
-    step, factors = 1e-12, (2.0, 2.5, 2.0)
-    i = 0
-    while (high - low) / step > count:
-        step *= factors[i % 3]
-        i += 1
-    first = int(np.ceil(low / step - 1e-9))
-    last = int(np.floor(high / step + 1e-9))
-    return [float(f"{i * step:.10g}") for i in range(first, last + 1)]
+    return Axis((low, high), tuple(raster.ticks(low, high, count)), name)
 
 
 def _inside(axis, value):

@@ -5,7 +5,6 @@ The dataset is written block by block, in memory that does not grow with the gri
 is kept beside it. The same cells give the same bytes, whatever blocks they came in.
 """
 
-import json
 import shutil
 from contextlib import contextmanager
 
@@ -117,11 +116,6 @@ def load(path) -> xr.Dataset:
             return file.load()
     except (OSError, RuntimeError, ValueError) as error:
         raise StoreError(f"{path}: damaged, or not netCDF; run ./reproduce sweep again") from error
-
-
-def config_of(dataset) -> dict:
-    """The grid behind a dataset or block."""
-    return json.loads(dataset.attrs["config"])
 
 
 @contextmanager
