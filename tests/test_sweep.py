@@ -77,6 +77,7 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
         ({"k": [0, 0.2]}, ["sweeps.a.k: 0", "0 < k <= 1"]),
         ({"k": [0.2, 1.5]}, ["sweeps.a.k: 1.5", "0 < k <= 1"]),
         ({"energy": [-2.5, 1]}, ["sweeps.a.energy: -2.5", "above -1/(2k) = -2.5"]),
+        ({"energy": [1, 1e10]}, ["sweeps.a.energy: 10000000000.0", "at most 1e+09"]),
         ({"g": 0.1}, ["sweeps.a.g: 0.1", "0 < g < k = 0.1"]),
         ({"g": 0.04}, ["sweeps.a.energy: 6.25", "below (k/2 - g)/g^2 = 6.25"]),
         ({"starts": 0}, ["sweeps.a.starts: 0", "from 1"]),

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 LARGEST = 10_000_000_000_000  # impacts of a sweep: above it a number is a slip
 MOST_JOBS = 5000  # of a sweep: beyond, snakemake is busier with its list than with the jobs
+HIGHEST = 1e9  # of E/g^2
 FORMATS = ("png", "svg")  # of a picture
 _EXACT = Context(prec=40)
 
@@ -55,6 +56,8 @@ def _check_energies(block, place, refusal):
     if not Fraction(str(block["energy"][0])) > lowest:
         what = f"E/g^2 above -1/(2k) = {float(lowest):g}, where a ball with k = {k} is at rest"
         raise refusal(where, block["energy"][0], what)
+    if not block["energy"][-1] <= HIGHEST:
+        raise refusal(where, block["energy"][-1], f"E/g^2 of at most {HIGHEST:g}")
     if "g" not in block:
         return
     k, g = Fraction(str(min(block["k"]))), Fraction(str(block["g"]))
