@@ -199,6 +199,9 @@ def test_nothing_is_chaotic_near_rest():
     found = cell.cell(0.2, -1.4, 40, 1000)
     assert found["regular"] == 1.0
     assert math.isnan(found["exponent"])
+    found = cell.cell(0.2, -2.49999999, 20, 400)  # where the fixed point itself hardly turns
+    assert found["rotation"] < 1e-4
+    assert found["chain_period"] == 0
 
 
 def test_the_exponent_is_that_of_the_spectrum():

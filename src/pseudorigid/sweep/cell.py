@@ -52,8 +52,9 @@ def cell(k, e, starts, impacts):
 
     A regular orbit belongs to a chain of q islands where its winding number around the fixed point
     is within LOCKED of a fraction p/q, q <= PERIODS: on curves around the fixed point the winding
-    number changes from one to the next, in islands it does not. It is a weighted Birkhoff average,
-    with weight (t (1-t))^3 over the run (Das et al. 2017). A chain inside the main island counts
+    number changes from one to the next, in islands it does not; one within LOCKED of the fixed
+    point's own is not told from it. It is a weighted Birkhoff average, with weight (t (1-t))^3 over
+    the run (Das et al. 2017). A chain inside the main island counts
     too, islands around an island count with it, and so do those of a second orbit of that period.
     """
     theta = fixed_point.half_time(k, e)
@@ -71,7 +72,8 @@ def cell(k, e, starts, impacts):
     regular = grown < THRESHOLD
     low, high = wilson(int(regular.sum()), starts)
     sea = np.sort(growth[~regular & ~np.isnan(growth)])
-    turns, periods = fractions(winding[regular])
+    apart = ~(np.abs(winding - rotation) <= LOCKED)
+    turns, periods = fractions(winding[regular & apart])
     chains = np.bincount(periods, minlength=PERIODS + 1)[1:]
     found = {
         "trace": trace,
