@@ -24,6 +24,7 @@ include: "workflow/rules/publish.smk"
 include: "workflow/rules/variants.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/study.smk"
+include: "workflow/rules/sweep.smk"
 
 
 rule all:

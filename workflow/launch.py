@@ -11,6 +11,7 @@ sys.path[:0] = [str(HERE.parent / "src"), str(HERE)]
 
 from interrupts import tidying_up  # noqa: E402  (from here on Ctrl-C is no traceback)
 from pseudorigid import config  # noqa: E402  (imports nothing heavy)
+from packages import add_packages  # noqa: E402
 from runner import BUSY, ROOT, hold_lock, workflow  # noqa: E402  (needs the path above)
 
 
@@ -50,7 +51,7 @@ def accept(arguments: list[str]) -> int:
 
 def study(arguments: list[str]) -> int:
     """The study's data and charts, with the packages of its rivals."""
-    return add_study_packages() or workflow(["study", *arguments])
+    return add_packages("study") or workflow(["study", *arguments])
 
 
 def benchmark(arguments: list[str]) -> int:
@@ -58,24 +59,9 @@ def benchmark(arguments: list[str]) -> int:
     if arguments:
         print("reproduce: benchmark takes no arguments", file=sys.stderr)
         return 1
-    return add_study_packages() or subprocess.call(
+    return add_packages("study") or subprocess.call(
         [sys.executable, "-m", "pseudorigid.study.bench"]
     )
-
-
-def add_study_packages() -> int:
-    """Install requirements/study.txt on top of the lock where that is not done; the exit status."""
-    wanted = (ROOT / "requirements" / "study.txt").read_bytes()
-    stamp = ROOT / ".venv" / "study-stamp"  # goes with .venv when that is made anew
-    if stamp.is_file() and stamp.read_bytes() == wanted:
-        return 0
-    print("reproduce: installing the packages of the study into .venv (once)", file=sys.stderr)
-    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / "study.txt")]
-    status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
-    if status == 0:
-        stamp.write_bytes(wanted)
-    return status
 
 
 def variant(arguments: list[str]) -> int:
@@ -99,6 +85,20 @@ def report(arguments: list[str]) -> int:
     return report(arguments)
 
 
+def sweep(arguments: list[str]) -> int:
+    """The datasets of the sweeps, or of those named first."""
+    from sweeps import sweep
+
+    return sweep(arguments)
+
+
+def atlas(arguments: list[str]) -> int:
+    """The pictures of the sweeps, and whatever they still need."""
+    from sweeps import atlas
+
+    return atlas(arguments)
+
+
 WORDS = {
     "test": test,
     "verify": verify,
@@ -108,6 +108,8 @@ WORDS = {
     "report": report,
     "study": study,
     "benchmark": benchmark,
+    "sweep": sweep,
+    "atlas": atlas,
 }
 
 

@@ -28,10 +28,11 @@ sys.executable = shlex.quote(sys.executable)
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    VARIANTS = load(ROOT / "config.yaml")["variants"]
+    CONFIG = load(ROOT / "config.yaml")
 except ConfigError as error:
     sys.exit(str(error))
 
+VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
 SCENES = VARIANTS[PAPER]
 SERVED = served(VARIANTS)
 FIGURES = figures(VARIANTS)
@@ -78,8 +79,12 @@ def figure_labels(wildcards):
 
 
 def scenes_of(*pictures):
-    """A pattern for the names of the scenes of these kinds; it matches nothing where there is none."""
-    names = [name for name, block in SCENES.items() if block["picture"] in pictures]
+    """A pattern for the names of the scenes of these kinds."""
+    return any_of(name for name, block in SCENES.items() if block["picture"] in pictures)
+
+
+def any_of(names):
+    """A pattern for these names; it matches nothing where there is none."""
     return "|".join(names) or "(?!)"
 
 

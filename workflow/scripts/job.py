@@ -3,7 +3,7 @@
 import os
 import sys
 import traceback
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 
 def _uncaught(kind, error, trace):
@@ -25,7 +25,7 @@ def one_line_errors(snakemake):
         if not isinstance(error, ValueError):  # ValueErrors are written for the user
             message = f"{type(error).__name__}: {message} (traceback in {log})"
         message = f"pseudorigid: {_subject(snakemake.wildcards)}: {message}"
-        with open(log, "w", encoding="utf-8") as file:
+        with suppress(OSError), open(log, "w", encoding="utf-8") as file:  # or the disk is full
             file.write(f"{traceback.format_exc()}\n{message}\n")
         print(message, file=sys.stderr)
         sys.exit(1)

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+from ..sweep import grid
 from .structure import check_structure
 from .variants import PAPER, derive, scaled
 from .words import refusal, shown
@@ -23,7 +24,8 @@ def check(document) -> dict:
     variants = {PAPER: scenes}
     for name in document.get("variants", {}):
         variants[name] = _variant(document, name)
-    return {"ball": ball, "scenes": scenes, "variants": variants}
+    sweeps = grid.check(document.get("sweeps", {}), check_structure, refusal)
+    return {"ball": ball, "scenes": scenes, "variants": variants, "sweeps": sweeps}
 
 
 def _variant(document, name):

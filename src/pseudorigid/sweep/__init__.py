@@ -1,0 +1,9 @@
+"""A grid over k and E/g^2, the two numbers on which everything dimensionless depends.
+
+The map commutes with a change of the unit of length, so here lengths are in units of g R: then
+g = 1 and the energy is E/g^2. A cell holds for every ball with this k, whatever its g, as long as
+eq. (31) lets it bounce at that energy.
+
+`grid` knows the cells and the files from the config, `cell` computes one, `store` keeps them,
+`run` decides what is to be done again and tells how far it is.
+"""

@@ -1,0 +1,71 @@
+"""The symmetric fixed point in closed form, in units where g = 1.
+
+With theta = tau/2 on (0, pi): v = theta, w = theta/k, x = theta cot(theta)/k, and
+
+    E         = ((1+k) theta^2 + (1 - theta cot theta)^2 - 1) / (2k)
+    trace/2   = (1 + k cos 2 theta)/(1+k)
+                - k (1 - theta cot theta)(2 theta - sin 2 theta) / (theta (1+k)^2)
+
+the trace being that of the map's Jacobian in the chart (x, y = v - k w). It is elliptic while
+|trace| < 2; nearby orbits then go round it by the rotation number rho of a turn each impact,
+trace = 2 cos(2 pi rho).
+"""
+
+import math
+
+from ..arithmetic import sincos
+
+
+def bent(theta):
+    """1 - theta cot(theta), for 0 < theta < pi."""
+    sine, cosine = sincos(theta)
+    return 1.0 - theta * cosine / sine
+
+
+def energy(k, theta):
+    """E/g^2 of the fixed point with this half time of flight; rises with theta from -1/(2k)."""
+    b = bent(theta)
+    return ((1.0 + k) * theta * theta + b * b - 1.0) / (2.0 * k)
+
+
+def half_time(k, e):
+    """theta at the energy `e` = E/g^2 > -1/(2k)."""
+    return _root(lambda theta: energy(k, theta) < e, math.pi)
+
+
+def place(k, theta):
+    """x of the fixed point; its y is 0."""
+    return (1.0 - bent(theta)) / k
+
+
+def trace(k, theta):
+    """Trace of the Jacobian in the chart; falls with theta from 2."""
+    sine, cosine = sincos(2.0 * theta)
+    shear = bent(theta) * (2.0 * theta - sine) / (theta * (1.0 + k))
+    return 2.0 * (1.0 + k * (cosine - shear)) / (1.0 + k)
+
+
+def rotation(trace):
+    """The rotation number, 0 to 1/2, of an elliptic fixed point with this trace; NaN beyond."""
+    if not -2.0 <= trace <= 2.0:
+        return math.nan
+    return _root(lambda rho: 2.0 * sincos(2.0 * math.pi * rho)[1] > trace, 0.5)
+
+
+def resonance(k, turns, impacts):
+    """E/g^2 at which the rotation number is turns/impacts, at most 1/2: the first on the way up."""
+    wanted = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
+    return energy(k, _root(lambda theta: trace(k, theta) > wanted, math.pi))
+
+
+def _root(below, end):
+    """The number in (0, end) up to which `below` holds, by bisection to the last bit."""
+    low, high = 0.0, end
+    while True:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            return low if low > 0.0 else high
+        if below(middle):
+            low = middle
+        else:
+            high = middle

@@ -1,0 +1,153 @@
+"""A real Slurm on this machine: munged, slurmctld and slurmd of one node, in a folder of its own.
+
+Debian's packages slurm-wlm and munge have all of it. Its daemons need root.
+"""
+
+import os
+import secrets
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue")
+CONFIG = """
+ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+SlurmctldPort={ports[0]}
+SlurmdPort={ports[1]}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.socket
+CredType=cred/munge
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SwitchType=switch/none
+MpiDefault=none
+AccountingStorageType=accounting_storage/none
+JobAcctGatherType=jobacct_gather/none
+JobCompType=jobcomp/none
+SlurmdParameters=config_overrides
+ReturnToService=2
+SlurmdTimeout=5
+KillWait=2
+MinJobAge=300
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+NodeName={host} NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000 State=UNKNOWN
+PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def missing():
+    """Why Slurm cannot run here, or None."""
+    lacking = [name for name in NEEDED if shutil.which(name) is None]
+    if lacking:
+        return f"{', '.join(lacking)} not installed: apt install slurm-wlm munge"
+    return None if os.geteuid() == 0 else "the daemons of Slurm need root"
+
+
+class Node:
+    """The running daemons; a context manager that ends them."""
+
+    def __enter__(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="slurm-"))
+        self.folder.chmod(0o755)  # of munge's socket
+        for name in ("state", "spool"):
+            (self.folder / name).mkdir()
+        key = self.folder / "munge.key"
+        key.write_bytes(secrets.token_bytes(128))
+        key.chmod(0o600)
+        host = socket.gethostname().split(".")[0]
+        config = self.folder / "slurm.conf"
+        config.write_text(CONFIG.format(folder=self.folder, host=host, ports=free_ports(2)))
+        # The plugin clears SLURM_CONF in jobs, where srun then looks into /etc.
+        srun = self.folder / "bin" / "srun"
+        srun.parent.mkdir()
+        srun.write_text(f'#!/bin/sh\nSLURM_CONF={config} exec {shutil.which("srun")} "$@"\n')
+        srun.chmod(0o755)
+        path = f"{srun.parent}:{os.environ['PATH']}"
+        self.environment = os.environ | {"SLURM_CONF": str(config), "PATH": path}
+        self.running = {}
+        try:
+            names = ("key-file", "socket", "pid-file", "log-file", "seed-file")
+            files = [f"--{name}={self.folder}/munge.{name.split('-')[0]}" for name in names]
+            self.start("munged", "--foreground", "--force", *files)
+            wait((self.folder / "munge.socket").exists, 10, "munged")
+            self.start("slurmctld", "-D")
+            self.start("slurmd", "-D")
+            wait(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%t"), 30, "the node")
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        if "slurmd" in self.running:  # a job outlives the daemon
+            self.ask("scancel", "--user", "root")
+            wait(lambda: not self.jobs("R,CG"), 20, "the end of the jobs")
+        for name in list(self.running)[::-1]:
+            self.stop(name)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, name, *arguments):
+        """Start a daemon in the foreground of a session of its own."""
+        with open(self.folder / f"{name}.out", "a", encoding="utf-8") as out:
+            self.running[name] = subprocess.Popen(
+                [shutil.which(name), *arguments],
+                env=self.environment,
+                stdout=out,
+                stderr=out,
+                start_new_session=True,
+            )
+
+    def stop(self, name, number=signal.SIGTERM):
+        """End a daemon."""
+        process = self.running.pop(name)
+        process.send_signal(number)
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def ask(self, *command):
+        """What a command of Slurm prints."""
+        result = subprocess.run(
+            command, env=self.environment, capture_output=True, text=True, check=False
+        )
+        return result.stdout
+
+    def jobs(self, state="R"):
+        """The numbers of the jobs in a state."""
+        return self.ask("squeue", "-h", "-t", state, "-o", "%i").split()
+
+
+def free_ports(count):
+    """Ports that nothing listens to now."""
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def wait(condition, seconds, what):
+    """Return once `condition()` is true; TimeoutError, naming `what`, if that takes longer."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError(f"{what}: not within {seconds} s")
+        time.sleep(0.1)

@@ -1,0 +1,97 @@
+"""The atlas: what is drawn is what was computed, where it belongs."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from pseudorigid.figures import atlas, raster, save, style
+from pseudorigid.sweep import cell, fixed_point
+
+PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
+LINE = {"k": [0.2], "g": 0.04, "energy": [0.625 * i for i in range(1, 21)]}
+
+
+def dataset(sweep, **given):
+    shape = (len(sweep["k"]), len(sweep["energy"]))
+    values = {name: np.full(shape, 0.5) for name in cell.VARIABLES if name != "chains"} | given
+    data = {
+        name: (("k", "energy"), np.broadcast_to(value, shape)) for name, value in values.items()
+    }
+    return xr.Dataset(data, coords={"k": sweep["k"], "energy": sweep["energy"]})
+
+
+def commonest(image, across, up):
+    """The commonest colour around a pixel, counted from the lower left."""
+    patch = image[::-1][up - 12 : up + 13, across - 12 : across + 13].reshape(-1, 3)
+    colors, counts = np.unique(patch, axis=0, return_counts=True)
+    return "#" + "".join(f"{part:02x}" for part in colors[counts.argmax()])
+
+
+def test_a_cell_has_the_colour_of_its_value():
+    share = np.linspace(0, 0.99, 12).reshape(3, 4)
+    exponent = np.where(share > 0.9, np.nan, 0.4 * share)
+    image = save.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
+    scale = raster.colors("viridis")
+    width, height = (atlas.RIGHT - atlas.LEFT) / 4, 500 / 3
+    for row in range(3):
+        for column in range(4):
+            at = int(atlas.LEFT + (column + 0.3) * width), int(825 + (row + 0.3) * height)
+            assert commonest(image, *at) == scale[int(share[row, column] * 64)]
+    at = int(atlas.LEFT + 3.3 * width), int(120 + 2.3 * height)
+    assert commonest(image, *at) == style.GRID  # no sea
+
+
+def test_the_scales_are_sixty_four_colours_in_order():
+    for name in ("viridis", "magma"):
+        colors = raster.colors(name)
+        assert len(set(colors)) == 64
+        light = [sum(int(c[at : at + 2], 16) for at in (1, 3, 5)) for c in colors]
+        assert light[0] < light[20] < light[40] < light[63]
+
+
+def test_a_resonance_is_drawn_where_the_closed_form_has_it():
+    figure = atlas.plane(PLANE, dataset(PLANE))
+    k = 0.2
+    e = fixed_point.resonance(k, 1, 6)
+    across = atlas.LEFT + (np.log10(e) + 1.5) / 4 * (atlas.RIGHT - atlas.LEFT)
+    up = 825 + (k - 0.05) / 0.3 * 500
+    image = save.pixels(figure)[::-1]
+    patch = image[int(up) - 3 : int(up) + 4, int(across) - 3 : int(across) + 4].reshape(-1, 3)
+    assert patch.sum(axis=1).max() > 700
+    away = image[int(up) - 3 : int(up) + 4, int(across) - 40 : int(across) - 33].reshape(-1, 3)
+    assert away.sum(axis=1).max() < 700
+
+
+def test_the_line_is_drawn_with_its_bars_and_gaps():
+    n = len(LINE["energy"])
+    gap = np.where(np.arange(n) < 3, np.nan, 0.2)
+    names = ("exponent", "exponent_low", "exponent_high")
+    data = dataset(LINE, regular=np.linspace(0.9, 0.1, n), **dict.fromkeys(names, gap))
+    figure = atlas.line(LINE, data)
+    assert figure.get_size_inches()[0] == 3.5
+    assert np.array_equal(save.pixels(figure), save.pixels(atlas.line(LINE, data)))
+
+
+def test_no_sea_anywhere_can_be_drawn():
+    nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
+    wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # whose edges go beyond k = 0
+    for sweep, draw in ((PLANE, atlas.plane), (wide, atlas.plane), (LINE, atlas.line)):
+        draw(sweep, dataset(sweep, **nothing))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "count", "wanted"),
+    [
+        (0, 1, 5, [0, 0.5, 1]),
+        (0, 0.03, 8, [0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03]),
+        (0.012, 0.332, 5, [0.1, 0.2, 0.3]),
+        (-2.5, 37, 5, [0, 10, 20, 30]),
+    ],
+)
+def test_ticks_are_round(low, high, count, wanted):
+    assert raster.ticks(low, high, count) == wanted
+
+
+def test_edges_lie_halfway():
+    assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
+    assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]

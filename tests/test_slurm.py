@@ -1,0 +1,121 @@
+"""Sweeps on a real Slurm of one node: ./reproduce test -m slurm, as root on Debian."""
+
+import hashlib
+import signal
+import subprocess
+
+import pytest
+import slurm_node
+import yaml
+from conftest import fresh_tree
+
+pytestmark = pytest.mark.slurm
+
+SWEEP = {"k": [0.1, 0.2], "energy": [0.625, 2, 6.25], "starts": 40, "impacts": 30_000, "block": 1}
+QUICK = ("--slurm-init-seconds-before-status-checks", "1", "--seconds-between-status-checks", "1")
+
+
+@pytest.fixture(scope="module")
+def node():
+    pytest.importorskip("snakemake_executor_plugin_slurm")
+    if reason := slurm_node.missing():
+        pytest.skip(reason)
+    with slurm_node.Node() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def local(tmp_path_factory):
+    """The hashes that the local executor makes."""
+    tree = small_tree(tmp_path_factory.mktemp("local"))
+    result = tree.run("sweep", "--cores", "1")
+    assert result.returncode == 0, result.stdout
+    return hashes(tree)
+
+
+def small_tree(folder):
+    tree = fresh_tree(folder / "a fresh clone")
+    path = tree.path / "config.yaml"
+    document = yaml.safe_load(path.read_text()) | {"sweeps": {"small": SWEEP}}
+    path.write_text(yaml.safe_dump(document, sort_keys=False))
+    return tree
+
+
+def hashes(tree):
+    files = sorted((tree.path / "results" / "sweep").rglob("*.nc"))
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+
+def begin(tree, node):
+    """The sweep on Slurm, started."""
+    profile = tree.path / "workflow" / "profiles" / "slurm"
+    return subprocess.Popen(
+        tree.command("sweep", "--profile", str(profile), *QUICK),
+        env=node.environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        cwd="/",
+    )
+
+
+def finish(process, seconds=300):
+    try:
+        output, _ = process.communicate(timeout=seconds)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        output, _ = process.communicate()
+        pytest.fail(f"not done after {seconds} s:\n{output}")
+    return process.returncode, output
+
+
+def test_the_same_bytes(node, local, tmp_path):
+    tree = small_tree(tmp_path)
+    status, output = finish(begin(tree, node))
+    assert status == 0, output
+    assert hashes(tree) == local
+    assert len(node.jobs("CD")) >= len(SWEEP["k"]) * len(SWEEP["energy"])
+    assert "6 of 6 cells" in output
+
+
+def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(node, local, tmp_path):
+    tree = small_tree(tmp_path)
+    process = begin(tree, node)
+    slurm_node.wait(lambda: node.jobs("R"), 60, "a job")
+    victim = node.jobs("R")[0]
+    node.ask("scancel", victim)
+    status, output = finish(process)
+    assert status != 0
+    assert victim in node.jobs("CA")
+    made = hashes(tree)
+    assert made != local
+    assert all(local[name] == value for name, value in made.items())
+    status, output = finish(begin(tree, node))
+    assert status == 0, output
+    assert hashes(tree) == local
+
+
+def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(node, local, tmp_path):
+    tree = small_tree(tmp_path)
+    process = begin(tree, node)
+    slurm_node.wait(lambda: node.jobs("R"), 60, "a job")
+    node.stop("slurmd", signal.SIGKILL)
+    slurm_node.wait(
+        lambda: "down" in node.ask("sinfo", "-h", "-o", "%T"), 120, "a node that is down"
+    )
+    process.send_signal(signal.SIGKILL)  # the run goes with it
+    process.communicate()
+    assert hashes(tree) != local
+    node.start("slurmd", "-D")
+    node.ask("scancel", "--user", "root")
+    slurm_node.wait(
+        lambda: "idle" in node.ask("sinfo", "-h", "-o", "%t") and not node.jobs("R,PD,CG"),
+        120,
+        "the node again",
+    )
+    assert all(local[name] == value for name, value in hashes(tree).items())
+    status, output = finish(begin(tree, node))
+    assert status == 0, output
+    assert hashes(tree) == local
+    assert not list((tree.path / "results/sweep").rglob("*.part"))

@@ -1,0 +1,8 @@
+"""One block of cells."""
+
+from job import one_line_errors
+from pseudorigid.sweep import store
+
+with one_line_errors(snakemake):
+    block = snakemake.params.block
+    store.save_block(store.compute(block), snakemake.output[0], block)
