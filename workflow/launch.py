@@ -10,8 +10,8 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "src"), str(HERE)]
 
 from interrupts import tidying_up  # noqa: E402  (from here on Ctrl-C is no traceback)
-from pseudorigid import config  # noqa: E402  (imports nothing heavy)
 from packages import add_packages  # noqa: E402
+from pseudorigid import config  # noqa: E402  (imports nothing heavy)
 from runner import BUSY, ROOT, hold_lock, workflow  # noqa: E402  (needs the path above)
 
 
