@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 import yaml
+from numba.core.caching import _CacheLocator
 
-from pseudorigid import sources
+from pseudorigid import compiled, sources
 
 ROOT = Path(__file__).parents[1]
 PARTS = (
@@ -42,6 +43,20 @@ class Tree:
             for file in [path / part, *(path / part).rglob("*")]
             if file.is_file()
         }
+
+        self.warm()
+
+    def warm(self):
+        """Bring compiled code along; numba keeps it in a folder named after the source's place."""
+        for package in (".", "sweep"):
+            here, there = (
+                p / package / "x.py" for p in (sources.PACKAGE, self.path / "src/pseudorigid")
+            )
+            old, new = (_CacheLocator.get_suitable_cache_subpath(str(p)) for p in (here, there))
+            cache = Path(compiled._CACHE)
+            if (cache / old).is_dir():
+                target = self.path / "src" / "pseudorigid" / "__pycache__" / cache.name / new
+                shutil.copytree(cache / old, target)
 
     def restore(self):
         """Undo every edit of the copied files."""

@@ -51,8 +51,8 @@ def test_towards_grazing(decade, g):
 # x = w = 0, v = 0x1.e7c5f127bd87ep-466), tau too small at x = -g, a landing that does not end.
 def test_the_last_decades_of_grazing():
     """At x = -g itself, where squares of v + w decide, tau counts as right to 1e-40."""
-    for decade in (140, 150, 200, 290, 300):
-        for g in (1e-4, 0.04, 1.0):
+    for decade in (140, 200, 300):
+        for g in (1e-4, 1.0):
             for state in grazing(decade, g):
                 off = error(state)
                 if off > TAU and state[2] == -g:

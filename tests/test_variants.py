@@ -89,7 +89,7 @@ def test_a_variant_s_own_axes_stay():
         ("", {"energy": 0.002}, ["variants: ''"]),
         ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, study"]),
         ("study", {"energy": 0.002}, ["variants: 'study'"]),
-        ("v", None, ["variants.v: nothing", "ball, energy, scenes and scale"]),
+        ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
         ("v", {}, ["variants.v: {}"]),
         ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
         ("v", {"ball": {"q": 1}}, ["variants.v.ball.q: unknown key", "k, g"]),
