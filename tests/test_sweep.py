@@ -398,6 +398,7 @@ def test_faults_are_repaired_and_nothing_else_is_done_again(sweeping):
     assert made(sweeping)["small.nc"][0] == before["small.nc"][0]
 
 
+@pytest.mark.slow
 def test_a_block_of_another_grid_is_never_mixed_in(sweeping):
     swept(sweeping, "-c", "1")
     set_sweep(sweeping, SMALL | {"energy": [0.3, 2.0, 7.0]})
@@ -410,6 +411,7 @@ def test_a_block_of_another_grid_is_never_mixed_in(sweeping):
         assert data.sel(k=0.1, energy=7.0)["exponent"] == one["exponent"]
 
 
+@pytest.mark.slow
 def test_a_killed_sweep_goes_on_to_the_same_bytes(sweeping):
     swept(sweeping, "-c", "1")
     wanted = {name: value[0] for name, value in made(sweeping).items()}
@@ -453,6 +455,7 @@ def test_slurm_where_there_is_none_is_one_line(sweeping, monkeypatch):
     assert result.stdout == "reproduce: --slurm: there is no sbatch on this machine\n"
 
 
+@pytest.mark.slow
 def test_the_atlas_is_drawn_and_published(sweeping):
     path = sweeping.path / "config.yaml"
     document = yaml.safe_load(path.read_text())
@@ -489,6 +492,7 @@ print(content_hash(store.compute(block)))
 """
 
 
+@pytest.mark.slow
 def test_other_processors_give_the_same_bits(tmp_path):
     found = set()
     for extra in ({}, {"NUMBA_CPU_NAME": "generic", "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}):

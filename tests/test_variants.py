@@ -336,6 +336,7 @@ def test_a_damaged_artifact_is_no_absent_orbit(done):
     assert done.run("variant", "thin").returncode == 0
 
 
+@pytest.mark.slow
 def test_a_killed_run_is_taken_up_again(done):
     folder = done.path / "results" / "thin"
     before = {path.name: path.read_bytes() for path in (folder / "figures").iterdir()}

@@ -81,6 +81,7 @@ def compare(arguments: list[str]) -> int:
         try:
             compare(ROOT, variants, names, [read_absent(name) for name in names])
         except ValueError as error:  # a damaged file, named
+            sys.stdout.flush()  # or what was said before it comes after it
             print(f"reproduce: {error}".replace(f"{ROOT}/", ""), file=sys.stderr)
             return 1
     return 0
