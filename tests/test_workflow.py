@@ -144,6 +144,18 @@ def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
     assert done.planned() == set()
 
 
+def test_a_damaged_drawing_is_made_again_and_not_published(done):
+    before = {name: content for name, (content, _, _) in done.published().items()}
+    drawing = done.path / "results" / "paper" / "figures" / "fig3.png"
+    drawing.write_bytes(drawing.read_bytes()[:300])
+    result = done.run()
+    assert result.returncode == 0
+    no_traceback(result)
+    assert "figures/fig3.png: changed after it was made, made again" in result.stdout
+    assert {name: content for name, (content, _, _) in done.published().items()} == before
+    assert drawing.read_bytes() == before["fig3.png"]
+
+
 def test_a_damaged_artifact_is_one_line_that_says_how_to_go_on(done):
     artifact = done.path / "results" / "paper" / "periodic_fig4.nc"
     whole = artifact.read_bytes()

@@ -5,10 +5,11 @@ import subprocess
 import sys
 
 from interrupts import tidying_up
-from runner import BUSY, ROOT, hold_lock
-from variants import make, only_said
+from runner import BUSY, ROOT, hold_lock, only_said
+from variants import make
 
 PAGE = "results/report/report.html"
+PYTHON = sys.executable  # the rules quote that name for the shell
 
 
 def report(arguments: list[str]) -> int:
@@ -21,7 +22,7 @@ def report(arguments: list[str]) -> int:
     if status or only_said(arguments):
         return status
     part = ROOT / "results" / "report" / "part.html"  # snakemake wants a name that ends so
-    command = [sys.executable, "-m", "snakemake", "report", "--report", str(part)]
+    command = [PYTHON, "-m", "snakemake", "report", "--report", str(part)]
     command += ["--nolock", "--cores", "1"]  # a number of cores, though no job runs
     with tidying_up():
         run = subprocess.run(

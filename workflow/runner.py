@@ -2,6 +2,7 @@
 
 import fcntl
 import filecmp
+import json
 import re
 import sys
 import time
@@ -12,12 +13,21 @@ from pseudorigid import config
 
 ROOT = Path(__file__).resolve().parent.parent
 CORES = re.compile(r"--(cores|jobs)(=.*)?|-[cj](all|\d*)|all|\d+")
+# Options of snakemake that make nothing.
+SAYING = {"-n", "--dry-run", "--dryrun", "--dag", "--rulegraph", "--filegraph", "--d3dag", "--lint"}
+SAYING |= {"--summary", "-S", "--detailed-summary", "-D", "--list", "-l", "--list-rules", "--lt"}
+SAYING |= {"--list-target-rules", "--list-input-changes", "--list-params-changes", "--touch", "-t"}
+SAYING |= {"--list-changes", "--lc", "--unlock", "--help", "-h", "--version", "-v"}
 BUSY = "reproduce: another ./reproduce is running in this folder"
 
 
 def hold_lock():
     """The open lock file of this folder, or None where another run has it. Death releases it."""
-    lock = open(ROOT / ".lock", "w")  # noqa: SIM115  (stays open for the whole run)
+    try:
+        lock = open(ROOT / ".lock", "w")  # noqa: SIM115  (stays open for the whole run)
+        (ROOT / "results").mkdir(exist_ok=True)
+    except OSError as error:
+        sys.exit(f"reproduce: cannot write in {ROOT}: {error.strerror}: {error.filename}")
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
@@ -93,6 +103,31 @@ def unlike_drawings(names, figures) -> list[str]:
     ]
 
 
+def discard_damaged(figures, arguments) -> None:
+    """Delete drawings that are not what their records say, unless nothing is to be made."""
+    if only_said(arguments):
+        return
+    from pseudorigid.provenance import file_hash, record_path
+
+    for _, behind in figures.values():
+        drawing = ROOT / behind[-1]
+        try:
+            made = json.loads((ROOT / record_path(behind[-1])).read_text(encoding="utf-8"))
+            whole = file_hash(drawing) in (None, made["output"]["sha256"])
+        except (OSError, ValueError, KeyError, TypeError):
+            continue  # without its record snakemake makes it again
+        if not whole:
+            print(
+                f"reproduce: {behind[-1]}: changed after it was made, made again", file=sys.stderr
+            )
+            drawing.unlink()
+
+
+def only_said(options) -> bool:
+    """Whether these options of snakemake make nothing."""
+    return any(option.split("=")[0] in SAYING for option in options)
+
+
 def identity(file: str) -> tuple[int, int] | None:
     """Changes whenever the file is written anew; None where there is none."""
     try:
@@ -144,6 +179,7 @@ def workflow(arguments: list[str]) -> int:
     if lock is None:
         print(BUSY, file=sys.stderr)
         return 1
+    discard_damaged(figures, arguments)
     before = {name: identity(behind[-1]) for name, (_, behind) in figures.items()}
     named = [argument for argument in arguments if argument in figures]
     stale = unlike_drawings(named or figures, figures)

@@ -8,12 +8,13 @@ from interrupts import tidying_up
 from pseudorigid import config
 from runner import (
     BUSY,
-    CORES,
     ROOT,
+    discard_damaged,
     floor_report,
     hold_lock,
     identity,
     last_words,
+    only_said,
     run_snakemake,
     table,
 )
@@ -35,6 +36,8 @@ def variant(arguments: list[str]) -> int:
     if lock is None:
         print(BUSY, file=sys.stderr)
         return 1
+    discard_damaged(figures, options)
+    read_absent(name)
     before = {path: identity(path) for path in figures}
     status = make([f"variant_{name}"], options)
     if status:
@@ -103,12 +106,10 @@ def read_absent(name: str) -> dict[str, str]:
         return json.loads((ROOT / config.absent_file(name)).read_text(encoding="utf-8"))
     except FileNotFoundError:
         return {}
+    except ValueError:  # damaged: made again
+        (ROOT / config.absent_file(name)).unlink()
+        return {}
 
 
 def _listed(names):
     return ", ".join(names) or "none"
-
-
-def only_said(options):
-    """Whether these options of snakemake make nothing."""
-    return any(option.startswith("-") and not CORES.fullmatch(option) for option in options)

@@ -21,6 +21,7 @@ _KERNEL = (
     "impact.py",
     "lanes.py",
     "scan.py",
+    "study/counted.py",
 )
 
 

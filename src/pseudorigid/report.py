@@ -90,7 +90,11 @@ def numbers(scenes, load):
     found = {}
     for scene, block in scenes.items():
         data = {stage: load(scene, stage) for stage in stages(block)}
-        ours = {"k, g, energy": ", ".join(map(str, (*block["ball"].values(), block["energy"])))}
+        ours = {
+            "k, g, energy": ", ".join(
+                map(str, (block["ball"]["k"], block["ball"]["g"], block["energy"]))
+            )
+        }
         ours |= PICTURES[block["picture"]](block, **data)
         printed = {"k, g, energy": PARAMETERS[scene]} if scene in PARAMETERS else {}
         printed |= PRINTED.get(scene, {})

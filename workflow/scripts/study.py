@@ -4,7 +4,7 @@ from importlib import import_module
 
 from job import one_line_errors, recorded
 from pseudorigid import artifacts, config
-from pseudorigid.study import fails, needs, states, work
+from pseudorigid.study import fails, needs, parts, states, work
 
 
 def libraries():
@@ -22,7 +22,7 @@ def edge_rivals():
 
 
 def scenes_needs():
-    scenes = config.load("config.yaml")["scenes"]
+    scenes = parts.looked_at(config.load("config.yaml")["scenes"])
     loaded = {
         (stage, scene): artifacts.load(path)
         for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()

@@ -58,7 +58,8 @@ def line(sweep, data):
     unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0
     energy = np.array(sweep["energy"]) * unit
     name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
-    across = _linear((min(0.0, energy[0]), energy[-1] * 1.02), name, 8)
+    first, last = min(0.0, energy[0]), max(0.0, energy[-1])
+    across = _linear((first, last + (0.02 * (last - first) or 1.0)), name, 8)
     blank = Axis(across.limits, across.ticks, labels=("",) * len(across.ticks))
     share = _linear((0.0, 1.0), "Regular share of the section", 5)
     exponents = data["exponent_high"].values[0]

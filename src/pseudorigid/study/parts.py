@@ -37,7 +37,12 @@ def published(chart):
 
 def block(part, scenes):
     """What decides the data of a part: the scenes of the config where they are looked at."""
-    return {"part": part} | ({"scenes": scenes} if part == "needs" else {})
+    return {"part": part} | ({"scenes": looked_at(scenes)} if part == "needs" else {})
+
+
+def looked_at(scenes):
+    """The scenes whose picture has a known size: those that give their axes."""
+    return {name: block for name, block in scenes.items() if "axes" in block}
 
 
 def drawing(chart):
