@@ -1,5 +1,6 @@
 """What ./reproduce does once .venv is ready: pytest, or snakemake and a table of the figures."""
 
+import difflib
 import os
 import subprocess
 import sys
@@ -117,7 +118,11 @@ def main(arguments: list[str]) -> int:
     """Run one word, or snakemake."""
     os.chdir(ROOT)
     set_environment()
-    word, *rest = arguments or [None]
+    word, *rest = arguments or [""]
+    meant = difflib.get_close_matches(word, WORDS, 1, 0.75)
+    if meant and word not in WORDS:
+        print(f"reproduce: no word {word}: did you mean {meant[0]}?", file=sys.stderr)
+        return 1
     try:
         return WORDS[word](rest) if word in WORDS else workflow(arguments)
     except config.ConfigError as error:

@@ -175,6 +175,12 @@ def workflow(arguments: list[str]) -> int:
     """Check the config, run snakemake, and say what became of the figures."""
     variants = config.load(ROOT / "config.yaml")["variants"]
     figures = config.figures(variants)
+    if any(a.partition("=")[0] in ("--config", "-C", "--configfile") for a in arguments):
+        print(
+            "reproduce: --config and --configfile are not used here: edit config.yaml",
+            file=sys.stderr,
+        )
+        return 1
     lock = hold_lock()
     if lock is None:
         print(BUSY, file=sys.stderr)

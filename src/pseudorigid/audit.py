@@ -44,7 +44,12 @@ def audit(root, makers):
     # What was made from a result that has a problem shares it.
     for path in makers:
         if path not in problems and path not in missing:
-            for used, digest in _record(root, path)["inputs"].items():
+            try:
+                inputs = _record(root, path)["inputs"]
+            except (OSError, ValueError, KeyError):  # a run is writing here just now
+                problems[path] = "changed while it was looked at"
+                continue
+            for used, digest in inputs.items():
                 if used not in problems and file_hash(root / used) != digest:
                     problems[path] = f"made from another {used}"
     return problems, missing
