@@ -323,6 +323,18 @@ def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
         assert result.stdout.count("\n") == 1
 
 
+def test_damaged_findings_and_drawings_are_made_again(done):
+    absent = done.path / "results" / "thin" / "absent.json"
+    drawing = next((done.path / "results" / "thin" / "figures").glob("*.png"))
+    before = absent.read_bytes(), drawing.read_bytes()
+    absent.write_text("{")
+    drawing.write_bytes(before[1][:200])
+    result = done.run("variant", "thin")
+    assert result.returncode == 0, result.stdout
+    assert (absent.read_bytes(), drawing.read_bytes()) == before
+    assert f"{drawing.name}: changed after it was made, made again" in result.stdout
+
+
 def test_a_damaged_artifact_is_no_absent_orbit(done):
     artifact = done.path / "results" / "thin" / "periodic_fig4.nc"
     whole, status = artifact.read_bytes(), artifact.stat()

@@ -36,8 +36,7 @@ def variant(arguments: list[str]) -> int:
     if lock is None:
         print(BUSY, file=sys.stderr)
         return 1
-    discard_damaged(figures, options)
-    read_absent(name)
+    discard(variants, [name], options)
     before = {path: identity(path) for path in figures}
     status = make([f"variant_{name}"], options)
     if status:
@@ -73,6 +72,7 @@ def compare(arguments: list[str]) -> int:
     if lock is None:
         print(BUSY, file=sys.stderr)
         return 1
+    discard(variants, names, options)
     targets = ["all" if name == config.PAPER else f"variant_{name}" for name in names]
     status = make(targets, options)
     if status or only_said(options):
@@ -90,6 +90,14 @@ def compare(arguments: list[str]) -> int:
     return 0
 
 
+def discard(variants, names: list[str], options: list[str]) -> None:
+    """Delete what is damaged of these variants' drawings and findings; it is then made again."""
+    for name in names:
+        discard_damaged(config.figures(variants, name), options)
+        if not only_said(options):
+            read_absent(name)
+
+
 def make(targets: list[str], options: list[str]) -> int:
     """Run snakemake for targets that are rules; on failure say what went wrong."""
     start = time.time() - 1  # some file systems keep whole seconds only
@@ -101,12 +109,15 @@ def make(targets: list[str], options: list[str]) -> int:
 
 
 def read_absent(name: str) -> dict[str, str]:
-    """Scene -> why its figure cannot exist, as the last run of a variant found."""
+    """Scene -> why its figure cannot exist, as the last run of a variant found.
+
+    A damaged file counts as none and is deleted.
+    """
     try:
         return json.loads((ROOT / config.absent_file(name)).read_text(encoding="utf-8"))
     except FileNotFoundError:
         return {}
-    except ValueError:  # damaged: made again
+    except ValueError:  # damaged
         (ROOT / config.absent_file(name)).unlink()
         return {}
 

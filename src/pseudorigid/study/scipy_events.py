@@ -66,8 +66,6 @@ class ScanBrentq:
                 low = high - self.step if first or start else 0.0
                 if low == 0.0:  # the root at 0 is not the one
                     low = min(1e-9, 0.5 * high)
-                    if gap(low) >= 0.0:
-                        return low, count + 1
                 if gap(low) >= 0.0:
                     return low, count + 1
                 root, how = brentq(
