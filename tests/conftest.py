@@ -11,7 +11,8 @@ import pytest
 import yaml
 from numba.core.caching import _CacheLocator
 
-from pseudorigid import compiled, sources
+from pipeline.records import sources
+from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]
 PARTS = (

@@ -20,10 +20,11 @@ import numpy as np
 from numba import njit
 from numpy._core._multiarray_umath import __cpu_features__
 
-from pseudorigid import arithmetic, ensemble, impact, lyapunov, orbits, periodic
-from pseudorigid.ball import Ball
-from pseudorigid.compiled import jit
-from pseudorigid.scan import ScannedBall
+from pseudorigid.dynamics import lyapunov, orbits, periodic
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.kernel import arithmetic, impact
+from pseudorigid.kernel.compiled import jit
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01
@@ -84,7 +85,7 @@ def orbit(impacts):
     head, radius = BALL.section(ENERGY)
     state = BALL.state_xy(head + SEA * radius, 0.0, ENERGY)
     out = np.empty((1, impacts, 4))
-    impact.history(*(np.array([a]) for a in state), BALL.k, BALL.g, out)
+    impact.history(*(np.array([a]) for a in state), BALL.k, BALL.g, out, None)
     return digest(out)
 
 
@@ -93,13 +94,13 @@ def ensemble_of(count, impacts):
     centre, radius = BALL.section(ENERGY)
     x = centre + radius * (2.0 * np.random.default_rng(21).random(count) - 1.0)
     out = np.empty((count, impacts, 4))
-    ensemble.history(*BALL.state_xy(x, np.zeros(count), ENERGY), BALL.k, BALL.g, out)
+    BALL.map.history(*BALL.state_xy(x, np.zeros(count), ENERGY), BALL.k, BALL.g, out)
     return digest(out)
 
 
 def scanned():
     """The hash of orbits, exponents and inverses by the paper's own method."""
-    ball = ScannedBall(BALL.k, BALL.g, step=0.1, tolerance=1e-12)
+    ball = Ball(BALL.k, BALL.g, ImpactMap((0.1, 1e-12)))
     state = ball.start(SEA, ENERGY)
     track = orbits.orbit(ball, state, 1000)
     last = orbits.orbit(ball, state, 100, keep="last")
@@ -129,9 +130,10 @@ def scene(*axes):
 
 def everything():
     """Yield (name, hash) of the tables, and of data and figures of each kind, as saved."""
-    from pseudorigid import artifacts, manifolds
-    from pseudorigid.figures import closeup, exponents, motion, portrait, tangle
-    from pseudorigid.figures.save import save
+    from pipeline.records import artifacts
+    from pseudorigid.dynamics import manifolds
+    from pseudorigid.figures.canvas.save import save
+    from pseudorigid.figures.kinds import closeup, exponents, motion, portrait, tangle
 
     yield "table", table(200_000)
     yield from short()

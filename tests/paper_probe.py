@@ -15,7 +15,8 @@ import tempfile
 from pathlib import Path
 from types import SimpleNamespace
 
-from pseudorigid import config, provenance
+from pipeline import config
+from pipeline.records import provenance
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = ROOT / "workflow" / "scripts"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mpf
 
-from pseudorigid import arithmetic
+from pseudorigid.kernel import arithmetic
 
 ULP = 0.8
 

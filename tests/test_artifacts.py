@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pseudorigid import artifacts
-from pseudorigid.artifacts import ArtifactError, content_hash, load, save
+from pipeline.records import artifacts
+from pipeline.records.artifacts import ArtifactError, content_hash, load, save
 
 ABOUT = {
     "stage": "orbits",

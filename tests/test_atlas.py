@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pseudorigid.figures import atlas, raster, save, style
+from pseudorigid.figures import atlas
+from pseudorigid.figures.axes import raster
+from pseudorigid.figures.canvas import save, style
 from pseudorigid.sweep import cell, fixed_point
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}

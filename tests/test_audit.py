@@ -7,7 +7,7 @@ import subprocess
 
 from verdicts import findings, say
 
-from pseudorigid.verify import accept, verify
+from pipeline.checks.verify import accept, verify
 
 PERIODIC = "results/paper/periodic_fig3.nc"
 ORBITS = "results/paper/orbits_fig2.nc"

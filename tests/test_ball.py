@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pseudorigid.ball import Ball
+from pseudorigid.dynamics.ball import Ball
 
 BALL = Ball(k=0.2, g=0.04)
 METHODS = ("impact", "inverse_impact", "jacobian", "time_to_impact", "energy", "reflect")

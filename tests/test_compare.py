@@ -8,9 +8,9 @@ import xarray as xr
 import yaml
 from conftest import fresh_tree
 
+from pipeline.checks.compare import cycles, exponents, norms
+from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.compare import cycles, exponents, norms
-from pseudorigid.pictures import pixels
 
 NAMES = ("one", "two")
 

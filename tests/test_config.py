@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from pseudorigid import config
+from pipeline import config
 
 ROOT = Path(__file__).parents[1]
 AXES = {"limits": [-1, 1], "ticks": [0]}

@@ -12,11 +12,13 @@ import pytest
 import xarray as xr
 from verdicts import say
 
-from pseudorigid import artifacts, config, contract, manifest, provenance
-from pseudorigid.ball import Ball
-from pseudorigid.figures.save import png
-from pseudorigid.study import parts
-from pseudorigid.verify import accept, verify
+from pipeline import config
+from pipeline.checks import contract, manifest
+from pipeline.checks.verify import accept, verify
+from pipeline.config import study as parts
+from pipeline.records import artifacts, provenance
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.figures.canvas.render import png
 
 CHARTS = ("work_uniform", "work_grazing", "edges", "energy", "apart", "needs")
 

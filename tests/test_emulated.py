@@ -22,7 +22,7 @@ import pytest
 from conftest import ROOT
 from test_matrix import SWITCHES, probe
 
-from pseudorigid import manifest
+from pipeline.checks import manifest
 
 pytestmark = pytest.mark.emulated
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pseudorigid.figures import box, limits, plane, projection, save, sheet, style
+from pseudorigid.figures.axes import box, limits, plane, projection
+from pseudorigid.figures.canvas import save, sheet, style
 
 VIEW = {"elevation": 40, "azimuth": 115}
 SPACE = {
@@ -375,7 +376,7 @@ def test_refuses_other_formats(tmp_path):
 
 
 def test_refuses_what_the_data_do_not_have():
-    from pseudorigid.figures import portrait, tangle
+    from pseudorigid.figures.kinds import portrait, tangle
 
     with pytest.raises(ValueError, match=r"sea \[7\]"):
         portrait.draw(SCENES["portrait"] | {"sea": [7]}, orbits())

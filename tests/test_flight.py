@@ -12,7 +12,7 @@ import pytest
 from judge import judge
 from mpmath import mpf
 
-from pseudorigid.ball import Ball
+from pseudorigid.dynamics.ball import Ball
 
 # Relative error of tau over max(1, condition), see Verdict: at most 4.1e-16 at 102,000 states.
 TAU = 5e-16

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from judge import exact_jacobian, judge
 
-from pseudorigid import arithmetic, flight, impact, lanes
-from pseudorigid.ball import Ball
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.kernel import arithmetic, flight, impact, lanes
 
 # About 1.4 times the worst that was measured over 20,000 states a ball (by the judge: 300 and 40).
 ONE_ENERGY = 1.2e-15
@@ -65,7 +65,7 @@ def test_energy_over_a_million_impacts():
     tau = np.empty(3)
     worst = 0.0
     for _ in range(200):
-        impact.steps(*state, BALL.k, BALL.g, 5_000, tau)
+        impact.steps(*state, BALL.k, BALL.g, 5_000, tau, None)
         worst = max(worst, np.max(np.abs(BALL.energy(*state) / 0.01 - 1.0)))
     assert worst < ENERGY
 
@@ -228,9 +228,9 @@ def test_loops_agree_with_single_steps():
     state = section_states(BALL, 50, seed=9)
     many = [a.copy() for a in state]
     tau = np.empty(50)
-    impact.steps(*many, BALL.k, BALL.g, 7, tau)
+    impact.steps(*many, BALL.k, BALL.g, 7, tau, None)
     out = np.empty((50, 7, 4))
-    impact.history(*(a.copy() for a in state), BALL.k, BALL.g, out)
+    impact.history(*(a.copy() for a in state), BALL.k, BALL.g, out, None)
     assert np.array_equal(out[:, -1].T, [*many, tau])
     one = state
     for i in range(7):
@@ -271,11 +271,11 @@ def test_machine_code_is_strict():
     assert not impact.steps.targetoptions.get("parallel")
     state = section_states(BALL, 2)
     for kernel, arguments in (
-        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2))),
-        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2))),
-        (impact.history, (*state, 0.2, 0.04, np.empty((2, 1, 4)))),
+        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), None)),
+        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2), None)),
+        (impact.history, (*state, 0.2, 0.04, np.empty((2, 1, 4)), None)),
         (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
-        (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)))),
+        (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)), None)),
         (arithmetic.log, (2.0,)),
     ):
         text = code(kernel, *arguments)

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pseudorigid import ensemble, impact, lanes, orbit
-from pseudorigid.ball import Ball
+from pseudorigid import orbit
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.kernel import impact, lanes
 
 BALL = Ball(k=0.2, g=0.04)
 
@@ -23,7 +24,7 @@ def sea(n, energy=0.01, ball=BALL):
 def alone(states, ball, impacts):
     """The history (n, impacts, 4) of each state by the loop over one orbit."""
     out = np.empty((states[0].size, impacts, 4))
-    impact.history(*(a.copy() for a in states), ball.k, ball.g, out)
+    impact.history(*(a.copy() for a in states), ball.k, ball.g, out, None)
     return out
 
 
@@ -100,10 +101,10 @@ def test_threads_do_not_matter(threads, monkeypatch):
     expected = alone(states, BALL, 60)
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     out = np.empty_like(expected)
-    ensemble.history(*(a.copy() for a in states), BALL.k, BALL.g, out)
+    BALL.map.history(*(a.copy() for a in states), BALL.k, BALL.g, out)
     assert np.array_equal(out, expected)
     ends, tau = [a.copy() for a in states], np.empty(300)
-    ensemble.steps(*ends, BALL.k, BALL.g, 60, tau)
+    BALL.map.steps(*ends, BALL.k, BALL.g, 60, tau)
     assert np.array_equal(np.stack([*ends, tau], axis=1), expected[:, -1])
 
 
@@ -121,5 +122,5 @@ def test_an_orbit_does_not_depend_on_its_company():
 def test_no_impacts_leave_the_states():
     states = sea(40)
     ends = [a.copy() for a in states]
-    ensemble.steps(*ends, BALL.k, BALL.g, 0, np.empty(40))
+    BALL.map.steps(*ends, BALL.k, BALL.g, 0, np.empty(40))
     assert all(np.array_equal(a, b) for a, b in zip(ends, states, strict=True))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
-from pseudorigid.lyapunov import scene_exponents
+from pseudorigid.dynamics.lyapunov import scene_exponents
 
 BALL = Ball(0.2, 0.04)
 

@@ -17,7 +17,9 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
-from pseudorigid import arithmetic, config, sources
+from pipeline import config
+from pipeline.records import sources
+from pseudorigid.kernel import arithmetic
 
 PROBE = Path(__file__).with_name("matrix_probe.py")
 SWITCHES = {"library", "simd"}  # of the probe's answers those that the settings may change

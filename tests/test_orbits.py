@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, orbit, symmetric_orbits
-from pseudorigid.orbits import motion, scene_orbits
-from pseudorigid.periodic import of_type
+from pseudorigid.dynamics.orbits import motion, scene_orbits
+from pseudorigid.dynamics.periodic import of_type
 
 BALL = Ball(0.2, 0.04)
 NAMES = ("x", "xdot", "udot", "tau")

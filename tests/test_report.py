@@ -10,8 +10,8 @@ import pytest
 import yaml
 from conftest import ROOT, fresh_tree
 
-from pseudorigid import report
-from pseudorigid.pictures import pixels
+from pipeline.checks import report
+from pipeline.records.pictures import pixels
 
 PAGE = "results/report/report.html"
 CHROMIUM = shutil.which("chromium")

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
+from pipeline.records.artifacts import load
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
-from pseudorigid.artifacts import load
-from pseudorigid.orbits import motion
-from pseudorigid.periodic import of_type
-from pseudorigid.scan import ScannedBall, scan
+from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.kernel.scan import scan
 
 BALL = Ball(0.2, 0.04)
 SEA = BALL.start(0.534522, 0.01)
@@ -16,7 +17,7 @@ FINE = {"scan": 0.1, "tolerance": 1e-12}
 
 
 def scanned(step=0.1, tolerance=1e-12):
-    return ScannedBall(BALL.k, BALL.g, step, tolerance)
+    return Ball(BALL.k, BALL.g, ImpactMap((step, tolerance)))
 
 
 def test_it_is_the_map_to_its_tolerance():
@@ -72,7 +73,7 @@ def test_a_motion_follows_its_own_impacts():
 def test_the_scan_gives_up_with_an_error():
     """A flight of 2e7 time units has more steps than any scan takes."""
     with pytest.raises(ArithmeticError, match="scan"):
-        ScannedBall(0.2, 1e-8, 0.1, 1e-6).impact(0.0, 0.0, 0.3)
+        Ball(0.2, 1e-8, ImpactMap((0.1, 1e-6))).impact(0.0, 0.0, 0.3)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

@@ -19,7 +19,7 @@ from judge import judge
 from mpmath import mpf
 from test_flight import TAU, before, error
 
-from pseudorigid.ball import Ball
+from pseudorigid.dynamics.ball import Ball
 
 BALL = Ball(0.2, 0.04)
 

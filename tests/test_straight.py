@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pseudorigid.figures.straight import bends
+from pseudorigid.figures.canvas.straight import bends
 
 
 def test_ends_and_corners_stay():

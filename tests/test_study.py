@@ -13,10 +13,14 @@ import pytest
 import xarray as xr
 from conftest import ROOT
 
-from pseudorigid import Ball, lyapunov_spectrum, sources
-from pseudorigid.figures import panel, study
-from pseudorigid.study import counted, parts, scipy_events, states
-from pseudorigid.study.counted import OURS, engine_method, scan_method
+from pipeline.config import study as parts
+from pipeline.records import sources
+from pseudorigid import Ball, lyapunov_spectrum
+from pseudorigid.figures import study
+from pseudorigid.figures.axes import panel
+from pseudorigid.study import states
+from pseudorigid.study.methods import counted, scipy_events
+from pseudorigid.study.methods.counted import OURS, engine_method, scan_method
 
 BALL = states.BALL
 
@@ -103,7 +107,7 @@ def test_solve_ivp_sees_short_flights(solver):
 
 def test_heyoka_finds_easy_roots():
     pytest.importorskip("heyoka")
-    from pseudorigid.study import taylor
+    from pseudorigid.study.methods import taylor
 
     columns = states.uniform(20)
     truth = OURS.solve(BALL, *columns)[0]
@@ -114,7 +118,7 @@ def test_heyoka_finds_easy_roots():
 
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
-    from pseudorigid.study import toolkit
+    from pseudorigid.study.methods import toolkit
 
     start, impacts = states.chaotic(), 20_000
     found = np.sort(toolkit.spectrum(BALL, start, impacts))[::-1]
@@ -124,7 +128,7 @@ def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
 
 def test_the_judge_agrees_with_the_map():
     pytest.importorskip("flint")
-    from pseudorigid.study import judge
+    from pseudorigid.proofs import judge
 
     sets = [states.uniform(100), states.grazing(100), states.near_miss(-1e-9, 20)]
     sets += [states.distance(e, side, 10) for e in (0, 6, 12) for side in (1, -1)]
@@ -136,7 +140,7 @@ def test_the_judge_agrees_with_the_map():
 @pytest.mark.parametrize(("k", "g"), [(1.0, 1.0), (0.01, 1e-4), (1 / 3, 0.3), (0.2, 1e-3)])
 def test_the_judge_agrees_for_other_balls_and_long_flights(k, g):
     pytest.importorskip("flint")
-    from pseudorigid.study import judge
+    from pseudorigid.proofs import judge
 
     random = np.random.default_rng(7)
     ball = Ball(k=k, g=g)
@@ -151,7 +155,7 @@ def test_the_judge_agrees_for_other_balls_and_long_flights(k, g):
 
 def test_the_judge_knows_a_ball_at_rest():
     pytest.importorskip("flint")
-    from pseudorigid.study import judge
+    from pseudorigid.proofs import judge
 
     assert judge.first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
 

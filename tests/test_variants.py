@@ -11,9 +11,9 @@ import pytest
 import yaml
 from conftest import ROOT, fresh_tree
 
-from pseudorigid import config
-from pseudorigid.artifacts import load
-from pseudorigid.figures.limits import of_data
+from pipeline import config
+from pipeline.records.artifacts import load
+from pseudorigid.figures.axes.limits import of_data
 
 BASE = yaml.safe_load((ROOT / "config.yaml").read_text())
 LENGTHS = {"x", "xdot", "udot", "position", "strain", "impact_position"}

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from verdicts import findings, say, verdicts
 
-from pseudorigid import pictures
-from pseudorigid.figures.save import png
-from pseudorigid.layers import ulps
-from pseudorigid.verify import verify
+from pipeline.checks.layers import ulps
+from pipeline.checks.verify import verify
+from pipeline.records import pictures
+from pseudorigid.figures.canvas.render import png
 
 FIG3 = "paper_figures/fig3.png"
 PERIODIC = "results/paper/periodic_fig3.nc"

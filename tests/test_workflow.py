@@ -10,7 +10,7 @@ import time
 import pytest
 from conftest import ROOT, fresh_tree
 
-from pseudorigid import sources
+from pipeline.records import sources
 
 FIG3 = {
     "results/paper/periodic_fig3.nc",

@@ -4,7 +4,7 @@ import re
 from contextlib import redirect_stdout
 from io import StringIO
 
-from pseudorigid.verify import verify
+from pipeline.checks.verify import verify
 
 
 def verdicts(text):

@@ -6,11 +6,11 @@ The names below are loaded when they are first used, so that a program pays for 
 import importlib
 
 _HOMES = {
-    "Ball": "ball",
-    "orbit": "orbits",
-    "symmetric_orbits": "periodic",
-    "trace_manifold": "manifolds",
-    "lyapunov_spectrum": "lyapunov",
+    "Ball": "dynamics.ball",
+    "orbit": "dynamics.orbits",
+    "symmetric_orbits": "dynamics.periodic",
+    "trace_manifold": "dynamics.manifolds",
+    "lyapunov_spectrum": "dynamics.lyapunov",
 }
 
 __all__ = list(_HOMES)

@@ -4,8 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from pseudorigid import sources
-from pseudorigid.config import (
+from pipeline.config import (
     PAPER,
     STAGES,
     ConfigError,
@@ -17,8 +16,9 @@ from pseudorigid.config import (
     stages,
     wanted_orbits,
 )
-from pseudorigid.provenance import record_path
-from pseudorigid.study import parts
+from pipeline.config import study as parts
+from pipeline.records import sources
+from pipeline.records.provenance import record_path
 
 ROOT = Path(workflow.basedir)
 
@@ -106,6 +106,6 @@ def study_inputs(part):
 
 def study_code(part):
     """What a part of the study runs, the libraries' rivals where they are measured."""
-    rivals = ("scipy_events", "taylor", "bench") if part in parts.MEASURED else ()
+    rivals = ("methods.scipy_events", "methods.taylor", "bench") if part in parts.MEASURED else ()
     modules = [f"pseudorigid.study.{name}" for name in rivals]
     return [*code("study.py", *modules), "requirements/study.txt"]

@@ -4,7 +4,7 @@
 rule draw_portrait:
     input:
         data=artifacts("orbits"),
-        code=code("draw.py", "pseudorigid.figures.portrait"),
+        code=code("draw.py", "pseudorigid.figures.kinds.portrait"),
     output:
         reported("portrait"),
         record="results/{variant}/provenance/{scene}.{extension}.json",
@@ -23,7 +23,7 @@ rule draw_portrait:
 use rule draw_portrait as draw_motion with:
     input:
         data=artifacts("motion"),
-        code=code("draw.py", "pseudorigid.figures.motion"),
+        code=code("draw.py", "pseudorigid.figures.kinds.motion"),
     output:
         reported("motion"),
         record="results/{variant}/provenance/{scene}.{extension}.json",
@@ -34,7 +34,7 @@ use rule draw_portrait as draw_motion with:
 use rule draw_portrait as draw_tangle with:
     input:
         data=artifacts("orbits", "manifolds", "periodic"),
-        code=code("draw.py", "pseudorigid.figures.tangle"),
+        code=code("draw.py", "pseudorigid.figures.kinds.tangle"),
     output:
         reported("tangle"),
         record="results/{variant}/provenance/{scene}.{extension}.json",
@@ -45,7 +45,7 @@ use rule draw_portrait as draw_tangle with:
 use rule draw_portrait as draw_closeup with:
     input:
         data=artifacts("manifolds"),
-        code=code("draw.py", "pseudorigid.figures.closeup"),
+        code=code("draw.py", "pseudorigid.figures.kinds.closeup"),
     output:
         reported("closeup"),
         record="results/{variant}/provenance/{scene}.{extension}.json",
@@ -56,7 +56,7 @@ use rule draw_portrait as draw_closeup with:
 use rule draw_portrait as draw_exponents with:
     input:
         data=artifacts("lyapunov"),
-        code=code("draw.py", "pseudorigid.figures.exponents"),
+        code=code("draw.py", "pseudorigid.figures.kinds.exponents"),
     output:
         reported("exponents"),
         record="results/{variant}/provenance/{scene}.{extension}.json",

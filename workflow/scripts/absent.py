@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 from job import one_line_errors
-from pseudorigid.artifacts import load
-from pseudorigid.files import replacing
-from pseudorigid.periodic import of_type
+from pipeline.records.artifacts import load
+from pipeline.records.files import replacing
+from pseudorigid.dynamics.periodic import of_type
 
 
 def reason(path, kind):

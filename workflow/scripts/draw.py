@@ -2,12 +2,11 @@
 
 from importlib import import_module
 
-from job import one_line_errors, recorded
-from pseudorigid.artifacts import load
-from pseudorigid.figures.save import save
+from job import one_line_errors, recorded, save_figure
+from pipeline.records.artifacts import load
 
 scene = snakemake.params.scene
 with one_line_errors(snakemake), recorded(snakemake, scene):
-    picture = import_module(f"pseudorigid.figures.{scene['picture']}")
+    picture = import_module(f"pseudorigid.figures.kinds.{scene['picture']}")
     data = [load(path) for path in snakemake.input.data]
-    save(picture.draw(scene, *data), snakemake.output[0])
+    save_figure(picture.draw(scene, *data), snakemake.output[0])

@@ -1,9 +1,9 @@
 """Manifolds of one periodic orbit: whole branches, or what lies in a window."""
 
 from job import save_stage
-from pseudorigid.artifacts import load
-from pseudorigid.manifolds import scene_manifolds, window_manifolds
-from pseudorigid.periodic import of_type
+from pipeline.records.artifacts import load
+from pseudorigid.dynamics.manifolds import scene_manifolds, window_manifolds
+from pseudorigid.dynamics.periodic import of_type
 
 
 def trace(ball, energy, period, type, **how):

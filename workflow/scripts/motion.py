@@ -1,9 +1,9 @@
 """Position and strain in time along one periodic orbit."""
 
 from job import save_stage
-from pseudorigid.artifacts import load
-from pseudorigid.orbits import motion
-from pseudorigid.periodic import of_type
+from pipeline.records.artifacts import load
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.periodic import of_type
 
 
 def scene_motion(ball, energy, period, type, duration):

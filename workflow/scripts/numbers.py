@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 from job import one_line_errors
-from pseudorigid import report
-from pseudorigid.artifacts import load
-from pseudorigid.files import replacing
+from pipeline.checks import report
+from pipeline.records.artifacts import load
+from pipeline.records.files import replacing
 
 with one_line_errors(snakemake):
     paths = snakemake.params.artifacts

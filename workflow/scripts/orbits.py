@@ -1,6 +1,6 @@
 """Orbits of a scene."""
 
 from job import save_stage
-from pseudorigid.orbits import scene_orbits
+from pseudorigid.dynamics.orbits import scene_orbits
 
 save_stage(snakemake, scene_orbits)

@@ -3,14 +3,16 @@
 from importlib import import_module
 
 from job import one_line_errors, recorded
-from pseudorigid import artifacts, config
-from pseudorigid.study import fails, needs, parts, states, work
+from pipeline import config
+from pipeline.config import study as parts
+from pipeline.records import artifacts
+from pseudorigid.study import fails, needs, states, work
 
 
 def libraries():
     """The rivals whose packages only the study has."""
     names = ("scipy_events", "taylor")
-    return [m for n in names for m in import_module(f"pseudorigid.study.{n}").METHODS]
+    return [m for n in names for m in import_module(f"pseudorigid.study.methods.{n}").METHODS]
 
 
 def edge_rivals():

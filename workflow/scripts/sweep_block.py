@@ -1,7 +1,7 @@
 """One block of cells."""
 
 from job import one_line_errors
-from pseudorigid.sweep import store
+from pipeline.records import blocks as store
 
 with one_line_errors(snakemake):
     block = snakemake.params.block

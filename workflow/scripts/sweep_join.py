@@ -1,7 +1,8 @@
 """The blocks of a sweep as one dataset."""
 
 from job import one_line_errors
-from pseudorigid.sweep import grid, store
+from pipeline.records import blocks as store
+from pseudorigid.sweep import grid
 
 with one_line_errors(snakemake):
     sweep = snakemake.params.sweep

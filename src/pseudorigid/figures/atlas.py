@@ -3,9 +3,10 @@
 import numpy as np
 
 from ..sweep import fixed_point
-from . import raster, style
-from .panel import Axis, Panel, log10
-from .sheet import POINT, Sheet
+from .axes import raster
+from .axes.panel import Axis, Panel, log10
+from .canvas import style
+from .canvas.sheet import POINT, Sheet
 
 RESONANCES = tuple((1, q) for q in (2, 3, 4, 5, 6, 8, 10))
 PAPER = (0.2, {"Figure 8": 0.625, "Figure 2": 6.25})  # k, and E/g^2 of the paper's two cases

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from . import style
-from .panel import Axis, Panel, key
-from .sheet import POINT, Sheet
+from .axes.panel import Axis, Panel, key
+from .canvas import style
+from .canvas.sheet import POINT, Sheet
 
 # A colour and a mark for each family of methods; what is near in kind is near in colour.
 LOOKS = {

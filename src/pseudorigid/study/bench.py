@@ -12,12 +12,12 @@ from importlib.metadata import version
 
 import numpy as np
 
-from .. import ensemble
-from ..arithmetic import sincos
-from ..compiled import jit
-from ..lyapunov import lyapunov_spectrum
-from . import counted as own
-from . import scipy_events, states, taylor, toolkit
+from ..dynamics.lyapunov import lyapunov_spectrum
+from ..kernel.arithmetic import sincos
+from ..kernel.compiled import jit
+from . import states
+from .methods import counted as own
+from .methods import scipy_events, taylor, toolkit
 
 REPETITIONS = 9
 IMPACTS = 200_000
@@ -134,17 +134,17 @@ def _processor():
 
 def _orbit(state, impacts):
     x, v, w = (np.array([a]) for a in state)
-    ensemble.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(1))
+    states.BALL.map.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(1))
 
 
 def _ensemble(lanes, impacts):
     x, v, w = _many(lanes)
-    ensemble.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
+    states.BALL.map.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
 
 
 def _stored(lanes, impacts):
     x, v, w = _many(lanes)
-    ensemble.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
+    states.BALL.map.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
 
 
 @cache
@@ -167,7 +167,7 @@ def _along(state, count):
     """The first `count` states of an orbit, as columns."""
     out = np.empty((1, count, 4))
     columns = (np.array([float(a)]) for a in state)
-    ensemble.history(*columns, states.BALL.k, states.BALL.g, out)
+    states.BALL.map.history(*columns, states.BALL.k, states.BALL.g, out)
     return tuple(a.copy() for a in out[0].T[:3])
 
 

@@ -7,8 +7,9 @@ million impacts. A failure is a wrong root as in `work.is_wrong`.
 import numpy as np
 import xarray as xr
 
-from . import counted as own
-from . import judge, states
+from ..proofs import judge
+from . import states
+from .methods import counted as own
 from .states import BALL
 from .work import is_wrong, named
 

@@ -21,14 +21,14 @@ import math
 import numpy as np
 import xarray as xr
 
-from .. import impact as kernel
-from ..arithmetic import log
-from ..ball import Ball
-from ..compiled import jit
-from ..figures.box import Box
-from ..figures.plane import Plane
-from . import counted as own
-from . import judge
+from ..dynamics.ball import Ball
+from ..figures.axes.box import Box
+from ..figures.axes.plane import Plane
+from ..kernel import impact as kernel
+from ..kernel.arithmetic import log
+from ..kernel.compiled import jit
+from ..proofs import judge
+from .methods import counted as own
 from .work import named
 
 METHODS = (
@@ -154,7 +154,7 @@ def _portrait(ball, energy, block, pixel):
 
 
 def _motion(ball, periodic, block, size):
-    from ..periodic import of_type
+    from ..dynamics.periodic import of_type
 
     orbit = of_type(periodic, block["type"])
     state = tuple(float(orbit[name].values[0]) for name in ("x", "xdot", "udot"))
@@ -183,7 +183,7 @@ def _times(ball, state, track):
 
 
 def _branches(ball, periodic, manifolds, block, pixel):
-    from ..periodic import of_type
+    from ..dynamics.periodic import of_type
 
     orbit = of_type(periodic, block["type"])
     multiplier = abs(float(orbit["multiplier"].values))
@@ -246,7 +246,7 @@ def _largest_exponent(kind, step, tolerance, x, v, w, k, g, impacts):
     total = 0.0
     for _ in range(impacts):
         here[0, 0], here[1, 0], here[2, 0] = x, v, max(w, -v)
-        kernel.jacobians(here[0], here[1], here[2], k, g, 1, jacobian)
+        kernel.jacobians(here[0], here[1], here[2], k, g, 1, jacobian, None)
         p = (jacobian[0, 0, 0] * a + jacobian[0, 0, 1] * b) + jacobian[0, 0, 2] * c
         q = (jacobian[0, 1, 0] * a + jacobian[0, 1, 1] * b) + jacobian[0, 1, 2] * c
         r = (jacobian[0, 2, 0] * a + jacobian[0, 2, 1] * b) + jacobian[0, 2, 2] * c

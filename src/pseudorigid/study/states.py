@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .. import impact as kernel
-from ..arithmetic import sincos
-from ..ball import Ball
+from ..dynamics.ball import Ball
+from ..kernel import impact as kernel
+from ..kernel.arithmetic import sincos
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01

@@ -9,8 +9,9 @@ import time
 import numpy as np
 import xarray as xr
 
-from . import counted as own
-from . import judge, states
+from ..proofs import judge
+from . import states
+from .methods import counted as own
 
 SETS = ("uniform", "near-grazing")
 SPENT = 0.02  # seconds that one timing lasts at least, so that the clock's grain does not show

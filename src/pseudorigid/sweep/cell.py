@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from ..arithmetic import sincos
-from ..compiled import jit
+from ..kernel.arithmetic import sincos
+from ..kernel.compiled import jit
 from . import fixed_point
 from .follow import follow
 

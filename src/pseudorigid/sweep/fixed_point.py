@@ -13,7 +13,7 @@ trace = 2 cos(2 pi rho).
 
 import math
 
-from ..arithmetic import sincos
+from ..kernel.arithmetic import sincos
 
 
 def bent(theta):

@@ -5,9 +5,9 @@ The one place where a sweep calls the compiled map. Lengths are in units of g R,
 
 import math
 
-from .. import impact as kernel
-from ..arithmetic import log
-from ..compiled import jit
+from ..kernel import impact as kernel
+from ..kernel.arithmetic import log
+from ..kernel.compiled import jit
 
 _EIGHTH = math.sqrt(2.0) - 1.0  # tan(pi/8)
 # (atan t - t)/t^3 in z = t^2, Chebyshev on |t| <= tan(pi/8), error below 1e-14
@@ -71,8 +71,8 @@ def follow(x, v, w, k, centre, expected, weight, growth, winding):
         turns = 0.0
         p, q = a - centre, round_y * (b - k * c)
         for j in range(impacts):
-            a, b, c, _, sine, cosine, tau_x, tau_s, tau_c = kernel.step_with_flight(
-                a, b, c, k, 1.0, head, low
+            a, b, c, _, sine, cosine, tau_x, tau_s, tau_c, _ = kernel.step_with_flight(
+                a, b, c, k, 1.0, head, low, None
             )
             dx, dv, dw = kernel.tangent(
                 dx, dv, dw, k, 1.0, head, low, a, c, sine, cosine, tau_x, tau_s, tau_c

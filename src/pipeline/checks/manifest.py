@@ -1,0 +1,173 @@
+"""A contract as written down: SHA256SUMS and MANIFEST.json, committed beside the files.
+
+The manifest has, layer by layer, what these were made from: config, source, environment,
+data, drawing, file. Nothing in it depends on the day, the folder or the commit.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+
+from .. import config
+from ..records import provenance, sources
+from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
+from ..records.files import replacing
+from ..records.pictures import describe
+
+FOLDER = "paper_figures"
+MANIFEST = "MANIFEST.json"
+SUMS = "SHA256SUMS"
+BLOCK = 1024  # values hashed together, so that a difference can be placed
+_SHORT = 16  # hex digits of the hash of a block or an attribute
+
+
+class ContractError(Exception):
+    """One line about a contract that cannot be read; it names the file."""
+
+
+def published(scenes):
+    """Each figure of the contract -> its scene: the files of the config that users see."""
+    found = {path: scene for path, (scene, _) in config.figures({config.PAPER: scenes}).items()}
+    return {path: scene for path, scene in found.items() if path.startswith(f"{FOLDER}/")}
+
+
+def scene_sources(block):
+    """The project's files behind a scene, from the root: those of its stages and its drawing."""
+    files = set(sources.drawing_code(block["picture"]))
+    return sorted(files.union(*map(sources.stage_code, config.STAGES[block["picture"]])))
+
+
+def scene_data(scenes):
+    """Scene -> stage -> the artifact that it is drawn from."""
+    serves = config.served({config.PAPER: scenes})
+    return {
+        scene: {stage: serves[config.PAPER, scene, stage] for stage in config.stages(block)}
+        for scene, block in scenes.items()
+    }
+
+
+def describe_data(dataset):
+    """What the manifest says of an artifact: hashes of its attributes and of its variables.
+
+    A variable's values are hashed whole and in blocks of BLOCK; the container's bytes do not count.
+    """
+    variables = {}
+    for name, variable in dataset.variables.items():
+        kind, values = canonical_values(variable)
+        blocks = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
+        blocks = [_bytes(block) for block in blocks]
+        variables[str(name)] = {
+            "dims": list(variable.dims),
+            "shape": list(variable.shape),
+            "dtype": kind,
+            "attributes": _attributes(variable),
+            "sha256": hashlib.sha256(b"".join(blocks)).hexdigest(),
+            "blocks": " ".join(_short(block) for block in blocks),
+        }
+    sizes = {str(name): size for name, size in dataset.sizes.items()}
+    return {"attributes": _attributes(dataset), "sizes": sizes, "variables": variables}
+
+
+def build(root, contract):
+    """The manifest of a tree that has its results and figures; raises ValueError or OSError."""
+    artifacts = sorted({path for stages in contract.data.values() for path in stages.values()})
+    return {
+        "environment": provenance.versions(),
+        "sources": {
+            path: provenance.file_hash(root / path)
+            for path in sorted(set().union(*contract.sources.values()))
+        },
+        "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
+        "scenes": {
+            scene: {
+                "config": block,
+                "sources": contract.sources[scene],
+                "data": {stage: Path(path).name for stage, path in contract.data[scene].items()},
+                "figures": {
+                    Path(path).name: {
+                        "drawing": describe(root / path),
+                        "sha256": provenance.file_hash(root / path),
+                    }
+                    for path in sorted(contract.figures)
+                    if contract.figures[path] == scene
+                },
+            }
+            for scene, block in contract.config.items()
+        },
+    }
+
+
+def read(root, folder=FOLDER):
+    """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
+    name = f"{folder}/{MANIFEST}"
+    try:
+        manifest = json.loads((root / name).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise ContractError(f"{name}: missing") from None
+    except (OSError, ValueError, RecursionError) as error:
+        raise ContractError(f"{name}: broken: {error}") from None
+    # It covers every entry: none can be lost or changed without a word.
+    if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
+        raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
+    return manifest
+
+
+def read_sums(root, folder=FOLDER):
+    """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
+    path = f"{folder}/{SUMS}"
+    found = {}
+    try:
+        lines = (root / path).read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        raise ContractError(f"{path}: missing") from None
+    except (OSError, ValueError) as error:
+        raise ContractError(f"{path}: cannot be read: {error}") from None
+    for number, line in enumerate(lines, 1):
+        digest, mark, name = line[:64], line[64:66], line[66:]
+        if len(digest) < 64 or set(digest) - set("0123456789abcdef") or not name or mark != "  ":
+            raise ContractError(f"{path}: line {number} is not a sha256 and a file's name")
+        found[name] = digest
+    return found
+
+
+def figures(manifest):
+    """File name -> its entry in the manifest."""
+    return {
+        name: entry
+        for scene in manifest["scenes"].values()
+        for name, entry in scene["figures"].items()
+    }
+
+
+def sums(manifest):
+    """File name -> sha256, sorted."""
+    return {name: entry["sha256"] for name, entry in sorted(figures(manifest).items())}
+
+
+def write(root, folder, manifest):
+    """Write both files of the contract."""
+    with replacing(root / folder / MANIFEST) as part:
+        text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
+        part.write_text(text + "\n", encoding="utf-8")
+    with replacing(root / folder / SUMS) as part:
+        lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
+        part.write_text("".join(lines), encoding="utf-8")
+
+
+def _checksum(manifest):
+    return hashlib.sha256(canonical_json(manifest).encode()).hexdigest()
+
+
+def _attributes(source):
+    return {
+        str(name): _short(json.dumps(value).encode())
+        for name, value in plain_attributes(source).items()
+    }
+
+
+def _bytes(block):
+    return json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
+
+
+def _short(data):
+    return hashlib.sha256(data).hexdigest()[:_SHORT]

@@ -1,0 +1,22 @@
+"""Packages that only some words of ./reproduce need."""
+
+import os
+import subprocess
+import sys
+
+from .runner import ROOT
+
+
+def add_packages(name: str) -> int:
+    """Install requirements/<name>.txt on top of the lock if that is not done; the exit status."""
+    wanted = (ROOT / "requirements" / f"{name}.txt").read_bytes()
+    stamp = ROOT / ".venv" / f"{name}-stamp"  # goes with .venv when that is made anew
+    if stamp.is_file() and stamp.read_bytes() == wanted:
+        return 0
+    print(f"reproduce: installing requirements/{name}.txt into .venv (once)", file=sys.stderr)
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / f"{name}.txt")]
+    status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
+    if status == 0:
+        stamp.write_bytes(wanted)
+    return status

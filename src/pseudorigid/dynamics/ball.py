@@ -1,0 +1,217 @@
+"""The ball: its parameters, energy and section, and the impact map on numbers or arrays."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..kernel.law import rebound, transfer
+from .ensemble import ImpactMap
+
+
+def whole_number(name, value):
+    """`value` as an int of at least 1; ValueError, naming it, otherwise."""
+    number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if number and 1 <= value < math.inf and value == int(value):
+        return int(value)
+    raise ValueError(f"{name} = {value!r} is not allowed: a whole number, at least 1")
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A pseudo-rigid ball, dimensionless: lengths in R, times in 1/omega.
+
+    Args:
+        k: Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
+        g: gravity, eq. (20), g > 0.
+        map: how the next impact is found; the certified march unless another ImpactMap is given.
+
+    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on
+    the section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast,
+    and return numbers for scalars and arrays of the broadcast shape otherwise; each element has
+    the bits of the scalar call. Input that is NaN or infinite gives NaN.
+
+    Raises:
+        ValueError: k or g outside its range, or a state with xdot + udot < 0.
+    """
+
+    k: float
+    g: float
+    map: ImpactMap = field(default_factory=ImpactMap, compare=False, repr=False)
+
+    def __post_init__(self):
+        for name in ("k", "g"):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+                raise ValueError(f"{name} = {value!r} is not a number")
+            object.__setattr__(self, name, float(value))
+        if not 0.0 < self.k <= 1.0:
+            raise ValueError(f"k = {self.k!r} is not allowed: 0 < k <= 1")
+        if not 0.0 < self.g < math.inf:
+            raise ValueError(f"g = {self.g!r} is not allowed: g > 0, finite")
+
+    def energy(self, x, xdot, udot):
+        """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
+        x, xdot, udot = _floats(x, xdot, udot)
+        return _plain(
+            0.5 * xdot * xdot + 0.5 * self.k * udot * udot - self.g * x + 0.5 * self.k * x * x
+        )
+
+    def energy_bounds(self):
+        """(lowest, highest) energy: at rest on the floor, -g^2/(2k), and k/2 - g, eq. (31)."""
+        return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
+
+    def section(self, energy):
+        """(centre, radius) of the section along y = 0: x from centre - radius to centre + radius.
+
+        The energy surface's half is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
+        Raises ValueError below the lowest energy.
+        """
+        square = (2.0 * energy + self.g * self.g / self.k) / self.k
+        if not 0.0 <= square < math.inf:
+            lowest = self.energy_bounds()[0]
+            raise ValueError(f"energy = {energy!r} is not allowed: finite, at least {lowest:.6g}")
+        return self.g / self.k, math.sqrt(square)
+
+    def state(self, x, xdot, energy, branch=1):
+        """The state (x, xdot, udot) with this energy, eq. (29).
+
+        Of two, that with the larger udot, or with branch=-1 the other.
+
+        Raises ValueError where the energy surface has no such point with xdot + udot >= 0.
+        """
+        if branch not in (1, -1):
+            raise ValueError(f"branch = {branch!r} is not allowed: 1 or -1")
+        x, xdot, energy = _floats(x, xdot, energy)
+        square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
+        if not np.all(square >= 0.0):
+            raise ValueError(
+                "no state with this x, xdot and energy: the kinetic energy is too small"
+            )
+        udot = branch * np.sqrt(square)
+        if not np.all(xdot + udot >= 0.0):
+            raise ValueError(
+                "no state with this x, xdot and energy on the section xdot + udot >= 0"
+            )
+        return _plain(x), _plain(xdot), _plain(udot)
+
+    def state_xy(self, x, y, energy):
+        """The state (x, xdot, udot) at the point (x, y = xdot - k udot) of the canonical chart.
+
+        Raises ValueError outside the section's disk.
+        """
+        x, y, energy = _floats(x, y, energy)
+        k = self.k
+        # s = xdot + udot from 2E + 2 g x - k x^2 = (y^2 + k s^2)/(1 + k)
+        square = ((1.0 + k) * (2.0 * energy + 2.0 * self.g * x - k * x * x) - y * y) / k
+        if not np.all(square >= 0.0):
+            raise ValueError("no state with this x, y and energy: the point is outside the section")
+        s = np.sqrt(square)
+        return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
+
+    def start(self, fraction, energy):
+        """The state on y = 0 at this fraction, -1 to 1, of the section's radius."""
+        centre, radius = self.section(energy)
+        (f,) = _floats(fraction)
+        if not np.all(np.abs(f) <= 1.0):
+            raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
+        # in the chart s^2 = (1 + k) (radius^2 - (x - centre)^2); so nothing cancels at the rim
+        udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
+        return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
+
+    def reflect(self, x, xdot, udot):
+        """The reversor R, (x, y) -> (x, -y): the velocities after the impact, eq. (25),
+        reversed.
+        """
+        x, xdot, udot = self.on_section(x, xdot, udot)
+        b, c, _ = rebound(xdot, udot, self.k, *transfer(self.k))
+        return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
+
+    def time_to_impact(self, x, xdot, udot):
+        """Time tau to the next impact: the smallest positive root of eq. (21) with (26).
+
+        0 where the ball does not leave the floor (at rest on it, or on the rim xdot + udot = 0 and
+        pressed down).
+        """
+        return self.impact(x, xdot, udot)[3]
+
+    def impact(self, x, xdot, udot):
+        """The impact map, eq. (28): the state just before the next impact, and the flight time.
+
+        Returns (x, xdot, udot, tau). At a double root, where the ball just touches the floor, tau
+        is only defined to the square root of a rounding.
+        """
+        return self._each("steps", x, xdot, udot)
+
+    def inverse_impact(self, x, xdot, udot):
+        """The state just before the previous impact, and the flight time since: F^-1 = R F R.
+
+        Returns (x, xdot, udot, tau).
+        """
+        return self._each("steps_back", x, xdot, udot)
+
+    def jacobian(self, x, xdot, udot, impacts=1):
+        """The analytic Jacobian of the map with respect to (x, xdot, udot), eq. (33).
+
+        Returns an array of shape (..., 3, 3). With `impacts` that of the map's iterate, by the
+        chain rule.
+
+        Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite
+        where the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
+        """
+        impacts = whole_number("impacts", impacts)
+        state = self.on_section(x, xdot, udot)
+        x, xdot, udot = (a.flatten() for a in state)
+        out = np.empty((x.size, 3, 3))
+        self.map.jacobians(x, xdot, udot, self.k, self.g, impacts, out)
+        return out.reshape(*state[0].shape, 3, 3)
+
+    def _each(self, loop, x, xdot, udot):
+        state = self.on_section(x, xdot, udot)
+        shape = state[0].shape
+        x, xdot, udot = (a.flatten() for a in state)
+        tau = np.empty(x.size)
+        getattr(self.map, loop)(x, xdot, udot, self.k, self.g, 1, tau)
+        return tuple(_plain(a.reshape(shape)) for a in (x, xdot, udot, tau))
+
+    def chart_jacobian(self, x, xdot, udot, impacts=1):
+        """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy, of one state, scalars.
+
+        Returns two rows of two numbers; the determinant is 1. Not finite on the rim.
+        """
+        k, g = self.k, self.g
+        s = xdot + udot
+        y = xdot - k * udot
+        s_x, s_y = (1.0 + k) * (g - k * x) / (k * s), -y / (k * s)
+        along = (
+            (1.0, k * s_x / (1.0 + k), s_x / (1.0 + k)),
+            (0.0, (1.0 + k * s_y) / (1.0 + k), (s_y - 1.0) / (1.0 + k)),
+        )
+        j = self.jacobian(x, xdot, udot, impacts)
+        columns = []
+        for vector in along:
+            dx, dv, dw = (
+                (j[row, 0] * vector[0] + j[row, 1] * vector[1]) + j[row, 2] * vector[2]
+                for row in range(3)
+            )
+            columns.append((float(dx), float(dv - k * dw)))
+        return tuple(zip(*columns, strict=True))
+
+    def on_section(self, x, xdot, udot):
+        """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
+        x, xdot, udot = _floats(x, xdot, udot)
+        with np.errstate(invalid="ignore"):  # inf - inf
+            off = np.any(xdot + udot < 0.0)
+        if off:
+            raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
+        return x, xdot, udot
+
+
+def _floats(*values):
+    return np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
+
+
+def _plain(array):
+    """A 0-dimensional result as a Python float."""
+    array = np.asarray(array)
+    return float(array) if array.ndim == 0 else array

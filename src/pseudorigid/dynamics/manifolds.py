@@ -1,0 +1,334 @@
+"""Stable and unstable manifolds of a hyperbolic periodic orbit, as ordered polylines.
+
+An unstable branch of a point z of period n starts as the segment z + sigma e, sigma_0 <= sigma <=
+lambda sigma_0, along the unstable direction e, and its images under P^n continue it: a branch has
+one parameter u, whose whole part counts the images and whose rest walks along the segment. Where
+two neighbours are too far apart or the line bends too much, a point is inserted at the middle of u
+and mapped from the segment. The reversor makes the stable branches: they are unstable ones of the
+mirrored point, mirrored.
+"""
+
+import numpy as np
+import xarray as xr
+
+from ..kernel.arithmetic import sincos
+from .variables import variables
+
+# End of the first segment in section radii: it misses the branch by about its square.
+START = 1e-6
+# A bend counts while a neighbouring side is longer than this share of the distance allowed.
+FINEST = 1e-3
+# Outside a window the line is followed with sides of this length, in section radii.
+COARSE = 0.01
+MOST_IMAGES = 400
+MOST_VERTICES = 3_000_000
+DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
+
+
+def trace_manifold(
+    ball,
+    energy,
+    orbit,
+    saddle=0,
+    *,
+    stable=False,
+    side="outer",
+    length=1.0,
+    distance=0.01,
+    bend=10.0,
+    window=None,
+):
+    """One branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
+
+    Args:
+        ball: a Ball.
+        energy: the energy of the orbit.
+        orbit: Dataset of one orbit, x, xdot, udot on `point`, as from periodic.of_type. An inverse
+            hyperbolic one is traced under P^2n.
+        saddle: index of the point.
+        stable: the stable branch instead of the unstable one.
+        side: "outer", which leaves the point away from the middle of the orbit, or "inner".
+        length: arc length in (x, xdot, udot), in section radii.
+        distance: largest side of the polyline, in section radii, or within a window in units of
+        its size.
+        bend: largest bend from side to side, degrees, where a side is longer than FINEST *
+        distance.
+        window: (x_low, x_high, xdot_low, xdot_high); then only what passes through it is kept.
+
+    Returns:
+        Dataset of x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where
+        the line is interrupted, by the window's edge or by a jump of the map. Attribute
+        start_error: by how much, in section radii, the image of the first segment misses it.
+
+    Raises:
+        ValueError: an orbit that is not hyperbolic or not of this energy, an argument out of
+        range, or
+            a branch of more than MOST_VERTICES points.
+    """
+    points = np.stack(
+        [np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")]
+    )
+    _check(ball, energy, points, saddle, side, length, distance, bend, window)
+    chart = np.stack([points[0], points[1] - ball.k * points[2]])
+    if stable:  # the branch of the mirrored point, mirrored
+        mirrored = chart[:, saddle] * np.array([1.0, -1.0])
+        gaps = np.max(np.abs(chart - mirrored[:, None]), axis=0)
+        saddle = int(np.argmin(gaps))
+        if gaps[saddle] > 1e-9 * ball.section(energy)[1]:
+            raise ValueError("the orbit is not symmetric: its stable manifold is no mirror image")
+    branch = _Branch(ball, energy, points, chart, saddle, side, stable)
+    vertices = _trace(branch, length, distance, bend, window)
+    names = {
+        "x": "position at impact, downwards",
+        "xdot": "velocity of the mass centre just before impact",
+        "udot": "strain rate just before impact",
+    }
+    return xr.Dataset(
+        variables("vertex", vertices, names), attrs={"start_error": branch.start_error()}
+    )
+
+
+def _check(ball, energy, points, saddle, side, length, distance, bend, window):
+    def refuse(name, value, allowed):
+        raise ValueError(f"{name} = {value!r} is not allowed: {allowed}")
+
+    if points.ndim != 2:
+        raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
+    if np.any(np.abs(ball.energy(*points) - energy) > 1e-9 * ball.k * ball.section(energy)[1] ** 2):
+        refuse("energy", energy, f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}")
+    if saddle not in range(points.shape[1]):
+        refuse("saddle", saddle, f"an index from 0 to {points.shape[1] - 1}")
+    if side not in ("inner", "outer"):
+        refuse("side", side, "'inner' or 'outer'")
+    for name, value in (("length", length), ("distance", distance)):
+        if not 0.0 < value < np.inf:
+            refuse(name, value, "above 0")
+    if not 0.0 < bend < 180.0:
+        refuse("bend", bend, "between 0 and 180 degrees")
+    if window is not None and not (
+        len(window) == 4 and window[0] < window[1] and window[2] < window[3]
+    ):
+        refuse("window", window, "(x_low, x_high, xdot_low, xdot_high)")
+
+
+def scene_manifolds(ball, energy, orbit, branches, resolution):
+    """Both manifolds of every point of an orbit: `branches` gives {side: {"length": L}}.
+
+    Returns:
+        Dataset of x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0
+        or 1), saddle and side.
+    """
+    requests = [
+        (saddle, side, stable, {"length": branches[side]["length"]})
+        for side in sorted(branches)
+        for stable in (False, True)
+        for saddle in range(orbit.sizes["point"])
+    ]
+    return _collect(ball, energy, orbit, requests, resolution)
+
+
+def window_manifolds(ball, energy, orbit, point, window, resolution, length):
+    """What a window around one point of an orbit shows of the manifolds of all its points.
+
+    Args:
+        point: the index of the point.
+        window: {"x": [a, b], "xdot": [a, b]} relative to the point, in section radii.
+        length: how far the branches are followed, in section radii.
+
+    Returns:
+        The Dataset of `scene_manifolds`; attributes window_x, window_xdot, point_x and point_xdot.
+    """
+    radius = ball.section(energy)[1]
+    centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}
+    edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
+    box = (*edges["x"], *edges["xdot"])
+    requests = [
+        (saddle, side, stable, {"length": length, "window": box})
+        for side in ("inner", "outer")
+        for stable in (False, True)
+        for saddle in range(orbit.sizes["point"])
+    ]
+    found = _collect(ball, energy, orbit, requests, resolution)
+    return found.assign_attrs(
+        window_x=edges["x"],
+        window_xdot=edges["xdot"],
+        point_x=centre["x"],
+        point_xdot=centre["xdot"],
+    )
+
+
+def _collect(ball, energy, orbit, requests, resolution):
+    traced = [
+        trace_manifold(ball, energy, orbit, saddle, stable=stable, side=side, **how, **resolution)
+        for saddle, side, stable, how in requests
+    ]
+    whole = xr.concat(traced, "vertex", combine_attrs="override")
+    whole.attrs["start_error"] = max(branch.attrs["start_error"] for branch in traced)
+    return whole.assign(
+        row_size=(
+            "branch",
+            np.array([branch.sizes["vertex"] for branch in traced], dtype=np.int64),
+            {"long_name": "number of vertices", "units": "1", "sample_dimension": "vertex"},
+        ),
+        stable=(
+            "branch",
+            np.array([stable for _, _, stable, _ in requests], dtype=np.int8),
+            {"long_name": "1 on the stable manifold, 0 on the unstable one", "units": "1"},
+        ),
+        saddle=(
+            "branch",
+            np.array([saddle for saddle, *_ in requests], dtype=np.int64),
+            {"long_name": "index of the orbit's point", "units": "1"},
+        ),
+        side=(
+            "branch",
+            np.array([side for _, side, *_ in requests], dtype=object),
+            {"long_name": "side on which the branch leaves the point"},
+        ),
+    )
+
+
+class _Branch:
+    """An unstable branch as a function of u >= 0, mirrored where a stable one is wanted."""
+
+    def __init__(self, ball, energy, points, chart, saddle, side, mirrored):
+        self.ball, self.energy, self.mirrored = ball, energy, mirrored
+        self.point, self.origin = points[:, saddle], chart[:, saddle]
+        self.radius = ball.section(energy)[1]
+        self.period = points.shape[1]
+        (a, b), (c, d) = ball.chart_jacobian(*points[:, saddle], impacts=self.period)
+        trace = a + d
+        if abs(trace) <= 2.0:
+            raise ValueError("the orbit is elliptic: it has no stable and unstable manifolds")
+        root = np.sqrt((abs(trace) - 2.0) * (abs(trace) + 2.0))
+        multiplier = np.copysign(0.5 * (abs(trace) + root), trace)
+        # the larger of the two rows of J - lambda gives the direction
+        e = np.array([b, multiplier - a]) if abs(b) > abs(c) else np.array([multiplier - d, c])
+        # outer: away from the middle of the orbit, in the disk's own proportions
+        scale = np.array([1.0, 1.0 / np.sqrt(ball.k * (1.0 + ball.k))])
+        outward = (self.origin - chart.mean(axis=1)) * scale * (e * scale)
+        e = e / np.sqrt(np.sum((e * scale) ** 2))
+        sign = 1.0 if (np.sum(outward) > 0.0) == (side == "outer") else -1.0
+        self.multiplier = float(multiplier)
+        if self.multiplier < 0.0:  # the two sides change places: every second image
+            self.period *= 2
+            self.multiplier *= self.multiplier
+        self.first = START * self.radius / self.multiplier * sign * e
+
+    def __call__(self, u):
+        """States (3, n) at the parameters u (n,)."""
+        image = np.floor(u)
+        sigma = 1.0 + (self.multiplier - 1.0) * (u - image)
+        start = self.origin[:, None] + sigma * self.first[:, None]
+        states = np.stack(self.ball.state_xy(start[0], start[1], self.energy))
+        for m in np.unique(image):
+            (rows,) = np.nonzero(image == m)
+            columns = [a.copy() for a in states[:, rows]]
+            impacts = int(m) * self.period
+            self.ball.map.steps(*columns, self.ball.k, self.ball.g, impacts, np.empty(rows.size))
+            states[:, rows] = columns
+        return np.stack(self.ball.reflect(*states)) if self.mirrored else states
+
+    def base(self):
+        """The point itself, (3, 1)."""
+        state = self.ball.reflect(*self.point) if self.mirrored else self.point
+        return np.array(state)[:, None]
+
+    def start_error(self):
+        """By how much the image of the segment's start misses its end, in section radii."""
+        ends = self(np.array([np.nextafter(1.0, 0.0), 1.0]))
+        return float(np.max(np.abs(ends[:, 1] - ends[:, 0])) / self.radius)
+
+
+def _trace(branch, length, distance, bend, window):
+    """The polyline (3, n) of a branch, image by image until it is `length` long."""
+    straight = sincos(bend * DEGREE)[1]
+    u = np.empty(0)
+    states = np.empty((3, 0))
+    for image in range(MOST_IMAGES):
+        fresh = image + np.arange(16) / 16.0
+        u, states = np.append(u, fresh), np.append(states, branch(fresh), axis=1)
+        while True:
+            short = _too_coarse(branch, u, states, distance, straight, window)
+            middle = 0.5 * (u[:-1] + u[1:])[short]
+            if not middle.size:
+                break
+            at = np.nonzero(short)[0] + 1
+            u = np.insert(u, at, middle)
+            states = np.insert(states, at, branch(middle), axis=1)
+            if u.size > MOST_VERTICES:
+                raise ValueError(
+                    f"a manifold of more than {MOST_VERTICES} points: make length shorter"
+                )
+        sides = _sides(states) / branch.radius
+        jumps = _is_jump(u) & (sides > 1e-6)
+        travelled = np.cumsum(np.where(jumps, 0.0, sides))
+        if travelled[-1] >= length:
+            break
+    last = int(np.searchsorted(travelled, length)) + 1
+    states, jumps = states[:, : last + 1], jumps[:last]
+    states = np.concatenate([branch.base(), states], axis=1)
+    keep = np.append(True, ~jumps)
+    if window is not None:
+        keep &= _meets(states, window, 0.0)
+    return _pieces(states, keep)
+
+
+def _sides(states):
+    difference = states[:, 1:] - states[:, :-1]
+    return np.sqrt(np.sum(difference * difference, axis=0))
+
+
+def _is_jump(u):
+    """Where u cannot be halved any further: what is still apart there is a jump of the map."""
+    middle = 0.5 * (u[:-1] + u[1:])
+    return (u[1:] - u[:-1] < 2.0**-40) | (middle == u[:-1]) | (middle == u[1:])
+
+
+def _too_coarse(branch, u, states, distance, straight, window):
+    """Which sides of the polyline need a point in their middle."""
+    if window is None:
+        drawn = states / branch.radius
+        inside = True
+        coarse = False
+    else:
+        sizes = np.array([window[1] - window[0], window[3] - window[2]])
+        drawn = states[:2] / sizes[:, None]
+        inside = _meets(states, window, 1.0)
+        coarse = _sides(states) > COARSE * branch.radius
+    step = drawn[:, 1:] - drawn[:, :-1]
+    sides = np.sqrt(np.sum(step * step, axis=0))
+    cosine = np.sum(step[:, 1:] * step[:, :-1], axis=0)
+    bent = cosine < straight * sides[1:] * sides[:-1]
+    bent &= np.maximum(sides[1:], sides[:-1]) > FINEST * distance
+    # a bend is mended by halving the longer of its two sides, both where they are alike
+    first = bent & (sides[:-1] >= 0.5 * sides[1:])
+    second = bent & (sides[1:] >= 0.5 * sides[:-1])
+    fine = sides > distance
+    fine[:-1] |= first
+    fine[1:] |= second
+    return ((fine & inside) | coarse) & ~_is_jump(u)
+
+
+def _meets(states, window, margin):
+    """Whether the box around a side, widened by `margin` of its longer edge, meets the window."""
+    low = np.minimum(states[:2, 1:], states[:2, :-1])
+    high = np.maximum(states[:2, 1:], states[:2, :-1])
+    widen = margin * np.max(high - low, axis=0)
+    meets = True
+    for axis in range(2):
+        meets = (
+            meets
+            & (low[axis] - widen <= window[2 * axis + 1])
+            & (high[axis] + widen >= window[2 * axis])
+        )
+    return meets
+
+
+def _pieces(states, keep):
+    """The vertices of the sides that are kept, a row of NaN between separate pieces."""
+    ends = np.concatenate([[False], keep]) | np.concatenate([keep, [False]])
+    gap = ends[:-1] & ends[1:] & ~keep  # two kept pieces that only a dropped side parts
+    (rows,) = np.nonzero(ends)
+    parted = np.nonzero((np.diff(rows) > 1) | gap[rows[:-1]])[0] + 1
+    return np.insert(states[:, rows], parted, np.nan, axis=1)

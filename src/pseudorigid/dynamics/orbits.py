@@ -1,0 +1,75 @@
+"""Orbits of the impact map: impact by impact, and the starts of a scene."""
+
+import numpy as np
+import xarray as xr
+
+from .ball import whole_number
+from .variables import orbit_dims, variables
+
+
+def orbit(ball, state, impacts, keep="all"):
+    """The orbit of a state, or of many, under the impact map, eq. (28).
+
+    Args:
+        ball: a Ball.
+        state: (x, xdot, udot) just before an impact, scalars or arrays that broadcast.
+        impacts: how many impacts, at least 1.
+        keep: "all", or "last" for the final state alone, in memory that does not grow with
+        `impacts`.
+
+    Returns:
+        Dataset of x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded;
+        tau is the flight that ends there. A state of one dimension has the dim `orbit`, of more
+        `orbit_0`, ... With keep="last" there is no dim `impact`.
+
+    Raises:
+        ValueError: a state with xdot + udot < 0, impacts < 1, or another `keep`.
+    """
+    if keep not in ("all", "last"):
+        raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
+    impacts = whole_number("impacts", impacts)
+    state = ball.on_section(*state)
+    shape = state[0].shape
+    dims = orbit_dims(shape)
+    columns = [a.flatten() for a in state]
+    if keep == "last":
+        tau = np.empty(columns[0].size)
+        ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
+        values = [a.reshape(shape) for a in (*columns, tau)]
+        return xr.Dataset(variables(dims, values), coords={"impact": impacts})
+    out = np.empty((columns[0].size, impacts, 4))
+    ball.map.history(*columns, ball.k, ball.g, out)
+    values = [a.reshape(impacts, *shape) for a in out.T]
+    return xr.Dataset(
+        variables(("impact", *dims), values), coords={"impact": np.arange(1, impacts + 1)}
+    )
+
+
+def scene_orbits(ball, energy, starts, impacts):
+    """The orbits of a scene, one after the other in a contiguous ragged array (CF).
+
+    Args:
+        energy: the energy of all of them.
+        starts: fractions of the section's radius along y = 0.
+        impacts: how many impacts of each.
+
+    Returns:
+        Dataset of x, xdot, udot, tau on `point`; start and row_size on `orbit`.
+    """
+    pieces = []
+    for start, count in zip(starts, impacts, strict=True):
+        out = np.empty((1, count, 4))
+        ball.map.history(*(np.array([a]) for a in ball.start(start, energy)), ball.k, ball.g, out)
+        pieces.append(out[0].T)
+    data = variables("point", np.concatenate(pieces, axis=1))
+    data["start"] = (
+        "orbit",
+        np.asarray(starts, dtype=float),
+        {"long_name": "start along y = 0, in section radii from the centre", "units": "1"},
+    )
+    data["row_size"] = (
+        "orbit",
+        np.asarray(impacts, dtype=np.int64),
+        {"long_name": "number of impacts", "units": "1", "sample_dimension": "point"},
+    )
+    return xr.Dataset(data)

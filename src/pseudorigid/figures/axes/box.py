@@ -1,0 +1,158 @@
+"""The box around a three-dimensional picture: back panes, grid, ticks and names in plain lines."""
+
+import numpy as np
+
+from ..canvas import style
+from ..canvas.ragged import pieces
+from ..canvas.sheet import POINT, Sheet
+from .projection import Projection
+
+_WIDE = 1500  # pixels: drawn at five inches, read at a column's width
+_SIZE, _NAME = 10.5, 12.5  # points: labels, names
+_TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
+
+
+class Box:
+    """A figure with a box of equal data scales for scene["axes"] seen by scene["view"].
+
+    `points` and `line` draw data into it, as far as they lie inside the box; `figure` is the
+    result. Raises ValueError unless the elevation is between 0 and 90 degrees: the panes behind
+    the data suit a view from above.
+    """
+
+    def __init__(self, scene):
+        if not 0 < scene["view"]["elevation"] < 90:
+            raise ValueError(f"elevation {scene['view']['elevation']} is not between 0 and 90")
+        self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
+        self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
+        self.view = Projection(self.spans, scene["view"])
+        self.sheet = self._fit()
+        self.figure = self.sheet.figure
+        self._panes()
+        self._edges()
+
+    def points(self, x, y, z, color, size):
+        """Draw small opaque dots of `size` points across, in the order given."""
+        inside = self._inside(x, y, z)
+        across, up = self.view(x[inside], y[inside], z[inside])
+        self.sheet.draw(across, up, ls="none", marker="o", ms=size, mew=0, color=color)
+
+    def line(self, x, y, z, color, width):
+        """Draw a line of `width` points, broken where a coordinate is NaN."""
+        x = np.where(self._inside(x, y, z), x, np.nan)
+        for piece in pieces(*self.view(x, y, z)):
+            self.sheet.draw(*piece, lw=width, color=color)
+
+    def near(self, dataset):
+        """Return for each state of an artifact whether the energy surface faces the eye there.
+
+        The surface's normal is (k x - g, xdot, k udot).
+        """
+        k, g = dataset.attrs["k"], dataset.attrs["g"]
+        x, xdot, udot = (dataset[name].values for name in style.NAMES)
+        east, north, up = self.view.eye
+        return (k * x - g) * east + xdot * north + k * udot * up > 0
+
+    def _fit(self):
+        """Place the box on a sheet with room for the labels, and return the sheet."""
+        left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
+        right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
+        inner = _WIDE - (left + right) * POINT
+        across, up = self.view(*self.view.corners().T)
+        inner_high = inner * float((up.max() - up.min()) / (across.max() - across.min()))
+        self.view.place(left * POINT, 0, inner, inner_high)
+        # A label reaches down by its height where it hangs, by half of it elsewhere.
+        edges = [0.0, inner_high]
+        for at, step, reach, _, size in self._labels():
+            middle = self.view(*at)[1] + step[1] * reach * POINT
+            edges += [middle - 1.5 * size * POINT, middle + 1.5 * size * POINT * (step[1] > 0.5)]
+        bottom, top = 4 * POINT - min(edges), 8 * POINT
+        needed = bottom + max(edges) + top
+        high = 75 * int(np.ceil(needed / 75))
+        bottom += (high - needed) / 2
+        self.view.place(left * POINT, bottom, inner, inner_high)
+        return Sheet(_WIDE, high)
+
+    def _inside(self, *state):
+        checks = [
+            (low <= value) & (value <= high)
+            for value, (low, high) in zip(state, self.spans, strict=True)
+        ]
+        return checks[0] & checks[1] & checks[2]
+
+    def _edge(self, start, along, color, width):
+        """Draw the box's line through `start` in the direction of one axis."""
+        ends = np.array([start, start], dtype=float)
+        ends[:, along] = self.spans[along]
+        self.line(*ends.T, color, width)
+
+    def _panes(self):
+        """Draw the three panes behind the data: their grid lines, then their outlines."""
+        # The pane behind the data is the one whose outward normal points away from the eye.
+        back = [span[eye <= 0] for span, eye in zip(self.spans, self.view.eye, strict=True)]
+        pairs = [(one, other) for one in range(3) for other in range(3) if one != other]
+        for values, color in ((self.ticks, style.GRID), (self.spans, style.PANE)):
+            for fixed, along in pairs:
+                for value in values[fixed]:
+                    start = list(back)
+                    start[fixed] = value
+                    self._edge(start, along, color, 0.6)
+
+    def _axes(self):
+        """Return for each axis where it starts and the direction of its ticks on the sheet.
+
+        An axis is an edge of the box that nothing stands before: two on the floor, one upright.
+        """
+        (x0, x1), (y0, y1), (z0, _) = self.spans
+        east, north, _ = self.view.eye
+        front = (x1 if east > 0 else x0), (y1 if north > 0 else y0)
+        corners = [(x, y) for x in (x0, x1) for y in (y0, y1)]
+        leftmost = min(corners, key=lambda corner: float(self.view(*corner, z0)[0]))
+        return [
+            ([x0, front[1], z0], self._towards(1, north)),
+            ([front[0], y0, z0], self._towards(0, east)),
+            ([*leftmost, z0], (-1.0, 0.0)),
+        ]
+
+    def _towards(self, along, sign):
+        """Return the unit step on the sheet along an axis, forwards or backwards."""
+        across, up = self.view.right[along], self.view.up[along]
+        length = float(np.sqrt(across * across + up * up)) * (1 if sign > 0 else -1)
+        return across / length, up / length
+
+    def _labels(self):
+        """Yield (place in the box, direction from there, points in it, text, size)."""
+        for along, (start, step) in enumerate(self._axes()):
+            for tick in self.ticks[along]:
+                at = [*start[:along], tick, *start[along + 1 :]]
+                yield at, step, _TICK + _GAP, style.number(tick), _SIZE
+            low, high = self.spans[along]
+            name = list(style.NAMES.values())[along]
+            if along == 2:  # its name stands above its end, the others' beside their middle
+                yield [*start[:2], high], (0.0, 1.0), 2 * _GAP, name, _NAME
+                continue
+            size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
+            at = [*start[:along], (low + high) / 2, *start[along + 1 :]]
+            yield at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME
+
+    def _edges(self):
+        """Draw the axes with their ticks and labels."""
+        for along, (start, step) in enumerate(self._axes()):
+            self._edge(start, along, style.FRAME, 0.8)
+            for tick in self.ticks[along]:
+                across, up = self.view(*start[:along], tick, *start[along + 1 :])
+                far = _TICK * POINT
+                ends = [across, across + step[0] * far], [up, up + step[1] * far]
+                self.sheet.draw(*ends, color=style.FRAME, lw=0.8)
+        for at, step, reach, text, size in self._labels():
+            across, up = self.view(*at)
+            across, up = across + step[0] * reach * POINT, up + step[1] * reach * POINT
+            ha = "center" if abs(step[0]) < 0.25 else ("left" if step[0] > 0 else "right")
+            va = "center_baseline" if abs(step[1]) < 0.5 else ("bottom" if step[1] > 0 else "top")
+            self.sheet.text(across, up, text, ha=ha, va=va, size=size)
+
+
+def _ems(ticks):
+    """Return the width of the widest label in units of its size, from above."""
+    wide = {".": 0.32, "\N{MINUS SIGN}": 0.84}
+    return max(sum(wide.get(char, 0.64) for char in style.number(tick)) for tick in ticks)

@@ -1,0 +1,31 @@
+"""Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
+
+import numpy as np
+
+from ..axes.limits import complete, of_data
+from ..axes.plane import Plane
+from ..canvas import style
+
+
+@style.pinned()
+def draw(scene, lyapunov):
+    """Return the Figure of the exponents' histories, one hue an orbit, named at their ends.
+
+    `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
+    """
+    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    scene = complete(
+        scene,
+        impact=lambda: of_data([0, scene["impacts"]], room=0.0),
+        exponent=lambda: of_data(exponent),
+    )
+    names = ("Number of impacts", "Lyapunov exponents")
+    plane = Plane(scene, ("impact", "exponent"), names, right=84)
+    _, orbits, indices = exponent.shape
+    for orbit in range(orbits):
+        hue = style.HUES[orbit % len(style.HUES)]
+        for index in range(indices):
+            plane.line(impact, exponent[:, orbit, index], color=hue, lw=0.8)
+    ends = np.median(exponent[-1], axis=0)
+    plane.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
+    return plane.figure

@@ -1,0 +1,34 @@
+"""A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
+
+from ..axes.limits import complete, of_data
+from ..axes.plane import Plane
+from ..canvas import style
+
+_DOT = 2.4  # points
+
+
+@style.pinned()
+def draw(scene, motion):
+    """Return the Figure of -x(t) and u(t), which touch at the impacts and nowhere else.
+
+    `motion` is the artifact of a sampled motion: t, position, strain (sample), each flight sampled
+    from one impact to the next, and impact_t, impact_position (impact), which are marked.
+    """
+    t, x, u = (motion[name].values for name in ("t", "position", "strain"))
+    scene = complete(
+        scene,
+        t=lambda: of_data([0.0, scene["duration"]], room=0.0),
+        displacement=lambda: of_data(-x, u),
+    )
+    plane = Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
+    mass = {"color": style.BLUE, "lw": 1.0}
+    strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
+    plane.line(t, -x, **mass)
+    plane.line(t, u, **strain)
+    plane.dots(motion["impact_t"].values, -motion["impact_position"].values, style.BLACK, _DOT)
+    plane.legend(
+        ("$-x(t)$", 26, mass),
+        ("$u(t)$", 18, strain),
+        ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
+    )
+    return plane.figure
