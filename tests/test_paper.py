@@ -9,7 +9,7 @@ import yaml
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import motion, scene_orbits
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 
 DOCUMENT = yaml.safe_load((Path(__file__).parents[1] / "config.yaml").read_text())
 SCENES = DOCUMENT["scenes"]

@@ -6,7 +6,7 @@ import pytest
 from mpmath import mpf
 
 from pseudorigid import Ball, orbit, symmetric_orbits
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 
 BALL = Ball(0.2, 0.04)
 NAMES = ("x", "xdot", "udot", "tau")

@@ -8,7 +8,7 @@ from pipeline.records.artifacts import load
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.motion import motion
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.scan import scan
 
 BALL = Ball(0.2, 0.04)

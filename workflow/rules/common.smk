@@ -5,22 +5,26 @@ import sys
 from pathlib import Path
 
 from pipeline.config import (
+    KINDS,
     PAPER,
     STAGES,
     ConfigError,
     absent_file,
     drawing,
+    drawing_code,
     figures,
     load,
     served,
+    stage_code,
     stages,
     wanted_orbits,
 )
-from pipeline.config import study as parts
+from pipeline.config.declared import study as parts
 from pipeline.records import sources
 from pipeline.records.provenance import record_path
 
 ROOT = Path(workflow.basedir)
+LOCK = "requirements/lock.txt"
 
 # Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
 sys.executable = shlex.quote(sys.executable)
@@ -59,11 +63,11 @@ def with_records(figures, published=True):
     return sorted({*(figures if published else ()), *files, *map(record_path, files)})
 
 
-def reported(picture):
+def reported(kind):
     """A drawing, with the caption of its kind of picture in the report."""
     return report(
         "results/{variant}/figures/{scene}.{extension}",
-        caption=str(ROOT / "workflow" / "report" / f"{picture}.rst"),
+        caption=str(ROOT / captions(kind)),
         category="Figures",
         labels=figure_labels,
     )
@@ -78,9 +82,14 @@ def figure_labels(wildcards):
     return {"figure": labels[wildcards.scene]}
 
 
-def scenes_of(*pictures):
+def captions(kind):
+    """Where the caption of a kind of picture is written when a report is made."""
+    return f"results/report/captions/{kind}.rst"
+
+
+def scenes_of(*kinds):
     """A pattern for the names of the scenes of these kinds."""
-    return any_of(name for name, block in SCENES.items() if block["picture"] in pictures)
+    return any_of(name for name, block in SCENES.items() if block["picture"] in kinds)
 
 
 def any_of(names):
@@ -90,18 +99,19 @@ def any_of(names):
 
 def scenes_with(stage):
     """A pattern for the names of the scenes that need a stage."""
-    return scenes_of(*(picture for picture, needed in STAGES.items() if stage in needed))
+    return any_of(name for name, block in SCENES.items() if stage in stages(block))
 
 
 def code(script, *modules):
     """Every file of the project that a script runs, and the lock of the packages behind them."""
-    return [*sources.code(script, *modules), "requirements/lock.txt"]
+    return [*sources.code(script, *modules), LOCK]
 
 
-def study_inputs(part):
-    """The figures' own artifacts that a part of the study compares with."""
-    stages = ("periodic", "manifolds") if part == "needs" else ()
-    return sorted({file for (v, _, s), file in SERVED.items() if v == PAPER and s in stages})
+def study_artifacts(part):
+    """The figures' own artifacts that a part of the study compares with: [stage, scene, file]."""
+    scenes = parts.block(part, SCENES).get("scenes", ())
+    compared = ("periodic", "manifolds")
+    return [[s, n, f] for (v, n, s), f in SERVED.items() if v == PAPER and s in compared and n in scenes]
 
 
 def study_code(part):

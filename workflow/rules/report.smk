@@ -31,6 +31,7 @@ rule numbers:
             for scene, block in SCENES.items()
         },
         results=sorted({file for _, behind in REPORTED.values() for file in behind}),
+        captions={captions(kind): KINDS[kind].caption for kind in KINDS},
     script:
         "../scripts/numbers.py"
 

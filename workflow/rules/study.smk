@@ -4,7 +4,7 @@
 
 rule study_data:
     input:
-        figures=lambda wildcards: study_inputs(wildcards.scene),
+        figures=lambda wildcards: sorted({f for *_, f in study_artifacts(wildcards.scene)}),
         code=lambda wildcards: study_code(wildcards.scene),
     output:
         "results/study/{scene}.nc",
@@ -18,6 +18,7 @@ rule study_data:
     threads: workflow.cores
     params:
         block=lambda wildcards: parts.block(wildcards.scene, SCENES),
+        artifacts=lambda wildcards: study_artifacts(wildcards.scene),
     script:
         "../scripts/study.py"
 
@@ -35,6 +36,8 @@ rule study_chart:
         scene="|".join(parts.CHARTS),
     conda:
         "../envs/python.yaml"
+    params:
+        chart=lambda wildcards: parts.drawing(wildcards.scene),
     script:
         "../scripts/chart.py"
 
@@ -43,7 +46,7 @@ rule study_publish:
     input:
         "results/study/figures/{scene}.png",
     output:
-        update("study_figures/{scene}.png"),
+        update(parts.FOLDER + "/{scene}.png"),
     log:
         "results/study/logs/publish_{scene}.log",
     wildcard_constraints:

@@ -1,5 +1,6 @@
 # Sweeps over k and E/g^2, `./reproduce sweep`, and their pictures, `./reproduce atlas`. Cells go in
 # blocks, one job on one core each; no part of the paper's figures needs them.
+from pipeline.config import places
 from pseudorigid.sweep import grid
 
 
@@ -32,7 +33,7 @@ rule sweep_block:
 
 rule sweep_join:
     input:
-        blocks=lambda wildcards: grid.block_files(wildcards.scene, SWEEPS[wildcards.scene]),
+        blocks=lambda wildcards: places.block_files(wildcards.scene, SWEEPS[wildcards.scene]),
         code=code("sweep_join.py"),
     output:
         "results/sweep/{scene}.nc",
@@ -59,7 +60,7 @@ rule atlas_draw:
         "results/sweep/logs/{scene}_{extension}.log",
     wildcard_constraints:
         scene=any_of(SWEEPS),
-        extension=any_of(grid.FORMATS),
+        extension=any_of(places.ATLAS_FORMATS),
     conda:
         "../envs/python.yaml"
     params:
@@ -72,12 +73,12 @@ rule atlas_publish:
     input:
         "results/sweep/figures/{scene}.{extension}",
     output:
-        update("atlas_figures/{scene}.{extension}"),
+        update(places.ATLAS + "/{scene}.{extension}"),
     log:
         "results/sweep/logs/publish_{scene}_{extension}.log",
     wildcard_constraints:
         scene=any_of(SWEEPS),
-        extension=any_of(grid.FORMATS),
+        extension=any_of(places.ATLAS_FORMATS),
     conda:
         "../envs/python.yaml"
     shell:
@@ -86,9 +87,9 @@ rule atlas_publish:
 
 rule sweep:
     input:
-        [grid.dataset(name) for name in SWEEPS],
+        [places.sweep_dataset(name) for name in SWEEPS],
 
 
 rule atlas:
     input:
-        [file for name in SWEEPS for file in (grid.dataset(name), *grid.pictures(name))],
+        [file for name in SWEEPS for file in (places.sweep_dataset(name), *places.sweep_pictures(name))],

@@ -6,7 +6,7 @@ from pathlib import Path
 from job import one_line_errors
 from pipeline.records.artifacts import load
 from pipeline.records.files import replacing
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 
 
 def reason(path, kind):

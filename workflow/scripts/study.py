@@ -3,8 +3,6 @@
 from importlib import import_module
 
 from job import one_line_errors, recorded
-from pipeline import config
-from pipeline.config import study as parts
 from pipeline.records import artifacts
 from pseudorigid.study import fails, needs, states, work
 
@@ -24,13 +22,10 @@ def edge_rivals():
 
 
 def scenes_needs():
-    scenes = parts.looked_at(config.load("config.yaml")["scenes"])
-    loaded = {
-        (stage, scene): artifacts.load(path)
-        for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()
-        if stage in ("periodic", "manifolds")
-    }
-    return needs.needs(scenes, loaded)
+    """Of the scenes that the block has, with the figures' own artifacts that they take."""
+    taken = snakemake.params.artifacts
+    loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in taken}
+    return needs.needs(snakemake.params.block["scenes"], loaded)
 
 
 PARTS = {

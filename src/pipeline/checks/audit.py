@@ -4,7 +4,6 @@ import json
 from typing import NamedTuple
 
 from .. import config
-from ..records import sources
 from ..records.provenance import file_hash, record_path, versions
 
 
@@ -22,8 +21,8 @@ def makers(scenes):
     for scene, block in scenes.items():
         for stage, parameters in config.stages(block).items():
             path = serves[config.PAPER, scene, stage]
-            found[path] = Maker(parameters, sources.stage_code(stage))
-        drawn = Maker(config.drawing(block), sources.drawing_code(block["picture"]))
+            found[path] = Maker(parameters, config.stage_code(stage))
+        drawn = Maker(config.drawing(block), config.drawing_code(block["picture"]))
         for extension in block["formats"]:
             found[config.drawn(scene, extension)] = drawn
     return found

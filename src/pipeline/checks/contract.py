@@ -55,7 +55,7 @@ def paper(scenes):
 
 def study(scenes):
     """The study's charts of what is computed, not measured, by our own arithmetic."""
-    from ..config import study as parts
+    from ..config.declared import study as parts
 
     charts = {name: data for name, (data, *_) in parts.CHARTS.items() if data in parts.FIXED}
     computing, drawing = sources.code("study.py"), sources.code("chart.py")

@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 
 from .. import config
-from ..records import provenance, sources
+from ..records import provenance
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
 from ..records.files import replacing
 from ..records.pictures import describe
@@ -33,8 +33,8 @@ def published(scenes):
 
 def scene_sources(block):
     """The project's files behind a scene, from the root: those of its stages and its drawing."""
-    files = set(sources.drawing_code(block["picture"]))
-    return sorted(files.union(*map(sources.stage_code, config.STAGES[block["picture"]])))
+    files = set(config.drawing_code(block["picture"]))
+    return sorted(files.union(*map(config.stage_code, config.stages(block))))
 
 
 def scene_data(scenes):

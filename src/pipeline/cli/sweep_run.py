@@ -14,7 +14,7 @@ from pathlib import Path
 
 from pseudorigid.sweep import grid
 
-from ..config import ConfigError
+from ..config import ConfigError, places
 from ..records import sources
 
 PAUSE = 1.0  # seconds between two looks at the files
@@ -46,15 +46,15 @@ def discard(sweeps, names) -> list[str]:
     lines = []
     for name in names:
         sweep = sweeps[name]
-        for i, path in enumerate(grid.block_files(name, sweep)):
+        for i, path in enumerate(places.block_files(name, sweep)):
             if os.path.lexists(path):
                 try:
                     store.load_block(path, grid.block(sweep, i))
                 except store.StoreError as error:
                     lines.append(f"{error}: computed again")
                     os.unlink(path)
-        path = grid.dataset(name)
-        if os.path.lexists(path) and not store.intact(path, grid.record(name)):
+        path = places.sweep_dataset(name)
+        if os.path.lexists(path) and not store.intact(path, places.sweep_record(name)):
             lines.append(f"{path}: not as it was written: joined again")
             os.unlink(path)
     return lines
@@ -67,7 +67,7 @@ def lacking(sweeps, names) -> tuple[dict[str, tuple[int, int]], int]:
     for name in names:
         sweep = sweeps[name]
         each = sweep["starts"] * sweep["impacts"]
-        blocks = zip(grid.block_files(name, sweep), grid.ranges(sweep), strict=True)
+        blocks = zip(places.block_files(name, sweep), grid.ranges(sweep), strict=True)
         for path, (start, stop) in blocks:
             try:
                 if os.stat(path).st_mtime >= newest:

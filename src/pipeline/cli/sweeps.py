@@ -4,9 +4,8 @@ import shutil
 import sys
 import time
 
-from pseudorigid.sweep import grid
-
 from .. import config
+from ..config import places
 from . import sweep_run as run
 from .packages import add_packages
 from .runner import BUSY, ROOT, hold_lock, last_words, run_snakemake
@@ -14,7 +13,7 @@ from .runner import BUSY, ROOT, hold_lock, last_words, run_snakemake
 
 def sweep(arguments: list[str]) -> int:
     """The datasets of the sweeps, or of those named first."""
-    return swept(arguments, lambda names: [grid.dataset(name) for name in names])
+    return swept(arguments, lambda names: [places.sweep_dataset(name) for name in names])
 
 
 def atlas(arguments: list[str]) -> int:
@@ -22,7 +21,9 @@ def atlas(arguments: list[str]) -> int:
     return swept(
         arguments,
         lambda names: [
-            file for name in names for file in (grid.dataset(name), *grid.pictures(name))
+            file
+            for name in names
+            for file in (places.sweep_dataset(name), *places.sweep_pictures(name))
         ],
     )
 

@@ -23,16 +23,6 @@ def code(script: str, *modules: str) -> list[str]:
     return [os.path.relpath(file, ROOT) for file in (*scripts, *closure(*scripts, *modules))]
 
 
-def stage_code(stage: str) -> list[str]:
-    """The project's files that make the data of a stage."""
-    return code(f"{stage}.py")
-
-
-def drawing_code(picture: str) -> list[str]:
-    """The project's files that draw a kind of picture."""
-    return code("draw.py", f"pseudorigid.figures.kinds.{picture}")
-
-
 def closure(*starts: str | Path) -> list[Path]:
     """The package's files behind `starts`, sorted: what they import, what that imports, and so on.
 

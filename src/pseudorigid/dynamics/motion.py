@@ -8,7 +8,7 @@ import xarray as xr
 from ..kernel import impact as kernel
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from .variables import variables
+from .variables import of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
 SAMPLES = 200
@@ -35,6 +35,11 @@ def _flights(ball, orbit):
         state = after
 
 
+def scene_motion(ball, energy, periodic, period, type, duration):
+    """`motion` of a scene: along the orbit of this period and type among those found."""
+    return motion(ball, of_type(periodic, type, period), duration)
+
+
 def motion(ball, orbit, duration):
     """x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
 
@@ -42,7 +47,7 @@ def motion(ball, orbit, duration):
     follows the first one impact by impact.
 
     Args:
-        orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from periodic.of_type.
+        orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from variables.of_type.
         duration: the length of time.
 
     Returns:

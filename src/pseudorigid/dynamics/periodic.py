@@ -75,20 +75,6 @@ def symmetric_orbits(ball, energy, period):
     return _dataset(ball, energy, period, found).assign_attrs(unsolved=len(seen) - len(found))
 
 
-def of_type(orbits, kind):
-    """The first orbit of this type, a Dataset on `point`; ValueError, saying what there is, where
-    there is none.
-    """
-    (matches,) = np.nonzero(orbits["type"].values == kind)
-    if matches.size == 0:
-        there = ", ".join(sorted(set(orbits["type"].values.tolist()))) or "none at all"
-        raise ValueError(
-            f"no {kind} orbit of period {orbits.sizes['point']} "
-            f"at energy {orbits.attrs['energy']:g} (found: {there})"
-        )
-    return orbits.isel(orbit=int(matches[0]))
-
-
 def _dataset(ball, energy, period, found):
     points = np.array([p for _, p in found]).reshape(len(found), 4, period)
     traces = np.array([t for t, _ in found])

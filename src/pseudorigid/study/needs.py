@@ -154,7 +154,7 @@ def _portrait(ball, energy, block, pixel):
 
 
 def _motion(ball, periodic, block, size):
-    from ..dynamics.periodic import of_type
+    from ..dynamics.variables import of_type
 
     orbit = of_type(periodic, block["type"])
     state = tuple(float(orbit[name].values[0]) for name in ("x", "xdot", "udot"))
@@ -183,7 +183,7 @@ def _times(ball, state, track):
 
 
 def _branches(ball, periodic, manifolds, block, pixel):
-    from ..dynamics.periodic import of_type
+    from ..dynamics.variables import of_type
 
     orbit = of_type(periodic, block["type"])
     multiplier = abs(float(orbit["multiplier"].values))

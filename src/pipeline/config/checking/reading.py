@@ -4,7 +4,7 @@ from pathlib import Path
 
 import yaml
 
-from .checking import check
+from .document import check
 from .words import ConfigError
 
 
@@ -27,13 +27,13 @@ class _Loader(yaml.SafeLoader):
 def load(path) -> dict:
     """The checked config at `path`; every scene complete with its `ball` and `formats`.
 
-    Raises ConfigError, with the one line to show.
+    Raises ConfigError, with a line to show for each mistake.
     """
     path = Path(path)
     try:
         return check(_parse(path))
     except ConfigError as error:
-        raise ConfigError(f"{path.name}: {error}") from None
+        raise ConfigError(*(f"{path.name}: {line}" for line in error.lines)) from None
     except RecursionError:
         raise ConfigError(f"{path.name}: nested too deeply") from None
 

@@ -1,37 +1,29 @@
-"""What each scene needs computed, and where data and figures are."""
+"""What each scene needs computed, and where data and figures are, from the project's root."""
 
 import json
 
-from .variants import PAPER
+from pseudorigid.sweep import grid
 
-# What each kind of picture is drawn from: stage -> the fields of the scene that decide its data.
-STAGES = {
-    "portrait": {"orbits": ("starts", "impacts")},
-    "motion": {"periodic": ("period",), "motion": ("period", "type", "duration")},
-    "tangle": {
-        "orbits": ("starts", "impacts"),
-        "periodic": ("period",),
-        "manifolds": ("period", "type", "branches", "resolution"),
-    },
-    "closeup": {
-        "periodic": ("period",),
-        "manifolds": ("period", "type", "point", "window", "resolution", "length"),
-    },
-    "exponents": {"lyapunov": ("starts", "impacts", "records")},
-}
-# The stages that follow orbits: a scene's `method`, where it has one, decides their data too.
-FOLLOWING = ("orbits", "motion", "manifolds", "lyapunov")
+from ..records import sources
+from .checking.variants import PAPER
+from .declared.kinds import KINDS
+from .declared.stages import STAGES, behind
+
+# Where the figures of a set of scenes are published; those of variants are not.
+PUBLISHED = {PAPER: "paper_figures"}
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
+ATLAS = "more_figures/atlas"
+ATLAS_FORMATS = ("png", "svg")
 
 
 def stages(block: dict) -> dict[str, dict]:
     """Stage -> the smallest block that decides its data, for one scene of a checked config."""
-    method = {"method": block["method"]} if "method" in block else {}
-    return {
-        stage: {field: block[field] for field in ("ball", "energy", *fields)}
-        | (method if stage in FOLLOWING else {})
-        for stage, fields in STAGES[block["picture"]].items()
-    }
+    found = {}
+    for name in behind(KINDS[block["picture"]].stages):
+        stage = STAGES[name]
+        fields = ("ball", "energy", *stage.fields, *(("method",) if stage.follows else ()))
+        found[name] = {field: block[field] for field in fields if field in block}
+    return found
 
 
 def drawing(block: dict) -> dict:
@@ -51,6 +43,16 @@ def served(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
     return serves
 
 
+def stage_code(stage: str) -> list[str]:
+    """The project's files that make the data of a stage."""
+    return sources.code("stage.py", STAGES[stage].module)
+
+
+def drawing_code(kind: str) -> list[str]:
+    """The project's files that draw a kind of picture."""
+    return sources.code("draw.py", f"pseudorigid.figures.kinds.{kind}")
+
+
 def artifact(stage: str, scene: str, variant: str = PAPER) -> str:
     """Where the data of a stage are, from the project's root."""
     return f"results/{variant}/{stage}_{scene}.nc"
@@ -63,8 +65,9 @@ def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
 
 def shown(scene: str, extension: str, variant: str = PAPER) -> str:
     """Where users look for the figure: in paper_figures/, or in results if it is not published."""
-    published = variant == PAPER and extension in SHOWN
-    return f"paper_figures/{scene}.{extension}" if published else drawn(scene, extension, variant)
+    if variant in PUBLISHED and extension in SHOWN:
+        return f"{PUBLISHED[variant]}/{scene}.{extension}"
+    return drawn(scene, extension, variant)
 
 
 def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
@@ -73,7 +76,7 @@ def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[
     return {
         shown(name, extension, variant): (
             name,
-            [serves[variant, name, stage] for stage in STAGES[block["picture"]]]
+            [serves[variant, name, stage] for stage in stages(block)]
             + [drawn(name, extension, variant)],
         )
         for name, block in variants[variant].items()
@@ -89,3 +92,27 @@ def wanted_orbits(scenes: dict[str, dict]) -> dict[str, str]:
 def absent_file(variant: str) -> str:
     """Where it says which figures of a variant cannot exist: JSON, scene -> reason."""
     return f"results/{variant}/absent.json"
+
+
+# ---- sweeps ----
+
+
+def block_files(name, sweep) -> list[str]:
+    """Where its blocks are kept, from the project's root."""
+    return [f"results/sweep/blocks/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
+
+
+def sweep_dataset(name) -> str:
+    """Where the whole sweep is."""
+    return f"results/sweep/{name}.nc"
+
+
+def sweep_record(name) -> str:
+    """Where its sha256 is."""
+    return f"results/sweep/{name}.nc.sha256"
+
+
+def sweep_pictures(name) -> list[str]:
+    """Where its pictures are drawn, and where users look for them."""
+    folders = ("results/sweep/figures", ATLAS)
+    return [f"{folder}/{name}.{extension}" for folder in folders for extension in ATLAS_FORMATS]

@@ -1,5 +1,7 @@
 """What the study consists of: data, which of them are the same everywhere, and charts."""
 
+from .kinds import KINDS
+
 # Data whose bytes are part of the contract, and measurements.
 FIXED = ("work", "edges", "orbits", "needs")
 MEASURED = ("work_all", "edges_all", "missed_all")
@@ -17,7 +19,7 @@ CHARTS = {
     "seconds_grazing": ("work_all", "work", (1, "seconds")),
     "edges_all": ("edges_all", "edges", ()),
 }
-FOLDER = "study_figures"
+FOLDER = "more_figures/study"
 
 
 def data(part):
@@ -41,8 +43,12 @@ def block(part, scenes):
 
 
 def looked_at(scenes):
-    """The scenes whose picture has a known size: those that give their axes."""
-    return {name: block for name, block in scenes.items() if "axes" in block}
+    """The scenes with a measure of error, whose picture has a known size: they give their axes."""
+    return {
+        name: block
+        for name, block in scenes.items()
+        if "axes" in block and KINDS[block["picture"]].studied
+    }
 
 
 def drawing(chart):
