@@ -3,6 +3,9 @@
 import html
 import json
 
+from ..config import KINDS, stages
+from ..records.provenance import record_path
+
 # What the paper prints, in its text and captions: scene -> quantity -> value.
 PRINTED = {
     "fig2": {"orbits": "8", "impacts": "approximately 45,000"},
