@@ -1,6 +1,5 @@
 # Sweeps over k and E/g^2, `./reproduce sweep`, and their pictures, `./reproduce atlas`. Cells go in
 # blocks, one job on one core each; no part of the paper's figures needs them.
-from pipeline.config import places
 from pseudorigid.sweep import grid
 
 
@@ -8,14 +7,11 @@ from pseudorigid.sweep import grid
 localrules:
     sweep_join,
     atlas_draw,
-    atlas_publish,
-    sweep,
-    atlas,
 
 
 rule sweep_block:
     input:
-        code=code("sweep_block.py"),
+        code=sources.code("sweep_block.py"),
     output:
         "results/sweep/blocks/{scene}_{number}.nc",
     log:
@@ -34,7 +30,7 @@ rule sweep_block:
 rule sweep_join:
     input:
         blocks=lambda wildcards: places.block_files(wildcards.scene, SWEEPS[wildcards.scene]),
-        code=code("sweep_join.py"),
+        code=sources.code("sweep_join.py"),
     output:
         "results/sweep/{scene}.nc",
         record="results/sweep/{scene}.nc.sha256",
@@ -53,7 +49,7 @@ rule sweep_join:
 rule atlas_draw:
     input:
         data="results/sweep/{scene}.nc",
-        code=code("atlas.py"),
+        code=sources.code("atlas.py"),
     output:
         "results/sweep/figures/{scene}.{extension}",
     log:
@@ -67,29 +63,3 @@ rule atlas_draw:
         sweep=lambda wildcards: SWEEPS[wildcards.scene],
     script:
         "../scripts/atlas.py"
-
-
-rule atlas_publish:
-    input:
-        "results/sweep/figures/{scene}.{extension}",
-    output:
-        update(places.ATLAS + "/{scene}.{extension}"),
-    log:
-        "results/sweep/logs/publish_{scene}_{extension}.log",
-    wildcard_constraints:
-        scene=any_of(SWEEPS),
-        extension=any_of(places.ATLAS_FORMATS),
-    conda:
-        "../envs/python.yaml"
-    shell:
-        "(cp {input:q} {input:q}.part && mv -f {input:q}.part {output:q}) 2> {log:q}"
-
-
-rule sweep:
-    input:
-        [places.sweep_dataset(name) for name in SWEEPS],
-
-
-rule atlas:
-    input:
-        [file for name in SWEEPS for file in (places.sweep_dataset(name), *places.sweep_pictures(name))],

@@ -38,7 +38,7 @@ PARTS = {
     "missed_all": lambda: fails.missed(edge_rivals()),
 }
 
-with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
+with one_line_errors(snakemake), recorded(snakemake):
     part = snakemake.wildcards.scene
     dataset = PARTS[part]()
     if part.endswith("_all"):

@@ -113,6 +113,10 @@ def sweep_record(name) -> str:
 
 
 def sweep_pictures(name) -> list[str]:
-    """Where its pictures are drawn, and where users look for them."""
-    folders = ("results/sweep/figures", ATLAS)
-    return [f"{folder}/{name}.{extension}" for folder in folders for extension in ATLAS_FORMATS]
+    """Where its pictures are drawn."""
+    return [f"results/sweep/figures/{name}.{extension}" for extension in ATLAS_FORMATS]
+
+
+def atlas_published(drawing) -> str:
+    """Where users look for a picture of a sweep."""
+    return f"{ATLAS}/{drawing.rpartition('/')[2]}"

@@ -15,8 +15,7 @@ import xarray as xr
 from pseudorigid.sweep.cell import PERIODS, VARIABLES, cell
 
 from . import artifacts
-from .files import replacing
-from .provenance import file_hash
+from .files import file_hash, replacing
 
 AXES = {"k": "Euler inertia", "energy": "energy over g^2"}
 PERIOD = ("period", np.arange(1, PERIODS + 1), "islands of a chain")

@@ -1,0 +1,84 @@
+"""Which published files must keep their bytes, and what each is made from.
+
+A contract is a folder of published files: the figures of the paper, or the charts of the study
+whose data are the same on every machine. Each is written down in its folder; see manifest.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from .. import config
+from ..config import expected
+from ..config.declared import study as parts
+
+
+class Contract(NamedTuple):
+    """A folder of published files; a scene is what is drawn into one or more of them."""
+
+    what: str  # its files are called
+    folder: str
+    results: str  # where the files and their data are made
+    command: str  # that makes them
+    drawn: dict  # name of a published file -> its drawing in results
+    scenes: dict  # name of a published file -> its scene
+    config: dict  # scene -> the block that decides it
+    data: dict  # scene -> stage -> the dataset it is drawn from
+    expected: dict  # every result -> config.expected.Expected
+    measured: tuple = ()  # names of published files that the contract leaves out
+
+    def sources(self, scene):
+        """The project's files behind a scene, from the root."""
+        drawn = [self.drawn[name] for name in self.drawn if self.scenes[name] == scene]
+        results = [*self.data[scene].values(), *drawn]
+        return sorted({file for path in results for file in self.expected[path].sources})
+
+
+def committed(checked):
+    """The contracts of a checked config."""
+    return [paper(checked), study(checked)]
+
+
+def paper(checked):
+    """The figures of the config's scenes."""
+    scenes, serves = checked["scenes"], config.served(checked["variants"])
+    files = {
+        Path(path).name: (scene, behind[-1])
+        for path, (scene, behind) in config.figures(checked["variants"]).items()
+        if path.startswith(f"{config.PUBLISHED[config.PAPER]}/")
+    }
+    return Contract(
+        what="figures",
+        folder=config.PUBLISHED[config.PAPER],
+        results="results/paper",
+        command="./reproduce",
+        drawn={name: drawing for name, (_, drawing) in files.items()},
+        scenes={name: scene for name, (scene, _) in files.items()},
+        config={scene: config.drawing(block) for scene, block in scenes.items()},
+        data={
+            scene: {stage: serves[config.PAPER, scene, stage] for stage in config.stages(block)}
+            for scene, block in scenes.items()
+        },
+        expected=expected.of_scenes(checked["variants"]),
+    )
+
+
+def study(checked):
+    """The study's charts of what is computed, not measured, by our own arithmetic."""
+    made = expected.of_study(checked["variants"])
+    charts = {name: data for name, (data, *_) in parts.CHARTS.items() if data in parts.FIXED}
+    drawings = {name: parts.drawing(name) for name in charts}
+    fixed = {parts.data(data) for data in parts.FIXED} | {parts.drawn(name) for name in charts}
+    return Contract(
+        what="charts",
+        folder=parts.FOLDER,
+        results="results/study",
+        command="./reproduce study",
+        drawn={f"{name}.png": parts.drawn(name) for name in charts},
+        scenes={f"{name}.png": name for name in charts},
+        config={
+            name: drawings[name] | made[parts.data(data)].config for name, data in charts.items()
+        },
+        data={name: {data: parts.data(data)} for name, data in charts.items()},
+        expected={path: made[path] for path in made if path in fixed},
+        measured=tuple(f"{name}.png" for name in parts.CHARTS if name not in charts),
+    )
