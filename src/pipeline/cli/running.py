@@ -87,6 +87,7 @@ def run(targets, forced, arguments) -> int:
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
         command += ["--cores", "all"]
+    executable = sys.executable
     try:
         with interruptible():
             snakemake(command)
@@ -98,6 +99,8 @@ def run(targets, forced, arguments) -> int:
     except KeyboardInterrupt:
         say("interrupted: run it again to go on")
         return INTERRUPTED
+    finally:
+        sys.executable = executable  # the Snakefile quotes it for the shell
     return 0
 
 

@@ -6,7 +6,9 @@ than one field stand with it. Numbers are compared as the decimals that were wri
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
 
 from .fields import (
     LARGEST,
@@ -44,7 +46,7 @@ class Scene(Block):
     # Which measure of error the study applies to it (pseudorigid.study.needs), or None.
     studied: ClassVar[str | None] = None
 
-    picture: str
+    picture: Annotated[str, Field(description="the kind of picture: one of those below")]
     ball: BallBlock = None
     energy: Energy
     method: Method = None
