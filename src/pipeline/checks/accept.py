@@ -2,7 +2,6 @@
 
 import shutil
 
-from .. import config
 from ..records.files import file_hash, replacing
 from . import contracts, manifest
 from .currency import MISSING, Currency
@@ -15,18 +14,17 @@ def accept(root, checked):
     Charts that are measured are published too, without a contract.
     """
     for contract in contracts.committed(checked):
-        paper = contract.folder == config.PUBLISHED[config.PAPER]
-        if not paper and not any((root / path).exists() for path in contract.expected):
+        if contract.on_request and not any((root / p).exists() for p in contract.expected):
             continue
         problem = _not_ready(root, contract)
         if problem is None:
             _publish_measured(root, contract)
             _renew(root, contract)
-        elif paper:
-            print(f"reproduce accept: {problem}: run ./reproduce first")
-            return 1
-        else:
+        elif contract.on_request:
             print(f"{contract.folder} stays as it is: {problem}: run {contract.command} first")
+        else:
+            print(f"reproduce accept: {problem}: run {contract.command} first")
+            return 1
     return 0
 
 

@@ -25,6 +25,7 @@ class Contract(NamedTuple):
     data: dict  # scene -> stage -> the dataset it is drawn from
     expected: dict  # every result -> config.expected.Expected
     measured: tuple = ()  # names of published files that the contract leaves out
+    on_request: bool = False  # made by a word of its own, not by every run
 
     def sources(self, scene):
         """The project's files behind a scene, from the root."""
@@ -81,4 +82,5 @@ def study(checked):
         data={name: {data: parts.data(data)} for name, data in charts.items()},
         expected={path: made[path] for path in made if path in fixed},
         measured=tuple(f"{name}.png" for name in parts.CHARTS if name not in charts),
+        on_request=True,
     )

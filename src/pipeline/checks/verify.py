@@ -22,7 +22,7 @@ def verify(root, checked, against=None, strict=False):
     """
     status = 0
     for contract in contracts.committed(checked):
-        if contract.folder == config.PUBLISHED[config.PAPER] or manifest.there(root, contract):
+        if not contract.on_request or manifest.there(root, contract):
             red, notes = _verify(root, contract, against)
             status |= bool(red or (strict and notes))
     return status
@@ -68,7 +68,8 @@ def _verdict(root, contract, name, comparison, stale):
         return [], [NEW]
     words = [f"{layer}: {text}" for layer, text in layers.items()]
     # Another config shows in the bytes, or does not matter, once its own results are here.
-    harmless = UPSTREAM if contract.drawn[name] not in stale else UPSTREAM - {"config"}
+    current = contract.on_request or contract.drawn[name] not in stale
+    harmless = UPSTREAM if current else UPSTREAM - {"config"}
     return ([], words) if set(layers) <= harmless else (words, [])
 
 
