@@ -66,7 +66,7 @@ def make(expected, wanted, arguments, targets=(), forced=(), quiet=False) -> int
     outdated = Currency(ROOT, expected).outdated(paths)
     for path, why in outdated.items():
         if (ROOT / path).is_dir():
-            raise UsageError(f"{path}: a folder stands in its place: move it away")
+            raise UsageError(f"{path}: {why}")
         if why.startswith(_CAUSES) and not quiet:
             say(f"{path}: {why}: made again")
     if not (outdated or arguments or targets or forced):

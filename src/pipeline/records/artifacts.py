@@ -56,7 +56,7 @@ def load(path):
     try:
         return _read(path)
     except ArtifactError as error:
-        raise ArtifactError(f"{error}; delete it and run ./reproduce again") from error.__cause__
+        raise
 
 
 def content_hash(dataset):
