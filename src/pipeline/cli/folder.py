@@ -42,9 +42,14 @@ def end_jobs() -> None:
 
 @contextmanager
 def interruptible():
-    """Ctrl-C, or SIGTERM, ends the jobs at once and raises KeyboardInterrupt in here."""
+    """Ctrl-C, or SIGTERM, ends the jobs at once and raises KeyboardInterrupt in here.
+
+    Yields a list that then holds the signal's number: snakemake may catch the exception.
+    """
+    caught = []
 
     def stop(number, frame):
+        caught.append(number)
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # once is enough
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         end_jobs()
@@ -52,7 +57,7 @@ def interruptible():
 
     before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield
+        yield caught
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)

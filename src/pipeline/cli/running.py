@@ -87,21 +87,23 @@ def run(targets, forced, arguments) -> int:
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
         command += ["--cores", "all"]
-    executable = sys.executable
-    try:
-        with interruptible():
+    executable, status = sys.executable, 0
+    with interruptible() as caught:
+        try:
             snakemake(command)
-    except SystemExit as end:
-        if isinstance(end.code, str):
-            print(end.code, file=sys.stderr)
-            return 1
-        return end.code or 0
-    except KeyboardInterrupt:
+        except SystemExit as end:
+            status = end.code or 0
+        except KeyboardInterrupt:
+            status = INTERRUPTED
+        finally:
+            sys.executable = executable  # the Snakefile quotes it for the shell
+    if caught:
         say("interrupted: run it again to go on")
         return INTERRUPTED
-    finally:
-        sys.executable = executable  # the Snakefile quotes it for the shell
-    return 0
+    if isinstance(status, str):
+        print(status, file=sys.stderr)
+        return 1
+    return status
 
 
 def last_words(since: float) -> list[str]:

@@ -53,10 +53,7 @@ def load(path):
     path = Path(path)
     if not path.is_file():
         raise ArtifactError(f"{path}: no such artifact")
-    try:
-        return _read(path)
-    except ArtifactError as error:
-        raise
+    return _read(path)
 
 
 def content_hash(dataset):
