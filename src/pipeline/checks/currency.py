@@ -43,7 +43,8 @@ class Currency:
 
     def _by_record(self, path, made):
         if self.digest(path) is None:
-            return "a folder stands in its place, move it away" if (self.root / path).is_dir() else MISSING
+            folder = (self.root / path).is_dir()
+            return "a folder stands in its place, move it away" if folder else MISSING
         try:
             record = read_record(self.root, path)
         except RecordError as error:
