@@ -1,5 +1,6 @@
 """Files appear whole or not at all; and their hashes."""
 
+import errno
 import hashlib
 import os
 import shutil
@@ -29,9 +30,9 @@ def replacing(path):
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
         there = next(folder for folder in path.absolute().parents if folder.is_dir())
         free = shutil.disk_usage(there).free / 1e6
-        raise FileError(
-            f"{path}: cannot be written ({reason}); its disk has {free:,.1f} MB left"
-        ) from error
+        if free < 1.0 or getattr(error, "errno", None) == errno.ENOSPC:
+            reason = f"the disk is full, {free:.1f} MB are left"
+        raise FileError(f"{path}: cannot be written: {reason}") from error
     finally:
         with suppress(OSError):
             part.unlink()
