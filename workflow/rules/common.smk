@@ -18,7 +18,6 @@ from pipeline.config import (
     stages,
 )
 from pipeline.config.declared import study as parts
-from pipeline.records import sources
 from pipeline.records.record import record_path
 
 ROOT = Path(workflow.basedir)
@@ -35,7 +34,11 @@ except ConfigError as error:
 
 VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
 SCENES = VARIANTS[PAPER]
-EXPECTED = expected.of_variants(VARIANTS) | expected.of_study(VARIANTS)
+EXPECTED = {
+    **expected.of_variants(VARIANTS),
+    **expected.of_study(VARIANTS),
+    **expected.of_sweeps(SWEEPS),
+}
 CURRENCY = Currency(ROOT, EXPECTED)
 
 

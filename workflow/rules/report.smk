@@ -31,7 +31,7 @@ rule numbers:
             for scene, scene_block in SCENES.items()
         },
         results=BEHIND,
-        captions={captions(kind): KINDS[kind].caption for kind in KINDS},
+        captions={captions(kind): KINDS[kind].caption() for kind in KINDS},
     script:
         "../scripts/numbers.py"
 

@@ -25,8 +25,9 @@ with one_line_errors(snakemake), recorded(snakemake):
     artifacts.save(
         dataset,
         snakemake.output[0],
+        block,
         stage=snakemake.rule,
-        ball=ball,
-        energy=block["energy"],
-        config=block,
+        k=ball.k,
+        g=ball.g,
+        energy=float(block["energy"]),
     )

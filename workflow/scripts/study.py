@@ -46,8 +46,9 @@ with one_line_errors(snakemake), recorded(snakemake):
     artifacts.save(
         dataset,
         snakemake.output[0],
+        {"part": part},
         stage="study",
-        ball=states.BALL,
+        k=states.BALL.k,
+        g=states.BALL.g,
         energy=states.ENERGY,
-        config={"part": part},
     )

@@ -1,14 +1,16 @@
 """Which published files must keep their bytes, and what each is made from.
 
-A contract is a folder of published files: the figures of the paper, or the charts of the study
-whose data are the same on every machine. Each is written down in its folder; see manifest.
+A contract is a folder of published files: the figures of the paper, the charts of the study whose
+data are the same on every machine, the atlas. Each is written down in its folder; see manifest.
 """
 
 from pathlib import Path
 from typing import NamedTuple
 
+from pseudorigid.sweep import grid
+
 from .. import config
-from ..config import expected
+from ..config import expected, places
 from ..config.declared import study as parts
 
 
@@ -36,7 +38,7 @@ class Contract(NamedTuple):
 
 def committed(checked):
     """The contracts of a checked config."""
-    return [paper(checked), study(checked)]
+    return [paper(checked), study(checked), atlas(checked)]
 
 
 def paper(checked):
@@ -82,5 +84,25 @@ def study(checked):
         data={name: {data: parts.data(data)} for name, data in charts.items()},
         expected={path: made[path] for path in made if path in fixed},
         measured=tuple(f"{name}.png" for name in parts.CHARTS if name not in charts),
+        on_request=True,
+    )
+
+
+def atlas(checked):
+    """The pictures of the sweeps, and so their datasets."""
+    sweeps = checked["sweeps"]
+    drawn = {
+        Path(path).name: (name, path) for name in sweeps for path in places.sweep_pictures(name)
+    }
+    return Contract(
+        what="pictures",
+        folder=places.ATLAS,
+        results="results/sweep",
+        command="./reproduce atlas",
+        drawn={file: path for file, (_, path) in drawn.items()},
+        scenes={file: name for file, (name, _) in drawn.items()},
+        config={name: grid.whole(sweep) for name, sweep in sweeps.items()},
+        data={name: {"sweep": places.sweep_dataset(name)} for name in sweeps},
+        expected=expected.of_sweeps(sweeps),
         on_request=True,
     )

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from pseudorigid.sweep import grid
+
 from ..records import sources
 from . import places
 from .declared import study as parts
@@ -51,4 +53,18 @@ def of_study(variants) -> dict[str, Expected]:
         data = parts.data(parts.CHARTS[chart][0])
         code = sources.code("chart.py")
         found[parts.drawn(chart)] = Expected(parts.drawing(chart), code, [data])
+    return found
+
+
+def of_sweeps(sweeps) -> dict[str, Expected]:
+    """Each block, dataset and picture of the sweeps, likewise."""
+    found = {}
+    for name, sweep in sweeps.items():
+        blocks, data = places.block_files(name, sweep), places.sweep_dataset(name)
+        code = sources.code("sweep_block.py")
+        for i, path in enumerate(blocks):
+            found[path] = Expected(grid.block(sweep, i), code)
+        found[data] = Expected(grid.whole(sweep), sources.code("sweep_join.py"), blocks)
+        for path in places.sweep_pictures(name):
+            found[path] = Expected(sweep, sources.code("atlas.py"), [data])
     return found

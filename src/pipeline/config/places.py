@@ -98,18 +98,13 @@ def absent_file(variant: str) -> str:
 
 
 def block_files(name, sweep) -> list[str]:
-    """Where its blocks are kept, from the project's root."""
-    return [f"results/sweep/blocks/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
+    """Where its blocks are kept, in the order of their cells."""
+    return [f"results/sweep/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
 
 
 def sweep_dataset(name) -> str:
     """Where the whole sweep is."""
     return f"results/sweep/{name}.nc"
-
-
-def sweep_record(name) -> str:
-    """Where its sha256 is."""
-    return f"results/sweep/{name}.nc.sha256"
 
 
 def sweep_pictures(name) -> list[str]:

@@ -74,8 +74,8 @@ def _cell(text) -> str:
 
 
 def _sentence(text) -> str:
-    text = " ".join(text.split())
-    return f"{text[0].upper()}{text[1:]}."
+    first = text.partition("\n")[0]
+    return f"{first[0].upper()}{first[1:]}."
 
 
 if __name__ == "__main__":

@@ -2,7 +2,10 @@
 
 import shutil
 
-from ...config import places
+from pseudorigid.sweep import grid
+
+from ...checks.currency import Currency
+from ...config import expected, places
 from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running, sweeping
@@ -13,7 +16,7 @@ from ..packages import add_packages
 def run(word, arguments, start) -> int:
     """The datasets of the sweeps, or of those named first; with `atlas` their pictures too.
 
-    Damaged files go before, and it is told how far the cells are.
+    It is told how far the cells are.
     """
     sweeps = load(ROOT / "config.yaml")["sweeps"]
     names, options = sweeping.chosen(sweeps, arguments)
@@ -23,25 +26,24 @@ def run(word, arguments, start) -> int:
         options[options.index("--slurm")] = f"--profile={ROOT / 'workflow' / 'profiles' / 'slurm'}"
         if status := add_packages("slurm"):
             return status
-    says = running.only_says(options)
+    results = expected.of_sweeps({name: sweeps[name] for name in names})
     targets = [places.sweep_dataset(name) for name in names]
     if word == "atlas":
         targets += [file for name in names for file in places.sweep_pictures(name)]
     with locked():
-        if not says:
-            say(*sweeping.discard(sweeps, names))
-        blocks, cells = sweeping.lacking(sweeps, names)
+        outdated = Currency(ROOT, results).outdated(running.needed(results, targets))
+        blocks = sweeping.lacking(sweeps, names, outdated)
+        cells = sum(grid.cells(sweeps[name]) for name in names)
         if line := sweeping.shortage(blocks, cells):
             raise UsageError(line)
         if not any(option.startswith(("-q", "--quiet")) for option in options):
             options += ["--quiet", "rules", "host", "reason", "progress"]
         since = running.now()
-        # Snakemake would not miss a block that a dataset has already been joined from.
         with sweeping.progress(blocks, cells):
-            status = running.run([*targets, *blocks], [], options)
+            status = running.make(results, targets, options)
         for line in running.last_words(since) if status else ():
             say(line.removeprefix("pseudorigid: "))
-        if status == 0 and not says and word == "atlas":
+        if status == 0 and word == "atlas" and not running.only_says(options):
             drawn = [file for file in targets if file.startswith("results/sweep/figures/")]
             figures.publish({places.atlas_published(file): file for file in drawn})
     return status

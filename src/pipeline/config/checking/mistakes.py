@@ -85,7 +85,7 @@ def _at(annotation, loc):
             for item in metadata:
                 allowed = getattr(item, "description", None) or allowed
         if isinstance(annotation, type) and issubclass(annotation, Block):
-            allowed = (annotation.__doc__ or allowed).strip()
+            allowed = annotation.__doc__.partition("\n")[0]
             if not loc:
                 return annotation, allowed
             annotation, loc = annotation.model_fields[loc[0]], loc[1:]
