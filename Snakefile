@@ -13,8 +13,8 @@ include: "workflow/rules/common.smk"
 
 
 wildcard_constraints:
-    variant="|".join(VARIANTS),
-    scene="|".join(SCENES),
+    variant=any_of(VARIANTS),
+    scene=any_of(ALL),
     extension="png|svg|pdf",
 
 

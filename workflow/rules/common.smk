@@ -34,6 +34,7 @@ except ConfigError as error:
 
 VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
 SCENES = VARIANTS[PAPER]
+ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
 EXPECTED = {
     **expected.of_variants(VARIANTS),
     **expected.of_study(VARIANTS),

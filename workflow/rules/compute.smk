@@ -13,7 +13,7 @@ for stage in STAGES:
         log:
             f"results/{{variant}}/logs/{stage}_{{scene}}.log",
         wildcard_constraints:
-            scene=any_of(name for name, scene in SCENES.items() if stage in stages(scene)),
+            scene=any_of(name for name, scene in ALL.items() if stage in stages(scene)),
         conda:
             "../envs/python.yaml"
         params:

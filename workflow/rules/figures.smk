@@ -13,7 +13,7 @@ for kind in KINDS:
         log:
             "results/{variant}/logs/draw_{scene}_{extension}.log",
         wildcard_constraints:
-            scene=any_of(name for name, scene in SCENES.items() if scene["picture"] == kind),
+            scene=any_of(name for name, scene in ALL.items() if scene["picture"] == kind),
         conda:
             "../envs/python.yaml"
         params:

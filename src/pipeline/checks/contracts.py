@@ -38,30 +38,34 @@ class Contract(NamedTuple):
 
 def committed(checked):
     """The contracts of a checked config."""
-    return [paper(checked), study(checked), atlas(checked)]
+    found = [of_scenes(checked, name) for name in config.PUBLISHED if checked["variants"][name]]
+    return [*found, study(checked), atlas(checked)]
 
 
-def paper(checked):
-    """The figures of the config's scenes."""
-    scenes, serves = checked["scenes"], config.served(checked["variants"])
+def of_scenes(checked, variant):
+    """The figures of the paper's scenes, or of another published set."""
+    scenes, serves = checked["variants"][variant], config.served(checked["variants"])
+    folder = config.PUBLISHED[variant]
     files = {
         Path(path).name: (scene, behind[-1])
-        for path, (scene, behind) in config.figures(checked["variants"]).items()
-        if path.startswith(f"{config.PUBLISHED[config.PAPER]}/")
+        for path, (scene, behind) in config.figures(checked["variants"], variant).items()
+        if path.startswith(f"{folder}/")
     }
+    paper = variant == config.PAPER
     return Contract(
         what="figures",
-        folder=config.PUBLISHED[config.PAPER],
-        results="results/paper",
-        command="./reproduce",
+        folder=folder,
+        results=f"results/{variant}",
+        command="./reproduce" if paper else f"./reproduce {variant}",
         drawn={name: drawing for name, (_, drawing) in files.items()},
         scenes={name: scene for name, (scene, _) in files.items()},
         config={scene: config.drawing(block) for scene, block in scenes.items()},
         data={
-            scene: {stage: serves[config.PAPER, scene, stage] for stage in config.stages(block)}
+            scene: {stage: serves[variant, scene, stage] for stage in config.stages(block)}
             for scene, block in scenes.items()
         },
-        expected=expected.of_scenes(checked["variants"]),
+        expected=expected.of_scenes(checked["variants"], variant),
+        on_request=not paper,
     )
 
 

@@ -10,7 +10,11 @@ from .declared.kinds import KINDS
 from .declared.stages import STAGES, behind
 
 # Where the figures of a set of scenes are published; those of variants are not.
-PUBLISHED = {PAPER: "paper_figures"}
+PUBLISHED = {
+    PAPER: "paper_figures",
+    "claims": "more_figures/claims",
+    "proofs": "more_figures/proofs",
+}
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
 ATLAS_FORMATS = ("png", "svg")

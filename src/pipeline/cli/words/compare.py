@@ -11,7 +11,8 @@ def run(word, arguments, start) -> int:
     """Make what is missing of two variants, and say what differs between them."""
     running.refuse_settings(arguments)
     checked = load(ROOT / "config.yaml")
-    variants = checked["variants"]
+    more = set(config.PUBLISHED) - {config.PAPER}
+    variants = {name: made for name, made in checked["variants"].items() if name not in more}
     names, options = arguments[:2], arguments[2:]
     for name in names:
         if name not in variants and not name.startswith("-"):
