@@ -10,7 +10,6 @@ from .mistakes import mistakes
 from .scenes import checked
 from .words import ConfigError, refusal
 
-
 Scenes = Annotated[dict[Name, Any], Field(description="a mapping from names to scenes")]
 # Scenes beside the paper's own: made on request, and not varied.
 MORE = ("claims", "proofs")
