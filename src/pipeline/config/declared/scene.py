@@ -41,7 +41,7 @@ class Scene(Block):
     telling: ClassVar[str]
     # Jinja, with the scene's block as `s`: what the picture shows, and what to see in it.
     caption: ClassVar[str]
-    # Which measure of error the study applies to it (pseudorigid.study.needs), or None.
+    # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
 
     picture: str

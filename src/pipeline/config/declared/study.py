@@ -38,17 +38,16 @@ def published(chart):
 
 
 def block(part, scenes):
-    """What decides the data of a part: the scenes of the config where they are looked at."""
-    return {"part": part} | ({"scenes": looked_at(scenes)} if part == "needs" else {})
+    """What decides the data of a part: for `needs` the scenes and the measure of error of each.
 
-
-def looked_at(scenes):
-    """The scenes with a measure of error, whose picture has a known size: they give their axes."""
-    return {
-        name: block
-        for name, block in scenes.items()
-        if "axes" in block and KINDS[block["picture"]].studied
-    }
+    Those with a measure, and whose picture has a known size: they give their axes.
+    """
+    if part != "needs":
+        return {"part": part}
+    measures = {name: KINDS[block["picture"]].studied for name, block in scenes.items()}
+    measures = {name: found for name, found in measures.items() if found and "axes" in scenes[name]}
+    chosen = {name: scenes[name] for name in measures}
+    return {"part": part, "scenes": chosen, "measures": measures}
 
 
 def drawing(chart):
