@@ -16,6 +16,7 @@ energy says. The mean exponent of a long orbit does not.
 """
 
 import math
+from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
@@ -163,7 +164,8 @@ def _closeup(block, periodic, manifolds):
 def _branches(block, periodic, manifolds, pixel):
     ball = Ball(**block["ball"])
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
-    growth = _root(max(multiplier, 1.0 / multiplier), block["period"])
+    # a decimal power, since a power function's last bit differs between machines
+    growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
     columns = np.array([manifolds[name].values for name in ("x", "xdot", "udot")])
     columns = columns[:, ~np.isnan(columns[0])]
     columns = columns[:, :: max(1, columns.shape[1] // BRANCH_POINTS)]
@@ -191,7 +193,7 @@ MEASURES = {
 def _pixels(plane):
     """The size of a pixel on the two axes of a plane picture."""
     left, bottom, right, top = plane.frame
-    (x0, x1), (y0, y1) = plane.spans
+    (x0, x1), (y0, y1) = plane.across.limits, plane.up.limits
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
 
 
@@ -228,15 +230,6 @@ def _next_states(ball, columns, tau):
     b, c, _ = rebound(xdot, udot, ball.k, *transfer(ball.k))
     sine, cosine = sincos_each(tau)
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
-
-
-def _root(value, degree):
-    """value**(1/degree) by bisection, the same bits everywhere."""
-    low, high = 1.0, value
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if math.prod([middle] * degree) < value else (low, middle)
-    return low
 
 
 def _largest_exponent(ball, method, state, impacts):

@@ -3,8 +3,11 @@ anything.
 """
 
 import math
+from functools import partial
 
 import numpy as np
+
+from ..canvas import style
 
 
 def of_window(low, high):
@@ -47,17 +50,17 @@ def complete(scene, **axes):
     }
 
 
-def complete_box(scene, names, *datasets):
-    """The scene with these axes, its own or around the data, for a box, whose corners meet."""
-    return complete(
-        scene,
-        **{
-            name: lambda name=name: of_data(
-                *(d[name].values for d in datasets), margin=0.08, most=6
-            )
-            for name in names
-        },
-    )
+def complete_box(scene, *datasets):
+    """The scene with the axes of a box, whose corners meet: its own or around the data."""
+    data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
+    axes = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
+    return complete(scene, **axes)
+
+
+def inside(limits, values):
+    """Where every one of `values`, arrays of one shape, is within its limits (low, high)."""
+    pairs = zip(limits, values, strict=True)
+    return np.logical_and.reduce([(low <= part) & (part <= high) for (low, high), part in pairs])
 
 
 def _step(least):
@@ -86,11 +89,7 @@ def _decimal(count, unit):
 
 def refuse_empty(axes, data):
     """Raise ValueError, one line, where no row of `data` lies within the limits of `axes`."""
-    inside = True
-    for name, axis in axes.items():
-        low, high = axis["limits"]
-        values = data[name].values
-        inside = inside & (values >= low) & (values <= high)
-    if not np.any(inside):
+    limits = [axis["limits"] for axis in axes.values()]
+    if not np.any(inside(limits, [data[name].values for name in axes])):
         said = ", ".join(f"{name} {axis['limits']}" for name, axis in axes.items())
         raise ValueError(f"nothing lies within the limits of axes: {said}")
