@@ -4,7 +4,7 @@ from job import one_line_errors, recorded, save_figure
 from pipeline.records.artifacts import load
 from pseudorigid.figures import study
 
-chart = snakemake.params.chart
-with one_line_errors(snakemake), recorded(snakemake, chart):
+chart = snakemake.params.block
+with one_line_errors(snakemake), recorded(snakemake):
     draw = getattr(study, chart["chart"])
-    save_figure(draw(load(snakemake.input.data), *chart["arguments"]), snakemake.output[0])
+    save_figure(draw(load(snakemake.input.data[0]), *chart["arguments"]), snakemake.output[0])

@@ -37,15 +37,14 @@ def _subject(wildcards):
 
 
 @contextmanager
-def recorded(snakemake, config):
+def recorded(snakemake):
     """Write the record of what made the output, `config` being the block behind it."""
-    from pipeline.records import provenance
+    from pipeline.records import record
 
-    sources = [path for path in snakemake.input.code if path.endswith(".py")]
-    inputs = set(snakemake.input) - set(snakemake.input.code)
-    record = provenance.begin(config=config, inputs=inputs, sources=sources)
+    inputs, sources = set(snakemake.input), snakemake.params.sources
+    made = record.begin(config=snakemake.params.block, inputs=inputs, sources=sources)
     yield
-    provenance.finish(record, snakemake.output[0], snakemake.output.record)
+    record.finish(made, snakemake.output[0], snakemake.output.record)
 
 
 def save_figure(figure, path):

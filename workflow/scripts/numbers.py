@@ -34,7 +34,7 @@ with one_line_errors(snakemake):
         ),
     }
     # snakemake reads captions when it makes the report, each with its own scene as `s`
-    head = "{% set s = snakemake.params.scene %}\n"
+    head = "{% set s = snakemake.params.block %}\n"
     texts |= {path: head + text for path, text in snakemake.params.captions.items()}
     for path, text in texts.items():
         with replacing(path) as part:

@@ -10,7 +10,7 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 
 block = snakemake.params.block
 os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
-with one_line_errors(snakemake), recorded(snakemake, block):
+with one_line_errors(snakemake), recorded(snakemake):
     module, function = snakemake.params.function
     compute = getattr(import_module(module), function)
     # A block with a `method` is computed by it, and its data say how many impacts that missed.
@@ -25,8 +25,9 @@ with one_line_errors(snakemake), recorded(snakemake, block):
     artifacts.save(
         dataset,
         snakemake.output[0],
+        block,
         stage=snakemake.rule,
-        ball=ball,
-        energy=block["energy"],
-        config=block,
+        k=ball.k,
+        g=ball.g,
+        energy=float(block["energy"]),
     )

@@ -38,7 +38,7 @@ PARTS = {
     "missed_all": lambda: failures.missed(edge_rivals()),
 }
 
-with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
+with one_line_errors(snakemake), recorded(snakemake):
     part = snakemake.wildcards.scene
     dataset = PARTS[part]()
     if part.endswith("_all"):
@@ -46,8 +46,9 @@ with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
     artifacts.save(
         dataset,
         snakemake.output[0],
+        {"part": part},
         stage="study",
-        ball=states.BALL,
+        k=states.BALL.k,
+        g=states.BALL.g,
         energy=states.ENERGY,
-        config={"part": part},
     )

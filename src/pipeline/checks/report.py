@@ -4,7 +4,7 @@ import html
 import json
 
 from ..config import KINDS, stages
-from ..records.provenance import record_path
+from ..records.record import record_path
 
 # What the paper prints, in its text and captions: scene -> quantity -> value.
 PRINTED = {

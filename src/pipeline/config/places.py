@@ -10,7 +10,11 @@ from .declared.kinds import KINDS
 from .declared.stages import STAGES, behind
 
 # Where the figures of a set of scenes are published; those of variants are not.
-PUBLISHED = {PAPER: "paper_figures"}
+PUBLISHED = {
+    PAPER: "paper_figures",
+    "claims": "more_figures/claims",
+    "proofs": "more_figures/proofs",
+}
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
 ATLAS_FORMATS = ("png", "svg")
@@ -98,8 +102,8 @@ def absent_file(variant: str) -> str:
 
 
 def block_files(name, sweep) -> list[str]:
-    """Where its blocks are kept, from the project's root."""
-    return [f"results/sweep/blocks/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
+    """Where its blocks are kept, in the order of their cells."""
+    return [f"results/sweep/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
 
 
 def sweep_dataset(name) -> str:
@@ -107,12 +111,11 @@ def sweep_dataset(name) -> str:
     return f"results/sweep/{name}.nc"
 
 
-def sweep_record(name) -> str:
-    """Where its sha256 is."""
-    return f"results/sweep/{name}.nc.sha256"
-
-
 def sweep_pictures(name) -> list[str]:
-    """Where its pictures are drawn, and where users look for them."""
-    folders = ("results/sweep/figures", ATLAS)
-    return [f"{folder}/{name}.{extension}" for folder in folders for extension in ATLAS_FORMATS]
+    """Where its pictures are drawn."""
+    return [f"results/sweep/figures/{name}.{extension}" for extension in ATLAS_FORMATS]
+
+
+def atlas_published(drawing) -> str:
+    """Where users look for a picture of a sweep."""
+    return f"{ATLAS}/{drawing.rpartition('/')[2]}"

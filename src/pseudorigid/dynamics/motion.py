@@ -11,6 +11,8 @@ from .variables import of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
 SAMPLES = 200
+# More flights than this are no picture: 2 million samples.
+MOST_FLIGHTS = 10_000
 
 
 def _flights(ball, orbit):
@@ -45,6 +47,12 @@ def motion(ball, orbit, duration):
         Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
         where position = -strain exactly; impact_t and impact_position on `impact`.
     """
+    mean = float(orbit["tau"].mean())
+    if not duration <= MOST_FLIGHTS * mean:
+        raise ValueError(
+            f"duration = {duration!r} is not allowed: at most {MOST_FLIGHTS:,} flights, whose mean "
+            f"along this orbit is {mean:.3g}"
+        )
     flights = _flights(ball, orbit)
     following = next(flights)
     head, low = transfer(ball.k)

@@ -8,7 +8,12 @@ from ..declared.fields import BallBlock, Block, Name
 from . import sweeps, variants
 from .mistakes import mistakes
 from .scenes import checked
-from .words import ConfigError
+from .words import ConfigError, refusal
+
+
+Scenes = Annotated[dict[Name, Any], Field(description="a mapping from names to scenes")]
+# Scenes beside the paper's own: made on request, and not varied.
+MORE = ("claims", "proofs")
 
 
 class Document(Block):
@@ -21,21 +26,27 @@ class Document(Block):
     ]
     variants: Annotated[dict[Name, Any], Field(description="a mapping from names to variants")] = {}
     sweeps: Annotated[dict[Name, Any], Field(description="a mapping from names to sweeps")] = {}
+    claims: Scenes = {}
+    proofs: Scenes = {}
 
 
 def check(document) -> dict:
     """The complete config of a parsed YAML `document`; raises ConfigError where there is none.
 
-    Its `variants` begin with the paper itself: name -> scene -> block.
+    Its `variants` begin with the paper itself and the scenes of MORE: name -> scene -> block.
     """
     lines = mistakes(Document, document, ())
-    given = {key: _mapping(document, key) for key in ("ball", "scenes", "variants", "sweeps")}
+    given = {key: _mapping(document, key) for key in Document.model_fields}
     ball = None if mistakes(BallBlock, given["ball"], ()) else given["ball"]
-    scenes, found = {}, []
-    for name, block in given["scenes"].items():
-        scenes[name], wrong = checked(block, ball, ("scenes", name))
-        found += wrong
-    derived = {variants.PAPER: scenes}
+    sets, found = {}, []
+    for key in ("scenes", *MORE):
+        sets[key] = {}
+        for name, block in given[key].items():
+            sets[key][name], wrong = checked(block, ball, (key, name))
+            found += wrong
+            if key in MORE and name in given["scenes"]:
+                found.append(refusal((key,), name, "a name that no scene of the paper has"))
+    derived = {variants.PAPER: sets.pop("scenes")} | sets
     for name, block in given["variants"].items() if not (lines or found) else ():
         derived[name], wrong = variants.derive(given, name, block)
         found += wrong
@@ -45,7 +56,12 @@ def check(document) -> dict:
         found += wrong
     if lines or found:
         raise ConfigError(*dict.fromkeys(lines + found))
-    return {"ball": ball, "scenes": scenes, "variants": derived, "sweeps": grids}
+    return {
+        "ball": ball,
+        "scenes": derived[variants.PAPER],
+        "variants": derived,
+        "sweeps": grids,
+    }
 
 
 def _mapping(document, key):

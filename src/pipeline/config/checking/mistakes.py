@@ -66,28 +66,26 @@ def _line(model, error, place) -> str:
     return refusal(where, value, allowed)
 
 
+def allowed_at(model, loc) -> str:
+    """What is allowed at a place of pydantic's below a type, in words."""
+    return _at(model, loc)[1]
+
+
 def _at(annotation, loc):
     """(type, what is allowed in words) at a place of pydantic's below a type."""
     allowed = "something else"
     while True:
-        metadata = ()
         if isinstance(annotation, FieldInfo):
-            if annotation.description:
-                allowed = annotation.description
-            kept = (
-                typing.Annotated[(annotation.annotation, *annotation.metadata)]
-                if (annotation.metadata)
-                else annotation.annotation
-            )
-            annotation = kept
-            continue
+            allowed = annotation.description or allowed
+            parts = (annotation.annotation, *annotation.metadata)
+            annotation = typing.Annotated[parts] if annotation.metadata else parts[0]
         whole = annotation
         if typing.get_origin(annotation) is typing.Annotated:
             annotation, *metadata = typing.get_args(annotation)
             for item in metadata:
                 allowed = getattr(item, "description", None) or allowed
         if isinstance(annotation, type) and issubclass(annotation, Block):
-            allowed = (annotation.__doc__ or allowed).strip()
+            allowed = annotation.__doc__.partition("\n")[0]
             if not loc:
                 return annotation, allowed
             annotation, loc = annotation.model_fields[loc[0]], loc[1:]
@@ -98,8 +96,9 @@ def _at(annotation, loc):
         if loc[0] in TAGS:
             annotation = arguments[TAGS.index(loc[0])]
         elif typing.get_origin(annotation) is dict:
-            annotation = arguments[0] if loc[1:] == ("[key]",) else arguments[1]
-            loc = loc[:1] if loc[1:] == ("[key]",) else loc
+            of_key = loc[1:] == ("[key]",)
+            annotation = arguments[0 if of_key else 1]
+            loc = loc[:1] if of_key else loc
         else:
             annotation = arguments[0]
         loc = loc[1:]

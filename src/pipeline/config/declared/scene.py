@@ -4,9 +4,12 @@ A kind of picture is one class in `kinds`, derived from these; the checks of a g
 than one field stand with it. Numbers are compared as the decimals that were written.
 """
 
+import inspect
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
 
 from .fields import (
     LARGEST,
@@ -31,7 +34,11 @@ SECTION = axes_of("x", "xdot", "udot")
 
 
 class Scene(Block):
-    """a mapping that begins with picture"""
+    """a mapping that begins with picture
+
+    The docstring of a kind has, below its first line, the caption of the kind's figures: Jinja,
+    with the scene's block as `s`; what the picture shows, and what to see in it.
+    """
 
     # In the order in which the kind's `draw` takes them.
     stages: ClassVar[tuple[str, ...]]
@@ -39,16 +46,19 @@ class Scene(Block):
     framed_by: ClassVar[tuple[str, ...]] = ()
     # The quantity of `numbers` that stands for the figure in a list.
     telling: ClassVar[str]
-    # Jinja, with the scene's block as `s`: what the picture shows, and what to see in it.
-    caption: ClassVar[str]
     # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
 
-    picture: str
+    picture: Annotated[str, Field(description="the kind of picture: one of those below")]
     ball: BallBlock = None
     energy: Energy
     method: Method = None
     formats: Formats = ["png"]
+
+    @classmethod
+    def caption(cls) -> str:
+        """The caption of its figures, a template."""
+        return inspect.getdoc(cls).partition("\n\n")[2]
 
     @staticmethod
     def numbers(block: dict, **data) -> dict[str, str]:

@@ -1,5 +1,6 @@
 """What the study consists of: data, which of them are the same everywhere, and charts."""
 
+from ...records import sources
 from .kinds import KINDS
 
 # Data whose bytes are part of the contract, and measurements.
@@ -48,6 +49,22 @@ def block(part, scenes):
     measures = {name: found for name, found in measures.items() if found and "axes" in scenes[name]}
     chosen = {name: scenes[name] for name in measures}
     return {"part": part, "scenes": chosen, "measures": measures}
+
+
+def artifacts(part, scenes, serves):
+    """The figures' own artifacts that a part compares with: (stage, scene, file)."""
+    looked = block(part, scenes).get("scenes", ())
+    return [
+        (stage, scene, file)
+        for (variant, scene, stage), file in serves.items()
+        if variant == "paper" and scene in looked and stage in ("periodic", "manifolds")
+    ]
+
+
+def code(part):
+    """The project's files that a part runs, the libraries' rivals where they are measured."""
+    rivals = ("methods.scipy_events", "methods.taylor", "bench") if part in MEASURED else ()
+    return sources.code("study.py", *(f"pseudorigid.study.{name}" for name in rivals))
 
 
 def drawing(chart):

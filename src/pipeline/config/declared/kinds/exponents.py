@@ -5,21 +5,21 @@ from ..scene import OfOrbits, each
 
 
 class Exponents(OfOrbits):
-    """Lyapunov exponents against the number of impacts"""
+    """Lyapunov exponents against the number of impacts
+
+    The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
+    number of impacts, up to {{ s.impacts|max if s.impacts is iterable else s.impacts }}, at
+    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}.
+
+    What to see: one exponent stays above zero, so neighbours part exponentially; one is zero,
+    since the energy is kept; and the third mirrors the first, since areas are kept. Single runs
+    differ in the third digit.
+    """
 
     stages = ("lyapunov",)
     framed_by = ("impacts",)
     telling = "largest exponent"
     studied = "exponents"
-    caption = """\
-The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
-number of impacts, up to {{ s.impacts|max if s.impacts is iterable else s.impacts }}, at energy {{
-s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}.
-
-What to see: one exponent stays above zero, so neighbours part exponentially; one is zero, since
-the energy is kept; and the third mirrors the first, since areas are kept. Single runs differ in
-the third digit.
-"""
 
     records: whole(2, 10_000)
     axes: axes_of("impact", "exponent") = None

@@ -5,20 +5,20 @@ from ..scene import OfPeriodicOrbit
 
 
 class Motion(OfPeriodicOrbit):
-    """a periodic motion in time"""
+    """a periodic motion in time
+
+    The {{ s.type }} orbit of period {{ s.period }} in time, at energy {{ s.energy }} for k = {{
+    s.ball.k }}, g = {{ s.ball.g }}: height -x of the centre and strain u.
+
+    What to see: the two lines touch at the impacts (dots) and never cross, since there the ball
+    would be below the floor. After {{ s.period }} impact{{ "s" if s.period > 1 }} the motion
+    repeats itself.
+    """
 
     stages = ("motion",)
     framed_by = ("period", "type", "duration")
     telling = "orbit"
     studied = "motion"
-    caption = """\
-The {{ s.type }} orbit of period {{ s.period }} in time, at energy {{ s.energy }} for k = {{
-s.ball.k }}, g = {{ s.ball.g }}: height -x of the centre and strain u.
-
-What to see: the two lines touch at the impacts (dots) and never cross, since there the ball would
-be below the floor. After {{ s.period }} impact{{ "s" if s.period > 1 }} the motion repeats
-itself.
-"""
 
     duration: real("a number with 0 < duration <= 10000", gt=0, le=10_000)
     axes: axes_of("t", "displacement") = None

@@ -7,21 +7,21 @@ Place = whole(0, 10_000_000)
 
 
 class Portrait(OnSurface, OfOrbits):
-    """orbits on the energy surface"""
+    """orbits on the energy surface
+
+    {{ s.starts|length }} orbits of {{ s.impacts|sum if s.impacts is iterable else s.impacts *
+    s.starts|length }} impacts in all, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
+    s.ball.g }}: position x (downwards), velocity and strain rate just before each impact. They
+    lie on one half of an ellipsoid, the surface of this energy.
+
+    What to see: closed curves, one colour an orbit, are regular motion. Those around one point
+    belong to the elliptic fixed point, chains of small ones to elliptic orbits of a longer
+    period. Grey points are one orbit that wanders over an area: chaos.
+    """
 
     stages = ("orbits",)
     telling = "impacts"
     studied = "portrait"
-    caption = """\
-{{ s.starts|length }} orbits of {{ s.impacts|sum if s.impacts is iterable else s.impacts *
-s.starts|length }} impacts in all, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
-s.ball.g }}: position x (downwards), velocity and strain rate just before each impact. They lie on
-one half of an ellipsoid, the surface of this energy.
-
-What to see: closed curves, one colour an orbit, are regular motion. Those around one point belong
-to the elliptic fixed point, chains of small ones to elliptic orbits of a longer period. Grey
-points are one orbit that wanders over an area: chaos.
-"""
 
     sea: listed(Place, "a list of places in starts, counted from 0, none of them twice", 0) = []
 

@@ -5,19 +5,19 @@ from ..scene import OfManifolds, OfOrbits, OnSurface
 
 
 class Tangle(OnSurface, OfManifolds, OfOrbits):
-    """manifolds on the energy surface"""
+    """manifolds on the energy surface
+
+    Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period
+    }} (dots), at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. In grey some
+    orbits as a backdrop.
+
+    What to see: lines of the two colours leave each dot and meet those of its neighbours, but do
+    not coincide with them: they cross, fold and fill the chaotic sea.
+    """
 
     stages = ("orbits", "manifolds", "periodic")
     telling = "orbit"
     studied = "tangle"
-    caption = """\
-Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period }}
-(dots), at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. In grey some orbits
-as a backdrop.
-
-What to see: lines of the two colours leave each dot and meet those of its neighbours, but do not
-coincide with them: they cross, fold and fill the chaotic sea.
-"""
 
     branches: Branches
 

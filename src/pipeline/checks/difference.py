@@ -1,4 +1,4 @@
-"""What differs between a figure as committed and as it is here, in the order in which it is made.
+"""What differs between a published file as committed and as it is here, layer by layer.
 
 A tree's config, source and environment decide its data, these the drawing, and that the file: the
 first layer that differs is the cause of those after it.
@@ -11,10 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from ..records.artifacts import ArtifactError, canonical_values, load
+from ..records.differences import differing_block, differing_files, differing_package
+from ..records.files import FileError, file_hash
 from ..records.pictures import PictureError, describe, difference
-from ..records.provenance import file_hash, git, versions
+from ..records.record import git, versions
 from . import manifest
-from .audit import brief, differing_files, differing_key, differing_package
+
+# A difference in one of these alone leaves the committed bytes.
+UPSTREAM = {"config", "source", "environment"}
 
 
 class Comparison:
@@ -31,46 +35,30 @@ class Comparison:
         self.file_hash = cache(lambda path: file_hash(root / path))
         self.differing_data = cache(self._differing_data)
 
-    def findings(self, scene, name):
-        """Yield (layer, words) for each layer of a figure that differs, the cause first."""
+    def layers(self, name) -> dict[str, str] | None:
+        """Layer -> words, for each that differs, the cause first; None for a file that is new."""
+        scene = self.contract.scenes[name]
         entry = self.committed["scenes"].get(scene)
         if entry is None or name not in entry["figures"]:
-            where = f"{self.contract.folder}/{manifest.MANIFEST}"
-            yield "config", f"{name} is not in {where}: ./reproduce accept adds it"
-            return
+            return None
+        sources = {path: self.committed["sources"][path] for path in entry["sources"]}
+        here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
+        manifest_and_config = ("in the manifest", "in config.yaml")
         layers = {
-            "config": self._config(scene, entry),
-            "source": self._source(scene, entry),
-            "environment": self._environment(),
+            "config": differing_block(
+                entry["config"], self.contract.config[scene], *manifest_and_config
+            ),
+            "source": differing_files(sources, here),
+            "environment": differing_package(
+                self.committed["environment"], self.versions, "in the manifest"
+            ),
             "data": self._data(scene, entry),
-        }
-        layers |= self._drawing_and_file(name, entry["figures"][name])
-        yield from ((layer, words) for layer, words in layers.items() if words)
-
-    def _config(self, scene, entry):
-        found = differing_key(entry["config"], self.contract.config[scene])
-        if found:
-            key, before, after = found
-            return f"{key}: {brief(before)} in the manifest, {brief(after)} in config.yaml"
-        return None
-
-    def _source(self, scene, entry):
-        before = {path: self.committed["sources"][path] for path in entry["sources"]}
-        now = {path: self.file_hash(path) for path in self.contract.sources[scene]}
-        return differing_files(before, now)
-
-    def _environment(self):
-        found = differing_package(self.committed["environment"], self.versions)
-        if found:
-            package, before, after = found
-            here = f"{after} here" if after else "not installed here"
-            return f"{package} {before} in the manifest, {here}"
-        return None
+        } | self._drawing_or_file(name, entry["figures"][name])
+        return {layer: words for layer, words in layers.items() if words}
 
     def _data(self, scene, entry):
         for stage, path in self.contract.data[scene].items():
-            before = self.committed["data"].get(entry["data"].get(stage))
-            if before is not None and self.file_hash(path) is not None:
+            if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
                 words = self.differing_data(path, entry["data"][stage])
                 if words:
                     return words
@@ -96,14 +84,13 @@ class Comparison:
             if old["sha256"] != new["sha256"]:
                 pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=True)
                 block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
-                first = block * manifest.BLOCK
                 return (
                     f"{path}: variable {name} differs from block {block} on "
-                    f"(value {first:,} of {int(np.prod(new['shape'])):,})"
+                    f"(value {block * manifest.BLOCK:,} of {int(np.prod(new['shape'])):,})"
                     + self._size_of_difference(path, name, dataset)
                 )
-        found = differing_key(before["attributes"], after["attributes"])
-        return f"{path}: attribute {found[0]} differs" if found else None
+        words = differing_block(before["attributes"], after["attributes"])
+        return words and f"{path}: attribute {words.partition(':')[0]} differs"
 
     def _size_of_difference(self, path, name, dataset):
         if self.against is None:
@@ -120,12 +107,11 @@ class Comparison:
         words = _ulps_in_words(dataset.variables[name], other.variables[name])
         return f"; {words}, compared with {copy}"
 
-    def _drawing_and_file(self, name, entry):
+    def _drawing_or_file(self, name, entry):
         """{"drawing": words} or {"file": words}, of the published file or the one in results."""
         published, drawn = f"{self.contract.folder}/{name}", self.contract.drawn[name]
         if self.file_hash(published) is None:
-            how = self.contract.command.format(published)
-            return {"file": f"{published} is missing: {how} makes it"}
+            return {"file": f"{published} is missing: {self.contract.command} makes it"}
         encoding = {}
         for path in (published, drawn):
             if self.file_hash(path) in (entry["sha256"], None):
@@ -152,8 +138,11 @@ class Comparison:
             for candidate in candidates:
                 if candidate is not None and file_hash(candidate) == entry["sha256"]:
                     image = f"{self.contract.results}/differences/{name}"
-                    words, drawn = difference(self.root / path, candidate, self.root / image)
-                    return f"{words}: see {image}" if drawn else words
+                    try:
+                        words, saved = difference(self.root / path, candidate, self.root / image)
+                    except FileError:
+                        return "another picture"  # and no place to show where it differs
+                    return f"{words}: see {image}" if saved else words
         return "another picture; no copy of the committed one is at hand to count what differs"
 
     def _find(self, folder, name):
@@ -182,5 +171,4 @@ def _ulps_in_words(ours, theirs):
     lonely = np.isnan(a) != np.isnan(b)
     if lonely.any():
         return f"{int(lonely.sum())} values are NaN on one side only"
-    largest = int(ulps(a, b).max(initial=0))
-    return f"largest difference {largest:,} ulp"
+    return f"largest difference {int(ulps(a, b).max(initial=0)):,} ulp"

@@ -5,7 +5,6 @@ written as the job's last act and is one of the job's outputs: a job that was ki
 done again. Paths are relative to the project's root, so that a folder that moved still verifies.
 """
 
-import hashlib
 import json
 import os
 import platform
@@ -13,8 +12,9 @@ import subprocess
 from importlib import metadata
 from pathlib import Path
 
-from .files import replacing
+from .files import file_hash, replacing
 
+SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
 PACKAGES = (
     "deflate",
@@ -29,10 +29,29 @@ PACKAGES = (
 )
 
 
+class RecordError(ValueError):
+    """In words, why a record cannot be read."""
+
+
 def record_path(result):
     """Where the record of a result is: results/paper/provenance/<its file's name>.json."""
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/provenance/{name}.json"
+
+
+def read_record(root, path):
+    """The record of a result; raises RecordError, in words, where there is none to be read."""
+    try:
+        record = json.loads((root / record_path(path)).read_text(encoding="utf-8"))
+        for name, kind in SHAPE.items():
+            if not isinstance(record[name], kind):
+                raise TypeError
+        str(record["output"]["sha256"])
+    except FileNotFoundError:
+        raise RecordError("no record of what made it") from None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        raise RecordError(f"its record {record_path(path)} cannot be read") from None
+    return record
 
 
 def begin(*, config, inputs, sources):
@@ -63,15 +82,6 @@ def finish(record, output, path):
     with replacing(path) as part:
         text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
         part.write_text(text + "\n", encoding="utf-8")
-
-
-def file_hash(path):
-    """Return the sha256 (hex) of a file's bytes, or None where there is no such file."""
-    try:
-        with open(path, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
-        return None
 
 
 def versions():

@@ -4,28 +4,33 @@ import os
 import subprocess
 import sys
 
-from .interrupts import tidying_up
-from .runner import BUSY, ROOT, hold_lock, only_said
-from .variants import make
+from ... import config
+from ...config.checking.reading import load
+from ...records.sources import ROOT
+from .. import figures, running
+from ..folder import interruptible, locked
 
 PAGE = "results/report/report.html"
+LABELS = "results/report/labels.json"
 PYTHON = sys.executable  # the rules quote that name for the shell
 
 
-def report(arguments: list[str]) -> int:
+def run(word, arguments, start) -> int:
     """Make what is missing, with the options given, and then the page."""
-    lock = hold_lock()
-    if lock is None:
-        print(BUSY, file=sys.stderr)
-        return 1
-    status = make(["report"], arguments)
-    if status or only_said(arguments):
-        return status
+    checked = load(ROOT / "config.yaml")
+    with locked():
+        status = figures.make(checked, config.PAPER, arguments)
+        if status or running.only_says(arguments):
+            return status
+        return running.run(["report"], [LABELS], arguments) or _page()
+
+
+def _page() -> int:
     part = ROOT / "results" / "report" / "part.html"  # snakemake wants a name that ends so
-    command = [PYTHON, "-m", "snakemake", "report", "--report", str(part)]
+    command = [PYTHON, "-P", "-m", "snakemake", "report", "--report", str(part)]
     command += ["--nolock", "--cores", "1"]  # a number of cores, though no job runs
-    with tidying_up():
-        run = subprocess.run(
+    with interruptible():
+        made = subprocess.run(
             command,
             cwd=ROOT,
             stdout=subprocess.PIPE,
@@ -33,10 +38,10 @@ def report(arguments: list[str]) -> int:
             text=True,
             check=False,
         )
-        if run.returncode:
+        if made.returncode:
             part.unlink(missing_ok=True)
-            print(run.stdout, file=sys.stderr)
-            return run.returncode
+            print(made.stdout, file=sys.stderr)
+            return made.returncode
         os.replace(part, ROOT / PAGE)
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return 0

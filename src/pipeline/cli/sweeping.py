@@ -1,10 +1,5 @@
-"""Around a run of snakemake: which blocks must go first, and how far the sweep is.
+"""Around a run of sweeps: which are meant, the space they need, and how far they are."""
 
-Snakemake looks at times and parameters, not into files.
-"""
-
-import difflib
-import os
 import shutil
 import sys
 import threading
@@ -14,8 +9,8 @@ from pathlib import Path
 
 from pseudorigid.sweep import grid
 
-from ..config import ConfigError, places
-from ..records import sources
+from ..config import places, unknown
+from .folder import UsageError
 
 PAUSE = 1.0  # seconds between two looks at the files
 # Bytes of disk, rounded up from what was measured: a cell in its block and in the dataset, a block
@@ -24,58 +19,26 @@ CELL, BLOCK, RUN = 600, 60_000, 10_000_000
 
 
 def chosen(sweeps, words) -> tuple[list[str], list[str]]:
-    """The sweeps named before the first option, all where none is, and the words after them.
-
-    Raises ConfigError for a name that config.yaml has not.
-    """
+    """The sweeps named before the first option, all where none is, and the words after them."""
     end = next((i for i, word in enumerate(words) if word.startswith("-")), len(words))
     for name in words[:end]:
         if name not in sweeps:
-            near = difflib.get_close_matches(name, sweeps, 1, 0.5)
-            known = f"did you mean {near[0]}?" if near else f"there is {', '.join(sweeps)}"
-            raise ConfigError(f"config.yaml: sweeps.{name}: no such sweep: {known}")
+            raise UsageError(unknown("sweep", name, list(sweeps)))
     if not sweeps:
-        raise ConfigError("config.yaml: sweeps: missing, or empty")
+        raise UsageError("config.yaml: sweeps: missing, or empty")
     return words[:end] or list(sweeps), words[end:]
 
 
-def discard(sweeps, names) -> list[str]:
-    """Delete blocks and datasets that are damaged or of another grid; a line for each of them."""
-    from ..records import blocks as store
-
-    lines = []
-    for name in names:
-        sweep = sweeps[name]
-        for i, path in enumerate(places.block_files(name, sweep)):
-            if os.path.lexists(path):
-                try:
-                    store.load_block(path, grid.block(sweep, i))
-                except store.StoreError as error:
-                    lines.append(f"{error}: computed again")
-                    os.unlink(path)
-        path = places.sweep_dataset(name)
-        if os.path.lexists(path) and not store.intact(path, places.sweep_record(name)):
-            lines.append(f"{path}: not as it was written: joined again")
-            os.unlink(path)
-    return lines
-
-
-def lacking(sweeps, names) -> tuple[dict[str, tuple[int, int]], int]:
-    """Block -> (cells, impacts), of those missing or older than the code; the cells in all."""
-    newest = max(os.stat(path).st_mtime for path in sources.code("sweep_block.py"))
-    found = {}
-    for name in names:
-        sweep = sweeps[name]
-        each = sweep["starts"] * sweep["impacts"]
-        blocks = zip(places.block_files(name, sweep), grid.ranges(sweep), strict=True)
-        for path, (start, stop) in blocks:
-            try:
-                if os.stat(path).st_mtime >= newest:
-                    continue
-            except FileNotFoundError:
-                pass
-            found[path] = stop - start, (stop - start) * each
-    return found, sum(grid.cells(sweeps[name]) for name in names)
+def lacking(sweeps, names, outdated) -> dict[str, tuple[int, int]]:
+    """Block -> (cells, impacts), of those that are outdated."""
+    return {
+        path: (stop - start, (stop - start) * sweeps[name]["starts"] * sweeps[name]["impacts"])
+        for name in names
+        for path, (start, stop) in zip(
+            places.block_files(name, sweeps[name]), grid.ranges(sweeps[name]), strict=True
+        )
+        if path in outdated
+    }
 
 
 def shortage(blocks, total) -> str | None:
