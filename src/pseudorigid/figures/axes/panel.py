@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...kernel.arithmetic import log
 from ..canvas import style
 from ..canvas.ragged import pieces
 from ..canvas.sheet import POINT
@@ -16,6 +15,8 @@ _KEY = 60, 960  # pixels: where a key begins, and how wide it is
 
 def log10(values):
     """The decimal logarithm with the same bits everywhere; NaN where it does not exist."""
+    from ...kernel.arithmetic import log  # compiled: a plane picture does without
+
     values = np.atleast_1d(np.asarray(values, dtype=float))
     logs = np.reshape([log(value) for value in values.flat], values.shape)
     return np.where(values > 0.0, logs / log(10.0), np.nan)
