@@ -4,7 +4,7 @@ from importlib import import_module
 
 from job import one_line_errors, recorded
 from pipeline.records import artifacts
-from pseudorigid.study import fails, needs, states, work
+from pseudorigid.study import failures, figure_errors, states, work
 
 
 def libraries():
@@ -18,24 +18,24 @@ def edge_rivals():
     names = ("certified march", "brentq 0.1, 1e-12", "RK45, 1e-06", "DOP853, 1e-09")
     names += ("DOP853, steps <= 0.1, 1e-12", "LSODA, 1e-09")
     names += ("heyoka any, 1e-15", "heyoka positive, 1e-15")
-    return [m for m in (fails.own.OURS, *libraries()) if m.name in names]
+    return [m for m in (failures.OURS, *libraries()) if m.name in names]
 
 
-def scenes_needs():
+def errors_of_figures():
     """Of the scenes that the block has, with the figures' own artifacts that they take."""
-    taken = snakemake.params.artifacts
+    block, taken = snakemake.params.block, snakemake.params.artifacts
     loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in taken}
-    return needs.needs(snakemake.params.block["scenes"], loaded)
+    return figure_errors.figure_errors(block["scenes"], block["measures"], loaded)
 
 
 PARTS = {
     "work": work.counted,
-    "edges": lambda: fails.edges(fails.EDGE_METHODS),
-    "orbits": fails.orbits,
-    "needs": scenes_needs,
-    "work_all": lambda: work.measured([*fails.own.METHODS, *libraries()]),
-    "edges_all": lambda: fails.edges(edge_rivals(), 40),
-    "missed_all": lambda: fails.missed(edge_rivals()),
+    "edges": lambda: failures.edges(failures.EDGE_METHODS),
+    "orbits": failures.orbits,
+    "needs": errors_of_figures,
+    "work_all": lambda: work.measured([*work.METHODS, *libraries()]),
+    "edges_all": lambda: failures.edges(edge_rivals(), 40),
+    "missed_all": lambda: failures.missed(edge_rivals()),
 }
 
 with one_line_errors(snakemake), recorded(snakemake):

@@ -5,23 +5,14 @@ import itertools
 import numpy as np
 import xarray as xr
 
-from ..kernel import impact as kernel
-from ..kernel.arithmetic import sincos
-from ..kernel.compiled import jit
+from ..kernel.arithmetic import sincos_each
+from ..kernel.law import rebound, transfer
 from .variables import of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
 SAMPLES = 200
 # More flights than this are no picture: 2 million samples.
 MOST_FLIGHTS = 10_000
-
-
-@jit
-def _flight_samples(x, b, c, g, t, position, strain):
-    for i in range(t.size):
-        sine, cosine = sincos(t[i])
-        position[i] = x + t[i] * (b + 0.5 * g * t[i])
-        strain[i] = c * sine - x * cosine
 
 
 def _flights(ball, orbit):
@@ -64,7 +55,7 @@ def motion(ball, orbit, duration):
         )
     flights = _flights(ball, orbit)
     following = next(flights)
-    head, low = kernel.transfer(ball.k)
+    head, low = transfer(ball.k)
     columns = [[], [], []]
     impacts = [[], []]
     time = 0.0
@@ -72,12 +63,12 @@ def motion(ball, orbit, duration):
         (x, xdot, udot, tau), following = following, next(flights)
         impacts[0].append(time)
         impacts[1].append(x)
-        b, c, _ = kernel.rebound(xdot, udot, ball.k, head, low)
+        b, c, _ = rebound(xdot, udot, ball.k, head, low)
         t = tau * (np.arange(SAMPLES + 1) / SAMPLES)
         t = np.append(t[time + t < duration], duration - time) if time + tau > duration else t
-        position = np.empty(t.size)
-        strain = np.empty(t.size)
-        _flight_samples(x, b, c, ball.g, t, position, strain)
+        sine, cosine = sincos_each(t)
+        position = x + t * (b + 0.5 * ball.g * t)
+        strain = c * sine - x * cosine
         position[0], strain[0] = x, -x
         if time + tau <= duration:
             end = following[0]

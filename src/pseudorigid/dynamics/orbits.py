@@ -29,10 +29,8 @@ def orbit(ball, state, impacts, keep="all"):
     if keep not in ("all", "last"):
         raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
     impacts = whole_number("impacts", impacts)
-    state = ball.on_section(*state)
-    shape = state[0].shape
+    columns, shape = ball.columns(*state)
     dims = orbit_dims(shape)
-    columns = [a.flatten() for a in state]
     if keep == "last":
         tau = np.empty(columns[0].size)
         ball.map.steps(*columns, ball.k, ball.g, impacts, tau)

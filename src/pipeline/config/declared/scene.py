@@ -46,7 +46,7 @@ class Scene(Block):
     framed_by: ClassVar[tuple[str, ...]] = ()
     # The quantity of `numbers` that stands for the figure in a list.
     telling: ClassVar[str]
-    # Which measure of error the study applies to it (pseudorigid.study.needs), or None.
+    # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
 
     picture: Annotated[str, Field(description="the kind of picture: one of those below")]

@@ -12,8 +12,8 @@ CHARTS = {
     "work_grazing": ("work", "work", (1, "evaluations")),
     "edges": ("edges", "edges", ()),
     "energy": ("orbits", "energy", ()),
-    "apart": ("orbits", "apart", ()),
-    "needs": ("needs", "needs", ()),
+    "apart": ("orbits", "separation", ()),
+    "needs": ("needs", "figure_errors", ()),
     "work_all_uniform": ("work_all", "work", (0, "evaluations")),
     "work_all_grazing": ("work_all", "work", (1, "evaluations")),
     "seconds_uniform": ("work_all", "work", (0, "seconds")),
@@ -39,17 +39,16 @@ def published(chart):
 
 
 def block(part, scenes):
-    """What decides the data of a part: the scenes of the config where they are looked at."""
-    return {"part": part} | ({"scenes": looked_at(scenes)} if part == "needs" else {})
+    """What decides the data of a part: for `needs` the scenes and the measure of error of each.
 
-
-def looked_at(scenes):
-    """The scenes with a measure of error, whose picture has a known size: they give their axes."""
-    return {
-        name: block
-        for name, block in scenes.items()
-        if "axes" in block and KINDS[block["picture"]].studied
-    }
+    Those with a measure, and whose picture has a known size: they give their axes.
+    """
+    if part != "needs":
+        return {"part": part}
+    measures = {name: KINDS[block["picture"]].studied for name, block in scenes.items()}
+    measures = {name: found for name, found in measures.items() if found and "axes" in scenes[name]}
+    chosen = {name: scenes[name] for name in measures}
+    return {"part": part, "scenes": chosen, "measures": measures}
 
 
 def artifacts(part, scenes, serves):

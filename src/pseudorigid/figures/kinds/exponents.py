@@ -20,14 +20,19 @@ def draw(scene, lyapunov):
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
     )
-    names = ("Number of impacts", "Lyapunov exponents")
-    plane = Plane(scene, ("impact", "exponent"), names, right=84)
+    picture = plane(scene)
     _, orbits, indices = exponent.shape
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
         for index in range(indices):
             there = ~np.isnan(exponent[:, orbit, index])
-            plane.line(impact[there], exponent[there, orbit, index], color=hue, lw=0.8)
+            picture.line(impact[there], exponent[there, orbit, index], color=hue, lw=0.8)
     ends = np.median(final_exponents(lyapunov), axis=0)
-    plane.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
-    return plane.figure
+    picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
+    return picture.figure
+
+
+def plane(scene):
+    """The empty picture of a scene with its axes."""
+    names = ("Number of impacts", "Lyapunov exponents")
+    return Plane(scene, ("impact", "exponent"), names, right=84)
