@@ -12,7 +12,7 @@ import sys
 import mpmath
 import numpy as np
 import pytest
-from conftest import ROOT
+from project import ROOT
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from judge import judge
@@ -256,7 +256,7 @@ def test_caps_raise(words, state):
     """With the cap at one look a flight ends in an error; with the real one in an impact."""
     assert BALL.time_to_impact(*state) > 0.0
     code = (
-        "from pseudorigid import Ball, flight\nflight.MOST_LOOKS = 1\n"
+        "from pseudorigid import Ball\nfrom pseudorigid.kernel import flight\nflight.MOST_LOOKS = 1\n"
         f"try: print(Ball(0.2, 0.04).impact{state})\nexcept ArithmeticError as e: print(e)"
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}
