@@ -4,7 +4,12 @@ import subprocess
 import sys
 
 import pytest
-from project import ROOT, Tree, fresh_tree, once  # ROOT, fresh_tree: for tests that import them here
+from project import (  # ROOT, fresh_tree: for tests that import them here
+    ROOT,
+    Tree,
+    fresh_tree,
+    once,
+)
 
 from pipeline.records import sources
 

@@ -63,7 +63,9 @@ class Tree:
         package = self.path / "src" / "pseudorigid"
         for folder in (package, *(p for p in package.rglob("*") if p.is_dir())):
             theirs = ROOT / folder.relative_to(self.path) / "x.py"
-            old, new = map(_CacheLocator.get_suitable_cache_subpath, map(str, (theirs, folder / "x.py")))
+            old, new = map(
+                _CacheLocator.get_suitable_cache_subpath, map(str, (theirs, folder / "x.py"))
+            )
             if (here / old).is_dir() and not (there / new).exists():
                 shutil.copytree(here / old, there / new)
 

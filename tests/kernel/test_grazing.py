@@ -12,11 +12,11 @@ import sys
 import mpmath
 import numpy as np
 import pytest
-from project import ROOT
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from judge import judge
 from mpmath import mpf
+from project import ROOT
 from test_flight import TAU, before, error
 
 from pseudorigid.dynamics.ball import Ball
