@@ -4,12 +4,8 @@ FIG3 = {
     "results/paper/periodic_fig3.nc",
     "results/paper/motion_fig3.nc",
     "results/paper/figures/fig3.png",
-    "paper_figures/fig3.png",
 }
-FIG7 = {
-    *(f"results/paper/figures/fig7.{extension}" for extension in ("png", "svg")),
-    *(f"paper_figures/fig7.{extension}" for extension in ("png", "svg")),
-}
+FIG7 = {f"results/paper/figures/fig7.{extension}" for extension in ("png", "svg")}
 
 
 def rows(said):

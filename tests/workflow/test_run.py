@@ -1,8 +1,10 @@
 """What a run makes again and what it leaves alone, in a copy whose scenes are tiny."""
 
 import os
+import shutil
 import time
 
+from project import fresh_tree
 from runs import FIG3, FIG7, contents, rows
 
 LYAPUNOV = "src/pseudorigid/dynamics/lyapunov.py"
@@ -20,7 +22,7 @@ def test_a_second_run_has_nothing_to_do(done):
     start = time.monotonic()
     again = done.run()
     assert time.monotonic() - start < 20
-    assert "Nothing to be done" in again.stdout
+    assert "snakemake" not in again.stdout  # not even started
     assert set(rows(again.stdout).values()) == {"current"}
     assert done.published() == before
 
@@ -35,7 +37,6 @@ def test_everything_of_a_fresh_clone_is_planned(tree, finished):
             os.utime(file, (0, 0))
     results = (finished.path / "results").rglob("*.*")
     made = {path for path in results if path.suffix not in (".log", ".json")}
-    made |= set((finished.path / "paper_figures").iterdir())
     assert tree.planned() == {str(p.relative_to(finished.path)) for p in made}
 
 
@@ -88,19 +89,62 @@ def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
         figure = done.path / "paper_figures" / name
         figure.write_text("x")
         os.utime(figure, (4e9, 4e9))
-    assert done.planned() == {"paper_figures/fig3.png", "paper_figures/fig7.svg"}
     single = done.run("paper_figures/fig3.png")
     assert rows(single.stdout) == {"paper_figures/fig3.png": "current"}
-    assert done.planned() == {"paper_figures/fig7.svg"}
+    assert contents(done) == before | {"fig7.svg": b"x"}
     everything = done.run()
     assert set(rows(everything.stdout).values()) == {"current"}
     assert contents(done) == before
-    assert done.planned() == set()
 
 
-def test_a_setting_for_windows_does_not_matter(done):
+def test_results_alone_are_enough_and_times_say_nothing(done, tmp_path):
+    """As a cache hands them to a fresh clone, whose files have any times, also in the future."""
+    fresh = fresh_tree(tmp_path / "elsewhere")
+    shutil.copytree(done.path / "results", fresh.path / "results", copy_function=shutil.copy)
+    for i, file in enumerate(sorted(fresh.path.glob("src/**/*.py"))):
+        os.utime(file, (4e9, 4e9) if i % 2 else (0, 0))
+    fresh.edit("fig7", records=5)
+    result = fresh.run()
+    assert result.returncode == 0, result.stdout
+    table = rows(result.stdout)
+    again = {f"paper_figures/fig7.{extension}" for extension in ("png", "svg")}
+    assert {file for file, state in table.items() if state == "recomputed"} == again
+    same = contents(done).items() - {(n, b) for n, b in contents(done).items() if "fig7" in n}
+    assert same <= contents(fresh).items()
+
+
+def test_a_source_replaced_with_its_time_kept_is_noticed(done):
+    module = done.path / LYAPUNOV
+    then = module.stat()
+    module.write_text(module.read_text() + "# other\n")
+    os.utime(module, ns=(then.st_atime_ns, then.st_mtime_ns))
+    shutil.rmtree(done.path / ".snakemake")
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_a_figure_that_cannot_exist_is_left_out_and_the_rest_is_drawn(done):
+    before = contents(done)
+    done.edit("fig3", type="inverse hyperbolic")
+    done.edit("fig7", records=5)
+    result = done.run()
+    assert result.returncode == 1
+    said = [line for line in result.stdout.splitlines() if line.startswith("fig3")]
+    assert len(said) == 2
+    words = "cannot exist: no inverse hyperbolic orbit of period 1 at energy 0.01 (found: elliptic)"
+    assert all(line.endswith(words) for line in said)
+    table = rows(result.stdout)
+    assert {file for file in table if table[file] == "recomputed"} == {
+        "paper_figures/fig7.png",
+        "paper_figures/fig7.svg",
+    }
+    assert len(table) == len(before) - 2
+
+
+def test_settings_of_a_users_shell_do_not_matter(done):
     (done.path / "results" / "paper" / "figures" / "fig3.png").unlink()
-    result = done.run("paper_figures/fig3.png", MPLBACKEND="no such backend")
+    result = done.run(
+        "paper_figures/fig3.png", MPLBACKEND="no such backend", SNAKEMAKE_PROFILE="none such"
+    )
     assert result.returncode == 0, result.stdout
 
 
