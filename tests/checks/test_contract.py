@@ -1,154 +1,123 @@
-"""The study's charts in verify and accept: those of our own arithmetic, once they are committed."""
+"""The contract itself: what is missing, broken or too much in it, and accept, which renews it."""
 
-import os
-import re
 import shutil
-import subprocess
-import sys
 
-import netCDF4
-import numpy as np
 import pytest
-import xarray as xr
-from verdicts import say
+from runs import contents
+from verdicts import accepting, verified
 
-from pipeline import config
-from pipeline.checks import contract, manifest
-from pipeline.checks.verify import accept, verify
-from pipeline.config import study as parts
-from pipeline.records import artifacts, provenance
-from pseudorigid.dynamics.ball import Ball
-from pseudorigid.figures.canvas.render import png
-
-CHARTS = ("work_uniform", "work_grazing", "edges", "energy", "apart", "needs")
+FIG3 = "paper_figures/fig3.png"
 
 
-@pytest.fixture
-def studied(moved, monkeypatch):
-    """The copy of a finished tree, with stand-ins for the study's data and charts."""
-    monkeypatch.chdir(moved.path)
-    scenes = config.load(moved.path / "config.yaml")["scenes"]
-    about = {"long_name": "numbers", "units": "1"}
-    for path, maker in contract.study(scenes).makers.items():
-        record = provenance.begin(config=maker.config, inputs=[], sources=maker.sources)
-        if path.endswith(".nc"):
-            data = xr.Dataset({"numbers": ("place", np.arange(3000.0), about)})
-            how = {"stage": "study", "ball": Ball(0.2, 0.04), "energy": 0.01, "config": {}}
-            artifacts.save(data, path, **how)
-        else:
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            image = np.full((4, len(path), 3), 200, dtype=np.uint8)
-            with open(path, "wb") as file:
-                file.write(png(image, 300))
-        provenance.finish(record, path, provenance.record_path(path))
-    os.mkdir(parts.FOLDER)
-    for chart in CHARTS:
-        shutil.copy(parts.drawn(chart), parts.published(chart))
-    shutil.copy(parts.drawn("edges"), parts.published("seconds_uniform"))  # a measured one
-    return moved
+def test_a_deleted_figure(moved):
+    (moved.path / FIG3).unlink()
+    found = verified(moved)
+    assert found.wrong == {"fig3.png": [f"file: {FIG3} is missing: ./reproduce makes it"]}
+    assert found.findings == []
 
 
-@pytest.fixture
-def committed(studied):
-    status, text = say(accept, studied)
-    assert status == 0, text
-    assert text.splitlines() == [
-        "nothing changed",
-        "a new contract (study_figures/MANIFEST.json: missing)",
-        "study_figures/SHA256SUMS and study_figures/MANIFEST.json renewed: 6 charts",
-    ]
-    return studied
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"garbage"])
+def test_a_figure_that_is_none(moved, content):
+    for name in ("fig3.png", "fig3.svg"):
+        (moved.path / "paper_figures" / name).write_bytes(content)
+    found = verified(moved)
+    assert set(found.wrong) == {"fig3.png", "fig3.svg"}
+    for name, (words,) in found.wrong.items():
+        assert words.startswith(f"drawing: paper_figures/{name}: damaged, or not")
+    assert found.findings == []
 
 
-def words(tree):
-    """(chart -> verdict where not identical, other lines of the study's part) of verify."""
-    status, text = say(verify, tree)
-    lines = re.split(r"figures identical.*\n", text)[1].splitlines()
-    verdicts = dict(line.split(None, 1) for line in lines[: len(CHARTS)])
-    assert [name.removesuffix(".png") for name in verdicts] == list(CHARTS)
-    found = {name: v for name, v in verdicts.items() if v != "identical"}
-    assert status == (0 if lines[-1] == "6 of 6 charts identical" else 1)
-    return found, lines[len(CHARTS) + 1 :]
+def test_every_line_of_the_manifest_counts(moved):
+    path = moved.path / "paper_figures" / "MANIFEST.json"
+    lines = path.read_text().splitlines(keepends=True)
+    package = next(i for i, line in enumerate(lines) if '"matplotlib"' in line)
+    digest = next(i for i, line in enumerate(lines) if '"pixels"' in line)
+    for missing in (0, package, digest, len(lines) - 1):
+        path.write_text("".join(lines[:missing] + lines[missing + 1 :]))
+        found = verified(moved)
+        assert len(found.findings) == 1
+        assert found.findings[0].startswith("paper_figures/MANIFEST.json: ")
+        assert [*found.wrong.values()] == 11 * [["file: as in SHA256SUMS"]]
 
 
-def test_every_chart_that_is_computed_has_a_contract():
-    charts = {name for name, (data, *_) in parts.CHARTS.items() if data in parts.FIXED}
-    assert charts == set(CHARTS)
+@pytest.mark.parametrize("content", ["", "[]", "null", "{}", "{", "\0"])
+def test_no_manifest_to_speak_of(moved, content):
+    (moved.path / "paper_figures" / "MANIFEST.json").write_text(content)
+    assert verified(moved).findings[0].startswith("paper_figures/MANIFEST.json: ")
 
 
-def test_without_a_contract_nothing_is_said_of_the_study(studied):
-    status, text = say(verify, studied)
-    assert status == 0
-    assert text.splitlines()[-1] == "11 of 11 figures identical"
+def test_sums_with_a_missing_or_broken_line(moved):
+    path = moved.path / "paper_figures" / "SHA256SUMS"
+    text = path.read_text()
+    lines = text.splitlines(keepends=True)
+
+    def finding():
+        found = verified(moved)
+        assert (found.status, found.wrong) == (1, {})
+        (words,) = found.findings
+        return words.removeprefix("paper_figures/SHA256SUMS: ")
+
+    path.write_text("".join(line for line in lines if "fig3.svg" not in line))
+    assert finding() == "no line for fig3.svg"
+    path.write_text(text.replace(lines[0][:64], "0" * 64))
+    assert finding() == f"not the hash of {lines[0].split()[1]} that MANIFEST.json has"
+    path.write_text("not a sum\n")
+    assert finding() == "line 1 is not a sha256 and a file's name"
+    path.unlink()
+    assert finding() == "missing"
 
 
-def test_charts_as_accepted(committed):
-    assert words(committed) == ({}, ["6 of 6 charts identical"])
-    assert say(accept, committed)[1].splitlines() == [
-        "nothing changed",
-        "study_figures: nothing changed",
-    ]
-    command = [shutil.which("sha256sum") or pytest.skip("no sha256sum"), "--strict", "-c"]
-    subprocess.run([*command, manifest.SUMS], cwd=parts.FOLDER, check=True, capture_output=True)
+def test_a_figure_that_no_scene_makes(moved):
+    shutil.copy(moved.path / FIG3, moved.path / "paper_figures" / "fig9.png")
+    found = verified(moved)
+    assert (found.status, found.wrong) == (1, {})
+    assert found.findings == ["paper_figures/fig9.png: no scene of config.yaml makes it"]
 
 
-def test_measured_charts_are_no_part_of_it(committed):
-    for change in (lambda path: path.write_bytes(b"x"), lambda path: path.unlink()):
-        change(committed.path / parts.published("seconds_uniform"))
-        assert words(committed) == ({}, ["6 of 6 charts identical"])
-
-
-def test_another_number(committed):
-    with netCDF4.Dataset(committed.path / "results" / "study" / "edges.nc", "a") as file:
-        file["numbers"][2000] = 7.0
-    found, rest = words(committed)
-    said = "data: results/study/edges.nc: variable numbers differs from block 1 on"
-    assert found == {"edges.png": f"{said} (value 1,024 of 3,000)"}
-    assert rest == ["5 of 6 charts identical"]
-
-
-def test_another_pixel(committed):
-    path = committed.path / parts.published("apart")
-    path.write_bytes(png(np.zeros((4, 33, 3), dtype=np.uint8), 300))
-    found, _ = words(committed)
-    assert found["apart.png"].startswith("drawing: study_figures/apart.png: ")
-
-
-def test_a_scene_is_looked_at_by_one_chart_alone(committed):
-    committed.edit("fig7", impacts=61)
-    found, rest = words(committed)
-    assert list(found) == ["needs.png"]
-    assert found["needs.png"].startswith("config: scenes.fig7.impacts: 60 in the manifest, 61 in")
-    assert rest[0].startswith("results/study/needs.nc: made from another config: ")
-
-
-def test_results_that_are_not_there(committed):
-    shutil.rmtree(committed.path / "results" / "study")
-    assert words(committed) == (
-        {},
+def test_an_added_scene_is_a_note_until_it_is_accepted(moved):
+    document = moved.document()
+    document["scenes"]["again"] = document["scenes"]["fig3"] | {"duration": 7, "formats": ["png"]}
+    moved.write(document)
+    assert moved.run("paper_figures/again.png").returncode == 0
+    found = verified(moved)
+    assert found.notes == ["again.png: new: ./reproduce accept adds it to the contract"]
+    assert (found.status, found.findings) == (0, [])
+    assert found.wrong == {"again.png": ["new"]}
+    assert found.last == "11 of 12 figures identical; 1 note"
+    assert accepting(moved) == (
+        0,
         [
-            "no results here: only the committed files were checked "
-            "(./reproduce study makes the rest)",
-            "6 of 6 charts identical",
+            "again.png  new",
+            "paper_figures/SHA256SUMS and paper_figures/MANIFEST.json renewed: 12 figures",
         ],
     )
-    before = (committed.path / parts.FOLDER / manifest.SUMS).read_bytes()
-    assert say(accept, committed) == (0, "nothing changed\n")
-    assert (committed.path / parts.FOLDER / manifest.SUMS).read_bytes() == before
+    assert verified(moved)[:4] == (0, {}, [], [])
 
 
-def test_stale_results_are_not_accepted(committed):
-    os.unlink(committed.path / "results" / "study" / "work.nc")
-    status, text = say(accept, committed)
-    assert (status, text.splitlines()[-1]) == (
-        0,
-        "study_figures stays as it is: results/study/work.nc is missing: "
-        "run ./reproduce study first",
-    )
+# ---- accept ----
 
 
-def test_the_rules_know_the_results_of_the_contract(moved):
-    """A dry run plans them with their records; the study's packages are not needed for that."""
-    target = parts.drawn("apart")
-    assert moved.planned(target) >= {target, parts.data("orbits")}
-    assert sys.modules.get("flint") is None
+def test_accept_says_what_changed_and_repeats_itself(moved):
+    assert accepting(moved) == (0, ["paper_figures: nothing changed"])
+    moved.edit("fig7", impacts=61)
+    status, (refusal,) = accepting(moved)
+    assert status == 1
+    assert "made from another config: impacts: 60 then, 61 now" in refusal
+    assert moved.run("paper_figures/fig7.png", "paper_figures/fig7.svg").returncode == 0
+    assert set(verified(moved).wrong) == {"fig7.png", "fig7.svg"}
+    status, lines = accepting(moved)
+    assert status == 0
+    assert lines[0] == "fig7.png  config: impacts: 60 in the manifest, 61 in config.yaml"
+    assert any(line.startswith("fig7.png  data: results/paper/lyapunov_fig7.nc") for line in lines)
+    assert any(line.startswith("fig7.svg  drawing: ") for line in lines)
+    assert not any(line.startswith("fig2.png") for line in lines)
+    assert verified(moved).status == 0
+
+
+def test_accept_without_results_is_one_line(moved):
+    shutil.rmtree(moved.path / "results")
+    before = contents(moved)
+    status, (line,) = accepting(moved)
+    assert status == 1
+    assert line.endswith("is missing: run ./reproduce first")
+    assert contents(moved) == before
