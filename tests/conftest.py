@@ -4,12 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from project import (  # ROOT, fresh_tree: for tests that import them here
-    ROOT,
-    Tree,
-    fresh_tree,
-    once,
-)
+from project import ROOT, Tree, fresh_tree, once
 
 from pipeline.records import sources
 
@@ -18,7 +13,8 @@ def pytest_configure(config):
     """Compile everything once, before workers would each do it for themselves."""
     if hasattr(config, "workerinput") or config.option.collectonly:
         return
-    subprocess.run([sys.executable, str(ROOT / "tests" / "warm.py")], check=True, cwd=ROOT)
+    # Where that fails, a test will tell why; each worker then compiles what it needs.
+    subprocess.run([sys.executable, str(ROOT / "tests" / "warm.py")], check=False, cwd=ROOT)
 
 
 @pytest.fixture(scope="session")
@@ -50,7 +46,7 @@ def _accept(folder, finished):
 
 @pytest.fixture(scope="session")
 def finished(shared):
-    """A copy in which everything was made once, from the state of a fresh clone; not to be changed."""
+    """A copy in which everything was made, from the state of a fresh clone; to be left as it is."""
     return Tree(shared("a folder with spaces", _finish))
 
 

@@ -146,8 +146,8 @@ def everything():
 
     def keep(stage, dataset):
         """The dataset after a round through its file, whose bytes are hashed."""
-        about = {"stage": stage, "ball": BALL, "energy": ENERGY, "config": {}}
-        path = artifacts.save(dataset, Path(folder.name) / f"{stage}.nc", **about)
+        path = Path(folder.name) / f"{stage}.nc"
+        artifacts.save(dataset, path, {}, stage=stage, k=BALL.k, g=BALL.g, energy=ENERGY)
         loaded = artifacts.load(path)
         hashes[stage] = artifacts.content_hash(loaded)
         hashes[f"{stage}.nc"] = digest(path.read_bytes())

@@ -11,10 +11,6 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "src")]
 
-from pseudorigid.kernel import compiled
-
-DONE = Path(compiled._CACHE) / "by the tests"
-
 
 def compile_all():
     """Call everything with the types that it is called with."""
@@ -44,6 +40,9 @@ def compile_all():
 
 
 if __name__ == "__main__":
-    if not DONE.exists():
+    from pseudorigid.kernel import compiled
+
+    done = Path(compiled._CACHE) / "by the tests"
+    if not done.exists():
         compile_all()
-        DONE.touch()
+        done.touch()
