@@ -1,7 +1,8 @@
 """Draw a sweep: a plane, or a line where k does not vary."""
 
-from job import one_line_errors, recorded, save_figure
+from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
+from pipeline.records.drawings import save_figure
 from pseudorigid.figures import atlas
 from pseudorigid.sweep import grid
 

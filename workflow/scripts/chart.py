@@ -1,7 +1,8 @@
 """Draw one chart of the study."""
 
-from job import one_line_errors, recorded, save_figure
+from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
+from pipeline.records.drawings import save_figure
 from pseudorigid.figures import study
 
 chart = snakemake.params.block

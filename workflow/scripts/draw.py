@@ -2,8 +2,9 @@
 
 from importlib import import_module
 
-from job import one_line_errors, recorded, save_figure
+from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
+from pipeline.records.drawings import save_figure
 
 scene = snakemake.params.block
 with one_line_errors(snakemake), recorded(snakemake):

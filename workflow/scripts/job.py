@@ -1,4 +1,4 @@
-"""What the scripts share: one line for a job that cannot be done, records, saving a picture."""
+"""What the scripts share: one line for a job that cannot be done, and records."""
 
 import sys
 import traceback
@@ -45,15 +45,3 @@ def recorded(snakemake):
     made = record.begin(config=snakemake.params.block, inputs=inputs, sources=sources)
     yield
     record.finish(made, snakemake.output[0], snakemake.output.record)
-
-
-def save_figure(figure, path):
-    """Save a picture in the format of its suffix, whole or not at all."""
-    from pathlib import Path
-
-    from pipeline.records.files import replacing
-    from pseudorigid.figures.canvas.render import render
-
-    data = render(figure, Path(path).suffix[1:])
-    with replacing(path) as part:
-        part.write_bytes(data)

@@ -53,7 +53,8 @@ def _verify(root, contract, against):
     notes = [f"note: {line}" for line in _grouped(behind)]
     print("", *findings, *notes, sep="\n")
     _say_what_is_missing(contract, [path for path, why in stale.items() if why == MISSING])
-    identical = len(contract.drawn) - len(different)
+    new = sum(words == NEW for _, words in behind)
+    identical = len(contract.drawn) - len(different) - new
     print(f"{identical} of {len(contract.drawn)} {contract.what} identical", end="")
     print(_counted(len(findings), "other finding") + _counted(len(notes), "note"))
     return different + findings, notes

@@ -1,6 +1,7 @@
 """Whether a block fits its declaration: pydantic's findings in our words, all of them."""
 
 import difflib
+import math
 import typing
 
 from pydantic import TypeAdapter, ValidationError
@@ -117,5 +118,7 @@ def _number_in(text):
     try:
         number = float(text)
     except ValueError:
+        return None
+    if not math.isfinite(number):
         return None
     return int(number) if number.is_integer() and abs(number) < 1e15 else number

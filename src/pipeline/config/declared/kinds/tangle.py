@@ -4,7 +4,7 @@ from ..fields import Branches
 from ..scene import OfManifolds, OfOrbits, OnSurface
 
 
-class Tangle(OnSurface, OfManifolds, OfOrbits):
+class Tangle(OfManifolds, OfOrbits, OnSurface):
     """manifolds on the energy surface
 
     Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period

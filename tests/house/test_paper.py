@@ -1,17 +1,16 @@
 """The numbers that the paper prints, from the scenes of config.yaml."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
+from project import shipped
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
-from pseudorigid.dynamics.orbits import motion, scene_orbits
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
-DOCUMENT = yaml.safe_load((Path(__file__).parents[1] / "config.yaml").read_text())
+DOCUMENT = shipped()
 SCENES = DOCUMENT["scenes"]
 BALL = Ball(**DOCUMENT["ball"])
 

@@ -12,11 +12,11 @@ import sys
 import mpmath
 import numpy as np
 import pytest
-from conftest import ROOT
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from judge import judge
 from mpmath import mpf
+from project import ROOT
 from test_flight import TAU, before, error
 
 from pseudorigid.dynamics.ball import Ball
@@ -256,7 +256,8 @@ def test_caps_raise(words, state):
     """With the cap at one look a flight ends in an error; with the real one in an impact."""
     assert BALL.time_to_impact(*state) > 0.0
     code = (
-        "from pseudorigid import Ball, flight\nflight.MOST_LOOKS = 1\n"
+        "from pseudorigid import Ball\nfrom pseudorigid.kernel import flight\n"
+        "flight.MOST_LOOKS = 1\n"
         f"try: print(Ball(0.2, 0.04).impact{state})\nexcept ArithmeticError as e: print(e)"
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}

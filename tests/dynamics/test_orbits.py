@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, orbit, symmetric_orbits
-from pseudorigid.dynamics.orbits import motion, scene_orbits
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
 BALL = Ball(0.2, 0.04)

@@ -1,108 +1,80 @@
-"""config.yaml: every mistake ends in one line that names the key, the value and what is allowed."""
-
-import copy
-import json
-import subprocess
-import sys
-from pathlib import Path
+"""Scenes of config.yaml: a mistake is one line with the key, the value and what is allowed."""
 
 import pytest
 import yaml
+from documents import AXES, SCENES, changed, complaint, complaints, good
 
 from pipeline import config
 
-ROOT = Path(__file__).parents[1]
-AXES = {"limits": [-1, 1], "ticks": [0]}
-SECTION = {"x": AXES, "xdot": AXES, "udot": AXES}
-VIEW = {"elevation": 40, "azimuth": 115}
-RESOLUTION = {"distance": 0.01, "bend": 10}
-
-SCENES = {
-    "a_portrait": {
-        "picture": "portrait",
-        "energy": 0.01,
-        "starts": [-0.5, 0.5],
-        "impacts": [10, 20],
-        "sea": [1],
-        "view": VIEW,
-        "axes": SECTION,
-    },
-    "a_motion": {
-        "picture": "motion",
-        "energy": 0.01,
-        "period": 6,
-        "type": "elliptic",
-        "duration": 16,
-        "formats": ["png", "svg", "pdf"],
-        "axes": {"t": {"limits": [0, 16], "ticks": [0, 16]}, "displacement": AXES},
-    },
-    "a_tangle": {
-        "picture": "tangle",
-        "energy": 0.01,
-        "period": 6,
-        "type": "hyperbolic",
-        "branches": {"outer": {"length": 2}},
-        "resolution": RESOLUTION,
-        "starts": [0.5],
-        "impacts": [10],
-        "view": VIEW,
-        "axes": SECTION,
-    },
-    "a_closeup": {
-        "picture": "closeup",
-        "energy": 0.01,
-        "period": 6,
-        "type": "hyperbolic",
-        "point": 5,
-        "window": {"x": [-0.1, 0.1], "xdot": [-0.1, 0.1]},
-        "length": 2,
-        "resolution": RESOLUTION,
-        "axes": {"x": AXES, "xdot": AXES},
-    },
-    "exponents": {
-        "picture": "exponents",
-        "energy": 0.01,
-        "starts": [0.5, 0.6],
-        "impacts": 1000,
-        "records": 10,
-        "axes": {"impact": {"limits": [0, 1000], "ticks": [0, 1000]}, "exponent": AXES},
-    },
-}
-GOOD = {"ball": {"k": 0.2, "g": 0.04}, "scenes": SCENES}
-
-
-def changed(path, value):
-    """A copy of GOOD with the value at a dotted path replaced, or the key removed by `...`."""
-    document = copy.deepcopy(GOOD)
-    block = document
-    *parents, last = (int(key) if key.isdigit() else key for key in path.split("."))
-    for key in parents:
-        block = block[key]
-    if value is ...:
-        del block[last]
-    else:
-        block[last] = value
-    return document
-
-
-def complaint(document):
-    with pytest.raises(config.ConfigError) as raised:
-        config.check(document)
-    line = str(raised.value)
-    assert line.count("\n") == 0
-    return line
-
 
 def test_a_good_config_comes_back_complete():
-    checked = config.check(copy.deepcopy(GOOD))
+    checked = config.check(good())
     assert list(checked["scenes"]) == list(SCENES)
     portrait = checked["scenes"]["a_portrait"]
     assert portrait["ball"] == {"k": 0.2, "g": 0.04}
     assert portrait["formats"] == ["png"]
 
 
-def test_the_committed_config_is_good():
-    assert set(config.load(ROOT / "config.yaml")["scenes"]) >= {f"fig{n}" for n in range(2, 9)}
+def test_what_may_be_left_out_has_a_default():
+    document = good()
+    for field in ("sea", "view", "axes"):
+        del document["scenes"]["a_portrait"][field]
+    portrait = config.check(document)["scenes"]["a_portrait"]
+    assert portrait["sea"] == []
+    assert portrait["view"] == {"elevation": 40, "azimuth": 115}
+    assert "axes" not in portrait
+    assert portrait["formats"] == ["png"]
+
+
+@pytest.mark.parametrize("scene", ["a_portrait", "exponents"])
+@pytest.mark.parametrize("impacts", [30, [30, 40]])
+def test_impacts_are_a_number_or_a_list(scene, impacts):
+    document = changed(f"scenes.{scene}.impacts", impacts)
+    assert config.check(document)["scenes"][scene]["impacts"] == impacts
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (0.1, None),
+        ({"x": 0.1, "xdot": 0.05}, None),
+        ({"x": 0.1, "xdot": -0.02}, None),
+        ({"x": 0.1, "y": 0.02}, None),
+        ({"x": 0.1, "y": -0.02}, None),
+        ({"x": 0.5739, "y": 0}, None),  # the section ends at 0.2 + sqrt(0.14) = 0.57417
+        ({"x": 0.5742, "y": 0}, "starts[0]: {'x': 0.5742, 'y': 0} is not allowed"),
+        ({"x": 0.2, "xdot": 0.17}, "xdot^2 < 2E + 2gx - kx^2"),  # sqrt(0.028) = 0.1673
+        ({"x": 0.2, "xdot": -0.16}, "xdot + udot > 0"),
+        ({"x": 0.2, "y": 0.19}, "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"),  # sqrt(0.0336) = 0.1833
+        ({"x": 0.1}, "a point {x, xdot} or {x, y}"),
+        ({"x": 0.1, "y": 0, "xdot": 0}, "a point {x, xdot} or {x, y}"),
+        ({"x": 0.1, "z": 0}, "starts[0].z: unknown key: allowed here: x, xdot, y"),
+        ({"y": 0.1}, "starts[0].x: missing"),
+        ({"x": "0.1", "y": 0}, "write 0.1"),
+    ],
+)
+def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
+    document = changed("scenes.a_portrait.starts", [start, 0.5])
+    if words is None:
+        assert config.check(document)["scenes"]["a_portrait"]["starts"][0] == start
+    else:
+        line = complaint(document)
+        assert line.startswith("scenes.a_portrait.starts[0]")
+        assert words in line
+
+
+def test_all_mistakes_of_a_file_are_told_at_once():
+    document = good()
+    document["scenes"]["a_motion"] |= {"period": 0, "type": "eliptic"}
+    document["scenes"]["exponents"]["record"] = 3
+    document["scenes"]["a_tangle"]["energy"] = 0.9
+    found = complaints(document)
+    assert [line.split(": ")[0] for line in found] == [
+        "scenes.a_motion.period",
+        "scenes.a_motion.type",
+        "scenes.a_tangle.energy",
+        "scenes.exponents.record",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -117,7 +89,7 @@ def test_the_committed_config_is_good():
         ("ball.k", None, ["ball.k: nothing"]),
         ("ball.k", float("nan"), ["ball.k: nan"]),
         ("ball.k", [0.2], ["ball.k: [0.2]"]),
-        ("scenes.a_portrait.method", {"scan": 0}, ["a_portrait.method.tolerance: missing"]),
+        ("scenes.a_portrait.method", {"scan": 0.1}, ["a_portrait.method.tolerance: missing"]),
         ("scenes.a_portrait.method", "scan", ["method: 'scan'", "the keys scan and tolerance"]),
         *(
             (f"scenes.{scene}.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
@@ -192,7 +164,8 @@ def test_the_committed_config_is_good():
         ("scenes.a_portrait.starts", [], ["starts: []"]),
         ("scenes.a_portrait.starts", [0.1, "0.2"], ["starts[1]: '0.2'", "write 0.2"]),
         ("scenes.a_portrait.impacts", [10], ["impacts: [10]", "each of the 2 starts"]),
-        ("scenes.a_portrait.impacts", 10, ["impacts: 10", "a list"]),
+        ("scenes.a_portrait.impacts", "many", ["impacts: 'many'", "a whole number"]),
+        ("scenes.a_portrait.impacts", 6_000_000, ["at most 10000000 impacts"]),
         ("scenes.a_portrait.impacts", [10, 0], ["impacts[1]: 0"]),
         ("scenes.a_portrait.impacts", [10, -5], ["impacts[1]: -5"]),
         ("scenes.a_portrait.impacts", [10, 2.5], ["impacts[1]: 2.5", "whole number"]),
@@ -211,7 +184,8 @@ def test_the_committed_config_is_good():
         ("scenes.a_closeup.length", 1e300, ["a_closeup.length: 1e+300", "at most 10000000 times"]),
         ("scenes.a_closeup.window.x", [0.1, 0.1], ["window.x: [0.1, 0.1]", "increasing"]),
         ("scenes.exponents.impacts", 0, ["impacts: 0"]),
-        ("scenes.exponents.impacts", [1, 2], ["impacts: [1, 2]", "whole number"]),
+        ("scenes.exponents.impacts", [99, 9], ["records: 10", "at most impacts = 9"]),
+        ("scenes.exponents.impacts", [99] * 3, ["impacts: [99, 99, 99]", "each of the 2 starts"]),
         ("scenes.exponents.impacts", 6_000_000, ["impacts: 6000000", "over all its starts"]),
         ("scenes.exponents.records", 1001, ["records: 1001", "at most impacts = 1000"]),
     ],
@@ -246,93 +220,3 @@ def test_what_is_said_to_be_written_instead_is_taken(path, value, advice):
     assert line.partition("; this is text to YAML, write ")[2] == advice
     if advice:
         config.check(changed(path, yaml.safe_load(advice)))
-
-
-@pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
-def test_something_else_than_a_config_is_refused(document):
-    complaint(document)
-
-
-@pytest.mark.parametrize(
-    ("text", "part"),
-    [
-        (b"", "nothing is not allowed"),
-        (b"ball: {k: 0.2\nscenes: [", "line 2, column"),
-        (b"ball: {k: 0.2, g: 0.04, k: 0.3}", "the key k is given twice"),
-        (b"ball: {k: 0.2}\nball: {k: 0.3}", "line 2, column 1: not valid YAML: the key ball"),
-        (b"\tball: 1", "not valid YAML"),
-        (b"ball: \xff", "not UTF-8"),
-        (b"ball: !!python/object:os.system x", "not valid YAML"),
-        (b"ball: 2001-99-99", "not valid YAML"),
-        (b"--- 1\n--- 2\n", "not valid YAML"),
-        (b"ball: &a [*a]\nscenes: {}", "ball: "),
-        (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
-        (b"ball: {[1, 2]: 3}", "line 1, column 8: not valid YAML: found unhashable key"),
-        (b"? [a]\n: 3\n? [a]\n: 4", "found unhashable key"),
-        (b"[" * 3000, "config.yaml: nested too deeply"),
-        (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
-        (b"ball: !!bool x", "not valid YAML"),
-        (b"ball: !!int ''", "not valid YAML"),
-        (b"ball: !!timestamp x", "not valid YAML"),
-        (b"ball: !!map [1]", "not valid YAML"),
-    ],
-)
-def test_a_file_that_is_no_config_is_refused_in_one_line(tmp_path, text, part):
-    path = tmp_path / "config.yaml"
-    path.write_bytes(text)
-    with pytest.raises(config.ConfigError) as raised:
-        config.load(path)
-    line = str(raised.value)
-    assert line.startswith("config.yaml: ")
-    assert part in line
-    assert "\n" not in line
-
-
-def test_a_missing_file_is_refused_in_one_line(tmp_path):
-    with pytest.raises(config.ConfigError, match=r"config\.yaml: cannot be read: No such file"):
-        config.load(tmp_path / "config.yaml")
-
-
-def test_equal_stages_are_computed_once():
-    scenes = copy.deepcopy(SCENES)
-    scenes["again"] = scenes["a_closeup"] | {"energy": 0.02}
-    serves = config.served(config.check({"ball": GOOD["ball"], "scenes": scenes})["variants"])
-    assert serves["paper", "a_tangle", "periodic"] == "results/paper/periodic_a_motion.nc"
-    assert serves["paper", "a_closeup", "periodic"] == "results/paper/periodic_a_motion.nc"
-    assert serves["paper", "a_closeup", "manifolds"] == "results/paper/manifolds_a_closeup.nc"
-    assert serves["paper", "again", "periodic"] == "results/paper/periodic_again.nc"
-
-
-def test_drawing_does_not_decide_data():
-    block = config.check(copy.deepcopy(GOOD))["scenes"]["exponents"]
-    other = block | {"axes": {}, "formats": ["png", "pdf"]}
-    assert config.stages(block) == config.stages(other)
-    assert json.dumps(config.stages(block))
-
-
-def test_reading_the_config_imports_nothing_heavy():
-    program = (
-        "import sys, pseudorigid.config, pseudorigid.sources\n"
-        f"pseudorigid.config.load({str(ROOT / 'config.yaml')!r})\n"
-        "print(*{'numpy', 'numba', 'xarray', 'matplotlib', 'netCDF4'} & set(sys.modules))"
-    )
-    command = [sys.executable, "-c", program]
-    environment = {"PYTHONPATH": str(ROOT / "src")}
-    assert (
-        subprocess.run(
-            command, env=environment, capture_output=True, text=True, check=True
-        ).stdout.split()
-        == []
-    )
-
-
-def test_numbers_in_the_committed_file_are_numbers():
-    def texts(value):
-        if isinstance(value, dict):
-            return [text for item in value.values() for text in texts(item)]
-        if isinstance(value, list):
-            return [text for item in value for text in texts(item)]
-        return [value] if isinstance(value, str) else []
-
-    document = yaml.safe_load((ROOT / "config.yaml").read_text())
-    assert not [text for text in texts(document) if text[0].isdigit()]
