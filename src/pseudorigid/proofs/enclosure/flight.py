@@ -51,7 +51,7 @@ class Gap:
         return Gap(+self.x, +self.c, +self.s, +self.g)
 
 
-def first_root(x, c, s, g):
+def first_root(x, c, s, g, after=None):
     """The time of the next impact: the smallest t > 0 with f(t) = 0.
 
     Parameters
@@ -60,6 +60,8 @@ def first_root(x, c, s, g):
         Position at the impact, rate of strain after it, and s = xdot + udot before it.
     g : arb
         Gravity.
+    after : arb, optional
+        A time up to which f < 0 is known, for impacts that graze.
 
     Returns
     -------
@@ -73,13 +75,13 @@ def first_root(x, c, s, g):
         Where an earlier touch of the floor cannot be excluded, or s may be zero.
     """
     if isinstance(x, Jet):
-        root = first_root(x.constant, c.constant, s.constant, g)
+        root = first_root(x.constant, c.constant, s.constant, g, after)
         return _expand(Gap(x, c, s, g), root)
     gap = Gap(x, c, s, g)
-    return refine(gap, *isolate(gap))
+    return refine(gap, *isolate(gap, after))
 
 
-def isolate(gap):
+def isolate(gap, after=None):
     """(low, high): f < 0 on (0, low], and one root in (low, high), where f' > 0.
 
     Both are exact. Works with MARCH_BITS, and where they do not decide with up to the context's.
@@ -88,7 +90,7 @@ def isolate(gap):
     while True:
         with ctx.workprec(bits):
             try:
-                return _march(gap.rounded())
+                return _march(gap.rounded(), after)
             except Undecided:
                 if bits >= most:
                     raise
@@ -131,12 +133,12 @@ def _expand(gap, root):
     return time
 
 
-def _march(gap):
+def _march(gap, after):
     x, c, s, g = gap.x, gap.c, gap.s, gap.g
     amplitude = (x * x + c * c).sqrt()
     bend = (g + amplitude).upper()
     jerk = amplitude.upper()
-    t = _first_step(x, c, s, g, jerk)
+    t = _first_step(x, c, s, g, jerk) if after is None else after
     far = _long_flight(gap, amplitude)
     for _ in range(_MOST_STEPS):
         if far is not None and far[0] < t < far[1]:

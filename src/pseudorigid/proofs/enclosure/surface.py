@@ -61,6 +61,9 @@ class Surface:
     ----------
     k, g, energy : int, Fraction, Decimal or str
         Exact: Euler inertia, gravity and total energy, dimensionless.
+    width : same
+        With a width the energy is every one from `energy` to `energy + width`: what is proved then
+        holds for each of them.
 
     Raises
     ------
@@ -71,10 +74,11 @@ class Surface:
     k: Fraction
     g: Fraction
     energy: Fraction
+    width: Fraction = Fraction(0)
     _balls: dict = field(default_factory=dict, compare=False, repr=False)
 
     def __post_init__(self):
-        for name in ("k", "g", "energy"):
+        for name in ("k", "g", "energy", "width"):
             object.__setattr__(self, name, exact(name, getattr(self, name)))
         if not 0 < self.k <= 1:
             raise ValueError(f"k = {self.k} is not allowed: 0 < k <= 1")
@@ -92,7 +96,10 @@ class Surface:
         if ctx.prec not in self._balls:
             if len(self._balls) > 50:
                 self._balls.clear()
-            self._balls[ctx.prec] = tuple(ball_of(a) for a in (self.k, self.g, self.energy))
+            k, g, energy = (ball_of(a) for a in (self.k, self.g, self.energy))
+            if self.width:
+                energy = energy.union(ball_of(self.energy + self.width))
+            self._balls[ctx.prec] = k, g, energy
         return self._balls[ctx.prec]
 
     def radius(self):
