@@ -33,8 +33,9 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
     Parameters
     ----------
     period, radius, window
-        Of the saddles: the only orbit within `radius` of the S's centres is the paper's.
-    crossing : (Fraction, Fraction)
+        Of the saddles: the only orbit within `radius` of the S's centres is the paper's, whose
+        window one of them lies in (None: any orbit).
+    crossing : (Fraction, Fraction) or None
         M_0 must lie between these x: says which connection it is.
     entropy : Fraction
         A lower bound to be proved.
@@ -45,10 +46,10 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
         if len(centres) != period:
             raise NotProved(f"the certificate has {len(centres)} saddles, not {period}")
-        saddle, _ = periodic.prove(surface, centres, radius)
+        saddle = periodic.prove(surface, centres, radius)
         if saddle.type != "hyperbolic":
             raise NotProved(f"the orbit at the sets is {saddle.type}, not hyperbolic")
-        if not any(periodic.inside(surface, z, window) for z in saddle.points):
+        if window and not any(periodic.inside(surface, z, window) for z in saddle.points):
             raise NotProved("no point is proved to lie in the window of the paper's figure")
     with ctx.workprec(BITS):
         saddles, chain, leaves, enters = _sets(certificate)
@@ -67,7 +68,7 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
             if other is not middle and not middle.apart(other):
                 raise NotProved(f"{middle.name} is not proved to be disjoint from {other.name}")
         x = middle.box()[0]
-        if not ball_of(crossing[0]) < x < ball_of(crossing[1]):
+        if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
             raise NotProved("the connection does not pass y = 0 where the statement says")
         loop = len(chain) + 1 + (leaves - enters) % period
         if gcd(period, loop) != 1:
@@ -91,16 +92,29 @@ def _sets(certificate):
     saddles = [
         _hset(f"S_{i}", row) for i, row in enumerate(certificate.numbers("saddles", 6))
     ]
+    places = [certificate.number(name) for name in ("leaves", "enters")]
+    if not all(place in range(len(saddles)) for place in places):
+        raise NotProved("the certificate's chain does not begin and end at its saddles")
+    leaves, enters = map(int, places)
+    _symmetric(certificate.numbers("saddles", 6), leaves + enters)
     approach = certificate.numbers("approach", 6)
     steps = len(approach)
     chain = [_hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
     (x, ux, uy) = certificate.row("middle", 3)
     middle = _hset("M_0", [x, 0, ux, uy, ux, -uy])
     back = [one.mirrored(f"M_{steps - i}") for i, one in enumerate(chain)]
-    places = [certificate.number(name) for name in ("leaves", "enters")]
-    if not all(place in range(len(saddles)) for place in places):
-        raise NotProved("the certificate's chain does not begin and end at its saddles")
-    return saddles, [*chain, middle, *reversed(back)], int(places[0]), int(places[1])
+    return saddles, [*chain, middle, *reversed(back)], leaves, enters
+
+
+def _symmetric(rows, total):
+    """Check that the reversor maps set i to set `total` - i, its two sides exchanged.
+
+    Then it maps paths to paths backwards, and the one connection to itself: M_0's orbit has its
+    point on y = 0, where one manifold is the mirror image of the other.
+    """
+    for i, (x, y, ux, uy, sx, sy) in enumerate(rows):
+        if rows[(total - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
+            raise NotProved(f"S_{i} has no mirror image among the saddles' sets")
 
 
 def _hset(name, row):

@@ -14,17 +14,20 @@ from ..enclosure.surface import ball_of
 from .certificate import Certificate, Finding, NotProved, box, lowest
 
 BITS = 256
-DIGITS = 32  # of coordinates, printed and proved
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, enclosed: points ((x, y), ...), impacts, the product of its DP, type."""
+    """A periodic orbit, enclosed: points ((x, y), ...), impacts, the product of its DP, type.
+
+    `radius`, a Fraction: of the boxes around the centres in which it is the only one.
+    """
 
     points: tuple
     impacts: tuple
     matrix: arb_mat
     type: str
+    radius: object
 
     @property
     def trace(self):
@@ -44,17 +47,17 @@ def check(text, surface, *, period, type, radius, window=None):
             raise NotProved(f"the certificate has {len(centres)} points, not {period}")
         if not size >= radius:
             raise NotProved(f"the radius is {float(size):g}, the statement's {float(radius):g}")
-        orbit, margin = prove(surface, centres, size)
+        orbit = prove(surface, centres, size)
         if orbit.type != type:
             raise NotProved(f"the orbit is {orbit.type}, not {type}")
         if window is not None and not any(inside(surface, z, window) for z in orbit.points):
             raise NotProved("no point is proved to lie in the window of the paper's figure")
-        return Finding(_digits(surface, orbit), {"radius": float(size), "newton": margin},
-                       {"orbit": orbit})  # fmt: skip
+        margins = {"radius": float(size), "trace": lowest(abs(abs(orbit.trace) - 2))}
+        return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
 
 
 def prove(surface, centres, radius):
-    """The only Orbit with a point within `radius` of each centre, per coordinate, and its margin.
+    """The only Orbit with a point within `radius` of each centre, per coordinate.
 
     Parameters
     ----------
@@ -64,8 +67,7 @@ def prove(surface, centres, radius):
 
     Returns
     -------
-    Orbit, float
-        The margin is the part of the box's radius that the Newton image leaves free, 0 to 1.
+    Orbit
 
     Raises
     ------
@@ -80,19 +82,14 @@ def prove(surface, centres, radius):
         for part, whole in zip(image, boxes, strict=True):
             if not all(w.contains_interior(p) for p, w in zip(part, whole, strict=True)):
                 raise NotProved("the Newton image of the boxes does not lie inside them")
-        margin = 1.0 - max(
-            float((abs(p - w.mid()).upper() / w.rad()).upper())
-            for part, whole in zip(image, boxes, strict=True)
-            for p, w in zip(part, whole, strict=True)
-        )
-        orbit = _enclose(surface, _narrow(surface, image))
+        orbit = _enclose(surface, _narrow(surface, image), radius)
     except (Undecided, ZeroDivisionError) as error:
         raise NotProved(f"the boxes around the orbit: {error}") from None
     for i, one in enumerate(orbit.points):
         for other in orbit.points[:i]:
             if all(a.overlaps(b) for a, b in zip(one, other, strict=True)):
                 raise NotProved("two points of the orbit may be one: its period may be shorter")
-    return orbit, margin
+    return orbit
 
 
 def _newton(surface, boxes):
@@ -127,7 +124,7 @@ def _narrow(surface, boxes):
         boxes = after
 
 
-def _enclose(surface, points):
+def _enclose(surface, points, radius):
     matrix = arb_mat([[1, 0], [0, 1]])
     impacts = []
     for point in points:
@@ -143,7 +140,7 @@ def _enclose(surface, points):
     (kind,) = [name for name, holds in kinds.items() if holds] or [None]
     if kind is None:
         raise NotProved("the trace may be 2 or -2: the orbit's type is not proved")
-    return Orbit(tuple(tuple(z) for z in points), tuple(impacts), matrix, kind)
+    return Orbit(tuple(tuple(z) for z in points), tuple(impacts), matrix, kind, radius)
 
 
 def inside(surface, point, window):

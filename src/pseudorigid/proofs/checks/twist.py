@@ -66,12 +66,7 @@ def check_zero(text, k, g, *, radius, width):
             raise NotProved("the twist is not proved to fall through zero between the energies")
         if not whole[1] < 0:
             raise NotProved("the second twist is not proved to be negative between the energies")
-        digits = {
-            "energy": between.constants()[2],
-            "second twist": whole[1],
-            "twist below": first[0],
-            "twist above": last[0],
-        }
+        digits = {"energy": between.constants()[2], "second twist": whole[1]}
         margins = {
             "twist": min(lowest(first[0]), lowest(-last[0])),
             "second twist": lowest(-whole[1]),
@@ -86,14 +81,7 @@ def _elliptic(surface, centres, certificate, period, radius):
     size = certificate.number("radius")
     if not size >= radius:
         raise NotProved(f"the radius is {float(size):g}, the statement's {float(radius):g}")
-    orbit, _ = periodic.prove(surface, centres, size)
+    orbit = periodic.prove(surface, centres, size)
     if orbit.type != "elliptic":
         raise NotProved(f"the orbit is {orbit.type}, not elliptic")
     return orbit
-
-
-def values(surface, centre, radius, order=3):
-    """The twists of the fixed point near `centre`, as balls (for the picture)."""
-    with ctx.workprec(periodic.BITS):
-        orbit, _ = periodic.prove(surface, [centre], radius)
-        return birkhoff.normal_form(surface, orbit, order).twists

@@ -89,7 +89,10 @@ class Surface:
             raise ValueError(f"energy = {self.energy} is not allowed: above {lowest}")
 
     def __str__(self):
-        return f"k = {self.k}, g = {self.g}, E = {self.energy}"
+        return ", ".join(
+            f"{name} = {value if value.denominator < 10**15 else float(value)}"
+            for name, value in (("k", self.k), ("g", self.g), ("E", self.energy))
+        )
 
     def constants(self):
         """k, g and E in balls of the context's precision."""

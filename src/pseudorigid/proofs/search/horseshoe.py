@@ -43,12 +43,13 @@ def propose(surface, ball, points, plan, measure):
     Parameters
     ----------
     points : list of (x, y)
-        The hyperbolic orbit, floats, the first two mirror images of each other.
+        The hyperbolic orbit, floats; its own mirror image.
     measure : callable
         What a checker measures of a text: [(beyond, room), ...] of the coverings, in order.
     """
     with ctx.workprec(BITS):
         saddles = polished(surface, points, NEWTON_STEPS)
+        mirror = _mirror_images(saddles)
         rho, expanding = _directions(surface, saddles, plan.side)
         multiplier = rho ** len(points)
         numbers = [[float(a) for a in pair] for pair in (saddles[0], expanding[0])]
@@ -57,7 +58,7 @@ def propose(surface, ball, points, plan, measure):
         sigma = arb(sigma) / multiplier**DEEP
         track = _connection(surface, saddles[0], expanding[0], sigma, impacts, plan.steps)
         first = (impacts - plan.steps) % len(points)
-        text = _text(surface, saddles, expanding, rho, track, impacts, first, plan)
+        text = _text(surface, saddles, mirror, expanding, rho, track, impacts, first, plan)
     free = [["0.0", "0.0"]] * (len(points) + 2 * plan.steps + 2)
     measured = measure(text + rows("margins", free))
     margins = [[f"{np.floor(1000 * m) / 1000:.3f}" for m in pair] for pair in measured]
@@ -70,6 +71,17 @@ def _times(matrix, vector):
 
 def _length(vector):
     return (vector[0] * vector[0] + vector[1] * vector[1]).sqrt().mid()
+
+
+def _mirror_images(saddles):
+    """Index of the mirror image of each point; ValueError where the orbit has none."""
+    found = []
+    for x, y in saddles:
+        gaps = [float(abs(x - a) + abs(y + b)) for a, b in saddles]
+        found.append(int(np.argmin(gaps)))
+        if min(gaps) > 1e-20:
+            raise ValueError("the orbit is not its own mirror image: no symmetric connection")
+    return found
 
 
 def _directions(surface, saddles, side):
@@ -146,7 +158,7 @@ def _mirror(vector):
     return [vector[0], -vector[1]]
 
 
-def _text(surface, saddles, expanding, rho, track, middle, first, plan):
+def _text(surface, saddles, mirror, expanding, rho, track, middle, first, plan):
     """The certificate without its margins.
 
     `track` is the connection, with y = 0 at index `middle`; index `first` is the saddle near which
@@ -157,13 +169,20 @@ def _text(surface, saddles, expanding, rho, track, middle, first, plan):
     chain = range(middle - steps, middle + steps + 1)
     directions = {i: [a / _length(tangents[i]) for a in tangents[i]] for i in chain}
     begin, end = chain[0], chain[-1]
-    enters = (2 - first) % count  # after the mirror image of `first`, which is 1 - first
+    leaves = (first - 1) % count
+    enters = mirror[leaves]
+    contracting = [_mirror(expanding[i]) for i in mirror]
     size = arb(plan.size)
-    start = _along(points[begin], saddles[first], expanding[first], expanding[1 - first])
+    start = _along(points[begin], saddles[first], expanding[first], contracting[first])
     widest = (size * rho - abs(start)) / plan.room * _length(expanding[first])
+    if not widest > 0:
+        raise ValueError(
+            f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "
+            f"{float(abs(start)):.2g} from its saddle, beyond the saddle's set"
+        )
     # the last set's image is to be `room` times as wide as the saddle's set
     last = _times(surface.jacobian(*points[end])[0], directions[end])
-    reach = _along(last, (0, 0), expanding[enters], expanding[1 - enters])
+    reach = _along(last, (0, 0), expanding[enters], contracting[enters])
     stretch = _length(tangents[end]) / _length(tangents[begin])
     kappa = ((widest * stretch * abs(reach) / (plan.room * size)).log() / (2 * steps)).exp()
     widths = {
@@ -172,15 +191,15 @@ def _text(surface, saddles, expanding, rho, track, middle, first, plan):
     }
     sides = {i: [widths[i] * a for a in directions[i]] for i in chain}
     at_saddles = [
-        [*z, *(size * a for a in u), *(size * a for a in _mirror(v))]
-        for z, u, v in zip(saddles, expanding, expanding[1::-1] + expanding[:1:-1], strict=True)
+        [*z, *(size * a for a in u), *(size * a for a in s)]
+        for z, u, s in zip(saddles, expanding, contracting, strict=True)
     ]
     approach = [[*points[i], *sides[i], *_mirror(sides[2 * middle - i])] for i in chain[:steps]]
     decimals = [[decimal(a, DIGITS) for a in row] for row in at_saddles + approach]
     half = [decimal(a, DIGITS) for a in (points[middle][0], *sides[middle])]
     return (
         header("horseshoe", surface)
-        + f"leaves = {(first - 1) % count}\nenters = {enters}\n"
+        + f"leaves = {leaves}\nenters = {enters}\n"
         + "# a row: centre, expanding side, contracting side\n"
         + rows("saddles", decimals[:count])
         + "# up to y = 0; the rest of the chain is the mirror image\n"
@@ -190,8 +209,8 @@ def _text(surface, saddles, expanding, rho, track, middle, first, plan):
     )
 
 
-def _along(point, origin, expanding, mirrored):
+def _along(point, origin, expanding, contracting):
     """How far from the origin a point lies along the expanding side, in units of that side."""
-    (ux, uy), (sx, sy) = expanding, _mirror(mirrored)
+    (ux, uy), (sx, sy) = expanding, contracting
     dx, dy = (p - o for p, o in zip(point, origin, strict=True))
     return (dx * sy - dy * sx) / (ux * sy - uy * sx)

@@ -8,7 +8,7 @@ from .writing import decimal, header, rows
 
 BITS = 160
 DIGITS = 36
-LARGEST = 2  # minus the decimal exponent of the first size that is tried
+LARGEST, SMALLEST = 2, 12  # minus the decimal exponents of the sizes that are tried
 
 
 def polished(surface, points, steps=8):
@@ -27,30 +27,40 @@ def polished(surface, points, steps=8):
                 rest[2 * i + r, 0] = (image[r] - points[j][r]).mid()
         step = slopes.solve(rest)
         points = [
-            [(p - step[2 * i + r, 0]).mid() for r, p in enumerate(point)]
+            [_clean(p - step[2 * i + r, 0]) for r, p in enumerate(point)]
             for i, point in enumerate(points)
         ]
     return points
 
 
+def _clean(value):
+    """The midpoint, and 0 where only rounding is left of it."""
+    middle = value.mid()
+    return middle if abs(middle) > arb(2) ** (16 - ctx.prec) else arb(0)
+
+
 def propose(surface, points, holds):
     """The text of a certificate for an orbit near `points`, floats (x, y).
 
-    `holds(text)` says whether a checker takes it: the size is the largest of one digit for which
-    it does; where none is left, that of the smallest that was tried.
+    `holds(text)` says whether a checker takes it; the size is the largest for which it does.
     """
     with ctx.workprec(BITS):
         points = polished(surface, points)
         centres = [[decimal(a, DIGITS) for a in point] for point in points]
-    sizes = [Fraction(m, 10**e) for e in range(LARGEST, 13) for m in range(9, 0, -1)]
+    return largest(lambda size: _text(surface, centres, size), holds)
+
+
+def largest(text, holds):
+    """text(size) of the largest size of one digit that holds; of the smallest if none does."""
+    sizes = [Fraction(m, 10**e) for e in range(LARGEST, SMALLEST + 1) for m in range(9, 0, -1)]
     low, high = 0, len(sizes) - 1  # what holds for a size holds for smaller ones
     while low < high:
         middle = (low + high) // 2
-        if holds(_text(surface, centres, sizes[middle])):
+        if holds(text(sizes[middle])):
             high = middle
         else:
             low = middle + 1
-    return _text(surface, centres, sizes[high])
+    return text(sizes[high])
 
 
 def _text(surface, centres, size):

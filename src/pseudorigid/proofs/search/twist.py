@@ -10,27 +10,27 @@ from flint import acb, arb, ctx
 
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface
-from .periodic import BITS, DIGITS, polished
+from .periodic import BITS, DIGITS, largest, polished
 from .writing import decimal, header, rows
 
 TWIST_DIGITS = 13
 ENERGY_DIGITS = 13  # decimals of the energy
 
 
-def propose(surface, points, radius):
-    """The text of a certificate for the elliptic orbit near `points`, floats (x, y)."""
+def propose(surface, points, holds):
+    """The text of a certificate for the elliptic orbit near `points`, floats (x, y).
+
+    `holds(text)` says whether a checker takes it; the size is the largest for which it does.
+    """
     with ctx.workprec(BITS):
         points = polished(surface, points)
         centres = [[decimal(a, DIGITS) for a in point] for point in points]
         value = decimal(estimate(surface, points), TWIST_DIGITS)
-    return (
-        header("twist", surface)
-        + f"radius = {float(radius):.0e}\ntwist = {value}\n"
-        + rows("points", centres)
-    )
+    first = header("twist", surface) + f"twist = {value}\n" + rows("points", centres)
+    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
 
 
-def propose_zero(k, g, low, high, start, radius):
+def propose_zero(k, g, low, high, start, holds):
     """The text of a certificate for a zero of the twist at an energy between two Fractions.
 
     `start` is the fixed point at one of these energies, floats (x, y).
@@ -48,11 +48,9 @@ def propose_zero(k, g, low, high, start, radius):
                 high = middle
         surface = Surface(k, g, low)
         centres = [[decimal(a, DIGITS) for a in polished(surface, point)[0]]]
-    return (
-        header("zero of the twist", surface)
-        + f"width = {float(high - low):.0e}\nradius = {float(radius):.0e}\n"
-        + rows("points", centres)
-    )
+    first = header("zero of the twist", surface)
+    first += f"width = {float(high - low):.0e}\n" + rows("points", centres)
+    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
 
 
 def estimate(surface, points):
