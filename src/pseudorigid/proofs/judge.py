@@ -1,16 +1,19 @@
-"""The judge: flight times and orbits of doubles, proved in ball arithmetic and rounded once.
+"""The judge: flight times, orbits and impacts of doubles, proved in ball arithmetic.
 
 A state of three doubles need not lie on any one energy surface: here it is taken as it is. Where
 the precision does not decide which impact is first, it is raised.
 """
 
+import numpy as np
 from flint import arb, ctx
 
 from .enclosure.flight import Gap, Undecided, isolate, refine
+from .enclosure.surface import ball_of, exact
 
 START_BITS, MOST_BITS = 256, 8192
 ACCURACY = 150  # bits of a flight time that are proved
 ORBIT_BITS = 512
+IMPACT_BITS = 96
 
 
 def first_root(k, g, x, v, w):
@@ -62,11 +65,53 @@ def orbit(ball, state, impacts):
         k, g = arb(ball.k), arb(ball.g)
         x, v, w = (arb(float(a)) for a in state)
         for _ in range(impacts):
-            gap = Gap(*_after_impact(k, g, x, v, w))
-            tau = refine(gap, *isolate(gap))
-            sine, cosine = tau.sin_cos()
-            b = v - 2 * k * gap.s / (1 + k)
-            after = x * cosine - gap.c * sine, b + g * tau, x * sine + gap.c * cosine
-            x, v, w = (a.mid() for a in after)
+            x, v, w = (a.mid() for a in _impact(k, g, x, v, w)[:3])
             rows.append((float(x), float(v), float(w)))
     return rows
+
+
+def impact_errors(k, g, before, after, tau):
+    """Prove impacts that were computed in doubles: each the first one, with a bound on its error.
+
+    Parameters
+    ----------
+    k, g : int, Fraction, Decimal or str
+        The ball, exact.
+    before, after : ndarray (3, n)
+        x, xdot, udot just before an impact and just before the next one, as computed.
+    tau : ndarray (n,)
+        The flights' times, as computed.
+
+    Returns
+    -------
+    ndarray (n,)
+        Upper bounds of the largest error of x', xdot', udot' and tau, `before` taken as exact;
+        infinite where the next impact is not proved.
+    """
+    exact_k, exact_g = exact("k", k), exact("g", g)
+    bounds = np.full(tau.size, np.inf)
+    columns = (*before.tolist(), *after.tolist(), tau.tolist())
+    for i, (x, v, w, *found) in enumerate(zip(*columns, strict=True)):
+        bits = IMPACT_BITS
+        while bits <= MOST_BITS:
+            with ctx.workprec(bits):
+                try:
+                    truth = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))
+                except Undecided:
+                    bits *= 2
+                    continue
+                worst = max(abs(a - b).upper() for a, b in zip(truth, found, strict=True))
+                bounds[i] = np.nextafter(float(worst), np.inf)
+                break
+    return bounds
+
+
+def _impact(k, g, x, v, w):
+    """(x', v', w', tau) of the next impact."""
+    gap = Gap(*_after_impact(k, g, x, v, w))
+    if gap.s == 0 and (g + x > 0 or (g + x == 0 and -gap.c >= 0)):
+        return x, v, w, arb(0)  # pressed onto the floor
+    tau = refine(gap, *isolate(gap))
+    sine, cosine = tau.sin_cos()
+    b = v - 2 * k * gap.s / (1 + k)
+    return x * cosine - gap.c * sine, b + g * tau, x * sine + gap.c * cosine, tau

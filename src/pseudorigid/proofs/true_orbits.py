@@ -88,9 +88,7 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     if checkpoint is not None:
         Path(checkpoint).unlink(missing_ok=True)
     data = variables("impact", run.values.T)
-    return xr.Dataset(
-        data, coords={"impact": np.arange(1, impacts + 1)}, attrs={"bits": run.bits}
-    )
+    return xr.Dataset(data, coords={"impact": np.arange(1, impacts + 1)}, attrs={"bits": run.bits})
 
 
 def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=None):
@@ -285,9 +283,7 @@ class _Run:
 
 def _frame(carried, reach):
     """An orthogonal frame along the longer of two carried columns, exact, and its inverse."""
-    sizes = [
-        (abs(carried[0][j]) + abs(carried[1][j])).upper() * reach[j] for j in (0, 1)
-    ]
+    sizes = [(abs(carried[0][j]) + abs(carried[1][j])).upper() * reach[j] for j in (0, 1)]
     j = 0 if sizes[0] >= sizes[1] else 1
     a, b = carried[0][j].mid(), carried[1][j].mid()
     length = (a * a + b * b).sqrt()

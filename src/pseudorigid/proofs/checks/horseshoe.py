@@ -89,9 +89,7 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
 
 def _sets(certificate):
     """(saddles, chain, a, b) as HSets; the second half of the chain is mirrored."""
-    saddles = [
-        _hset(f"S_{i}", row) for i, row in enumerate(certificate.numbers("saddles", 6))
-    ]
+    saddles = [_hset(f"S_{i}", row) for i, row in enumerate(certificate.numbers("saddles", 6))]
     places = [certificate.number(name) for name in ("leaves", "enters")]
     if not all(place in range(len(saddles)) for place in places):
         raise NotProved("the certificate's chain does not begin and end at its saddles")

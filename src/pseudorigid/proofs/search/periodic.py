@@ -69,5 +69,3 @@ def _text(surface, centres, size):
         + f"radius = {float(size):.0e}\n"
         + rows("points", centres)
     )
-
-

@@ -1,7 +1,7 @@
 """The theorems at the paper's numbers, k = 1/5 and g = 1/25: how each is checked and searched.
 
-    result = THEOREMS["horseshoe-outer"].check()
-    result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[0.018... "]}
+result = THEOREMS["horseshoe-outer"].check()
+result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[0.018... "]}
 """
 
 import time
@@ -126,7 +126,9 @@ def _twist_theorem(name, surface, period, radius):
     def propose(theorem):
         from ..search import known, twist as proposals  # fmt: skip
 
-        return proposals.propose(surface, known.points(surface, period, "elliptic"), theorem.of_any_size)
+        return proposals.propose(
+            surface, known.points(surface, period, "elliptic"), theorem.of_any_size
+        )
 
     what = "fixed point" if period == 1 else f"orbit of period {period}"
     statement = (
