@@ -7,7 +7,7 @@ the precision does not decide which impact is first, it is raised.
 import numpy as np
 from flint import arb, ctx
 
-from .enclosure.flight import Gap, Undecided, isolate, refine
+from .enclosure.flight import Gap, UndecidedError, isolate, refine
 from .enclosure.surface import ball_of, exact
 
 START_BITS, MOST_BITS = 256, 8192
@@ -40,7 +40,7 @@ def first_root(k, g, x, v, w):
                 root = refine(gap, *isolate(gap))
                 if root.rel_accuracy_bits() >= ACCURACY:
                     return root
-            except Undecided:
+            except UndecidedError:
                 pass
         bits *= 2
     raise ArithmeticError("the judge cannot tell a touch from a miss")
@@ -97,7 +97,7 @@ def impact_errors(k, g, before, after, tau):
             with ctx.workprec(bits):
                 try:
                     truth = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))
-                except Undecided:
+                except UndecidedError:
                     bits *= 2
                     continue
                 worst = max(abs(a - b).upper() for a, b in zip(truth, found, strict=True))

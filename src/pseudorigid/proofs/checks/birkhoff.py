@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from flint import acb, arb
 
 from ..enclosure.jets import Jet, algebra
-from .certificate import NotProved
+from .certificate import NotProvedError
 
 I = acb(0, 1)  # noqa: E741
 
@@ -42,7 +42,7 @@ def normal_form(surface, orbit, order=3):
         powers.append(powers[-1] * rotation)
     gaps = [abs(power - 1) for power in powers]
     if not all(gap > 0 for gap in gaps):
-        raise NotProved(f"a power of the multiplier up to {order + 1} may be 1")
+        raise NotProvedError(f"a power of the multiplier up to {order + 1} may be 1")
     twists = _twists(rotation, map_, order)
     return NormalForm(rotation, twists, min(gaps, key=lambda gap: gap.lower()))
 
@@ -52,7 +52,7 @@ def _complex(x, y, matrix):
     plane = x.algebra
     (a, b), cosine = matrix.table()[0], (matrix[0, 0] + matrix[1, 1]) / 2
     if not (abs(cosine) < 1 and abs(b) > 0):
-        raise NotProved("the point is not proved to be elliptic")
+        raise NotProvedError("the point is not proved to be elliptic")
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)
     beta = (b / sine).sqrt()
     delta = beta * (cosine - a) / b
@@ -105,6 +105,6 @@ def _twists(rotation, map_, order):
     for n, term in enumerate(twists, 1):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
         drift = term.real if n == 1 else term.real + values[0] ** 2 / 8
         if not drift.contains(0):
-            raise NotProved("the normal form drifts: the map does not keep area")
+            raise NotProvedError("the normal form drifts: the map does not keep area")
         values.append(term.imag * 2**n)
     return tuple(values)

@@ -10,7 +10,7 @@ from flint import arb
 from ..enclosure.surface import Surface, ball_of, exact
 
 
-class NotProved(Exception):
+class NotProvedError(Exception):
     """The reason why a checker does not take a statement as proved."""
 
 
@@ -32,7 +32,7 @@ class Certificate:
 
     Raises
     ------
-    NotProved
+    NotProvedError
         For text that is no certificate, of another kind or with a field missing or misshapen.
     """
 
@@ -40,15 +40,15 @@ class Certificate:
         try:
             self._fields = tomllib.loads(text, parse_float=Decimal)
         except (tomllib.TOMLDecodeError, ValueError, ArithmeticError) as error:
-            raise NotProved(f"the certificate cannot be read: {error}") from None
+            raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
-            raise NotProved(f"the certificate is not one of kind {kind!r}")
+            raise NotProvedError(f"the certificate is not one of kind {kind!r}")
 
     def surface(self, expected):
         """The Surface the certificate is for, which must be the expected one."""
         found = self.any_surface(expected.k, expected.g)
         if found != expected:
-            raise NotProved(f"the certificate is of {found}, the statement of {expected}")
+            raise NotProvedError(f"the certificate is of {found}, the statement of {expected}")
         return found
 
     def any_surface(self, k, g):
@@ -57,14 +57,14 @@ class Certificate:
         try:
             return Surface(k, g, self._take("energy", str))
         except ValueError as error:
-            raise NotProved(f"the certificate's {error}") from None
+            raise NotProvedError(f"the certificate's {error}") from None
 
     def ball(self, k, g):
         """Check that the certificate is for the ball with this k and g."""
         for name, expected in (("k", k), ("g", g)):
             found = self._exact(name, self._take(name, str))
             if found != expected:
-                raise NotProved(f"the certificate is of {name} = {found}, not {expected}")
+                raise NotProvedError(f"the certificate is of {name} = {found}, not {expected}")
 
     def number(self, name):
         """One number, as a Fraction."""
@@ -74,7 +74,7 @@ class Certificate:
         """A list of rows of `width` numbers, as Fractions."""
         rows = self._take(name, list)
         if not rows or any(not isinstance(row, list) or len(row) != width for row in rows):
-            raise NotProved(f"the certificate's {name} is not a list of rows of {width} numbers")
+            raise NotProvedError(f"the certificate's {name} is no list of rows of {width} numbers")
         return [[self._exact(name, value) for value in row] for row in rows]
 
     def row(self, name, width):
@@ -85,7 +85,7 @@ class Certificate:
     def _take(self, name, kind):
         value = self._fields.get(name)
         if value is None or not isinstance(value, kind):
-            raise NotProved(f"the certificate has no {name}, or not of its form")
+            raise NotProvedError(f"the certificate has no {name}, or not of its form")
         return value
 
     @staticmethod
@@ -93,7 +93,7 @@ class Certificate:
         try:
             return exact(name, value)
         except ValueError as error:
-            raise NotProved(f"the certificate's {error}") from None
+            raise NotProvedError(f"the certificate's {error}") from None
 
 
 def box(centre, radius):

@@ -19,10 +19,10 @@ from math import gcd
 
 from flint import arb, ctx
 
-from ..enclosure.flight import Undecided
+from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import ball_of
 from . import hsets, periodic
-from .certificate import Certificate, Finding, NotProved
+from .certificate import Certificate, Finding, NotProvedError
 
 BITS = 128
 
@@ -45,37 +45,37 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
     with ctx.workprec(periodic.BITS):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
         if len(centres) != period:
-            raise NotProved(f"the certificate has {len(centres)} saddles, not {period}")
+            raise NotProvedError(f"the certificate has {len(centres)} saddles, not {period}")
         saddle = periodic.prove(surface, centres, radius)
         if saddle.type != "hyperbolic":
-            raise NotProved(f"the orbit at the sets is {saddle.type}, not hyperbolic")
+            raise NotProvedError(f"the orbit at the sets is {saddle.type}, not hyperbolic")
         if window and not any(periodic.inside(surface, z, window) for z in saddle.points):
-            raise NotProved("no point is proved to lie in the window of the paper's figure")
+            raise NotProvedError("no point is proved to lie in the window of the paper's figure")
     with ctx.workprec(BITS):
         saddles, chain, leaves, enters = _sets(certificate)
         for one, point in zip(saddles, saddle.points, strict=True):
             if not one.contains(*point):
-                raise NotProved(f"{one.name} is not proved to contain the orbit's point")
+                raise NotProvedError(f"{one.name} is not proved to contain the orbit's point")
         edges = [*pairwise([*saddles, saddles[0]]), (saddles[leaves], chain[0]),
                  *pairwise(chain), (chain[-1], saddles[enters])]  # fmt: skip
         try:
             measured, cone, angle = _relations(surface, edges, chain)
-        except (Undecided, ZeroDivisionError) as error:
-            raise NotProved(f"a set of the certificate: {error}") from None
+        except (UndecidedError, ZeroDivisionError) as error:
+            raise NotProvedError(f"a set of the certificate: {error}") from None
         _meets_margins(certificate, edges, measured)
         middle = chain[len(chain) // 2]
         for other in (*saddles, *chain):
             if other is not middle and not middle.apart(other):
-                raise NotProved(f"{middle.name} is not proved to be disjoint from {other.name}")
+                raise NotProvedError(f"M_0 is not proved to be disjoint from {other.name}")
         x = middle.box()[0]
         if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
-            raise NotProved("the connection does not pass y = 0 where the statement says")
+            raise NotProvedError("the connection does not pass y = 0 where the statement says")
         loop = len(chain) + 1 + (leaves - enters) % period
         if gcd(period, loop) != 1:
-            raise NotProved(f"loops of {period} and {loop} impacts do not mix")
+            raise NotProvedError(f"loops of {period} and {loop} impacts do not mix")
         bound = _entropy(period, loop)
         if not bound > ball_of(entropy):
-            raise NotProved(f"the entropy is not proved to be above {float(entropy)}")
+            raise NotProvedError(f"the entropy is not proved to be above {float(entropy)}")
         margins = {
             "beyond": min(m for m, _ in measured),
             "room": min(m for _, m in measured),
@@ -92,7 +92,7 @@ def _sets(certificate):
     saddles = [_hset(f"S_{i}", row) for i, row in enumerate(certificate.numbers("saddles", 6))]
     places = [certificate.number(name) for name in ("leaves", "enters")]
     if not all(place in range(len(saddles)) for place in places):
-        raise NotProved("the certificate's chain does not begin and end at its saddles")
+        raise NotProvedError("the certificate's chain does not begin and end at its saddles")
     leaves, enters = map(int, places)
     _symmetric(certificate.numbers("saddles", 6), leaves + enters)
     approach = certificate.numbers("approach", 6)
@@ -112,7 +112,7 @@ def _symmetric(rows, total):
     """
     for i, (x, y, ux, uy, sx, sy) in enumerate(rows):
         if rows[(total - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
-            raise NotProved(f"S_{i} has no mirror image among the saddles' sets")
+            raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
 
 
 def _hset(name, row):
@@ -147,10 +147,10 @@ def _crossing(middle, slope):
 def _meets_margins(certificate, edges, measured):
     stated = certificate.numbers("margins", 2)
     if len(stated) != len(edges):
-        raise NotProved(f"the certificate has {len(stated)} margins for {len(edges)} coverings")
+        raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
     for (source, target), found, least in zip(edges, measured, stated, strict=True):
         if not all(arb(f) >= ball_of(m) for f, m in zip(found, least, strict=True)):
-            raise NotProved(f"{source.name} covers {target.name}, but by less than is stated")
+            raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
 
 
 def _entropy(period, loop):

@@ -18,7 +18,7 @@ from itertools import product
 from flint import arb
 
 from ..enclosure.jets import Jet, algebra
-from .certificate import NotProved, lowest
+from .certificate import NotProvedError, lowest
 
 UNIT = arb(0, 1)  # from -1 to 1
 SQUARE = arb(0.5, 0.5)  # from 0 to 1
@@ -123,17 +123,17 @@ def covering(at, source, target):
 
     Raises
     ------
-    NotProved
+    NotProvedError
     """
     low, high = at.edge(-1), at.edge(1)
     if high < 0:
         low, high = high, low
     room = 1 - abs(at.across()).upper()
     if not (low < -1 and high > 1):
-        raise NotProved(f"{source.name} does not cover {target.name}: "
+        raise NotProvedError(f"{source.name} does not cover {target.name}: "
                         "its edges are not proved to land beyond the target")  # fmt: skip
     if not room > 0:
-        raise NotProved(f"{source.name} does not cover {target.name}: "
+        raise NotProvedError(f"{source.name} does not cover {target.name}: "
                         "its image is not proved to fit between the target's edges")  # fmt: skip
     return min(lowest(-low - 1), lowest(high - 1)), lowest(room)
 
@@ -147,5 +147,5 @@ def cones(at, source, target):
     first, mixed, last = a * a - c * c - 1, a * b - c * d, b * b - d * d + 1
     determinant = first * last - mixed * mixed
     if not (first > 0 and determinant > 0):
-        raise NotProved(f"the cone condition is not proved from {source.name} to {target.name}")
+        raise NotProvedError(f"cone condition not proved from {source.name} to {target.name}")
     return lowest(determinant / (first + last))

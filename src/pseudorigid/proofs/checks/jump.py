@@ -21,10 +21,10 @@ from itertools import pairwise
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from ..enclosure.flight import Gap, Undecided, first_root
+from ..enclosure.flight import Gap, UndecidedError, first_root
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Impact, ball_of
-from .certificate import Certificate, Finding, NotProved, lowest
+from .certificate import Certificate, Finding, NotProvedError, lowest
 
 BITS = 192
 SHY = 1 - arb(2) ** -20
@@ -42,7 +42,7 @@ def check(text, surface, *, radius, length):
         certificate.surface(surface)
         size = certificate.number("radius")
         if not 0 < size <= radius:
-            raise NotProved(f"the radius is {float(size):g}, not at most {float(radius):g}")
+            raise NotProvedError(f"the radius is {float(size):g}, not at most {float(radius):g}")
         speed = ball_of(certificate.number("speed"))
         try:
             x, flight, margin = _touch(surface, speed)
@@ -54,17 +54,17 @@ def check(text, surface, *, radius, length):
             }
             pieces = _covered(surface)
             least = _length(surface, length)
-        except Undecided as error:
-            raise NotProved(f"a flight that touches the floor: {error}") from None
+        except UndecidedError as error:
+            raise NotProvedError(f"a flight that touches the floor: {error}") from None
         for name, (x, y) in found.items():
             stated = certificate.row(name.replace(" ", "_"), 2)
             for value, at in zip((x, y), stated, strict=True):
                 if not abs(value - ball_of(at)) < ball_of(size):
-                    raise NotProved(f"the {name} is not within the radius of the stated one")
+                    raise NotProvedError(f"the {name} is not within the radius of the stated one")
         near, far = found["near image"], found["far image"]
         gap = max(lowest(abs(a - b)) for a, b in zip(near, far, strict=True))
         if not gap > 0:
-            raise NotProved("the two one-sided images may be one")
+            raise NotProvedError("the two one-sided images may be one")
         digits = {f"{name} {axis}": value for name, pair in found.items()
                   for axis, value in zip("xy", pair, strict=True)}  # fmt: skip
         return Finding(digits | {"length": least}, {
@@ -81,9 +81,9 @@ def check_smooth(text, k, g):
     rest = fmpq_poly([_q(-threshold), _q(-g), _q(k / 2)])
     factors = [fmpq_poly([_q(-root), 1]) for root in roots]
     if rest != fmpq_poly([_q(k / 2)]) * factors[0] * factors[1]:
-        raise NotProved("the energy of a touch is not the stated product of factors")
+        raise NotProvedError("the energy of a touch is not the stated product of factors")
     if not all(root >= -g for root in roots):
-        raise NotProved("the factors are not proved to be negative for x < -g")
+        raise NotProvedError("the factors are not proved to be negative for x < -g")
     return Finding({"energy below": ball_of(threshold)}, {"above 0": float(threshold)})
 
 
@@ -111,7 +111,7 @@ def fastest(surface):
     k, g, energy = surface.constants()
     square = (2 * energy - g * g * (2 + k)) / (1 + k)
     if not square > 0:
-        raise NotProved(f"no flight touches the floor: E <= g^2 (1 + k/2) at {surface}")
+        raise NotProvedError(f"no flight touches the floor: E <= g^2 (1 + k/2) at {surface}")
     return square.sqrt()
 
 
@@ -126,7 +126,7 @@ def ends(surface):
 def _touch(surface, xdot):
     """(x, flight from the rim point, how transversally the gap's maximum passes zero)."""
     if not abs(xdot) < fastest(surface):
-        raise NotProved("the speed is not one of a rim point with x < -g")
+        raise NotProvedError("the speed is not one of a rim point with x < -g")
     x, flight = rim_flight(surface, xdot)
     k, g, _ = surface.constants()
     plane = algebra(2, 1)
@@ -134,10 +134,10 @@ def _touch(surface, xdot):
     s = surface.speed(a, y)
     height = Gap(a, -(y + s) / (1 + k), s, g).height(Jet.constant_of(plane, flight.tau))
     if not height.constant.contains(0):
-        raise NotProved("the flight does not touch the floor where it should")
+        raise NotProvedError("the flight does not touch the floor where it should")
     slope = max(lowest(abs(part)) for part in height.coefficients[1:])
     if not slope > 0:
-        raise NotProved("the gap's maximum may not change sign across the curve")
+        raise NotProvedError("the gap's maximum may not change sign across the curve")
     return x, flight, slope
 
 
@@ -165,14 +165,14 @@ def _covered(surface, low=None, high=None):
         xdot = high.union(most.upper())
         x = (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
         if not -(g + x) < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt()):
-            raise NotProved("the shortest flights from the rim are not proved to land")
+            raise NotProvedError("the shortest flights from the rim are not proved to land")
     try:
         if rim_flight(surface, low.union(high))[1].s > 0:
             return 1
-    except Undecided:
+    except UndecidedError:
         pass
     if high - low < most / 10**5:
-        raise NotProved("a flight from the rim may touch the floor a second time")
+        raise NotProvedError("a flight from the rim may touch the floor a second time")
     middle = ((low + high) / 2).mid()
     return _covered(surface, low, middle) + _covered(surface, middle, high)
 
@@ -183,7 +183,7 @@ def _length(surface, least, count=400):
     for (x0, y0), (x1, y1) in pairwise(curve(surface, count)):
         total += ((x1 - x0) ** 2 + (y1 - y0) ** 2).sqrt()
     if not total > ball_of(least):
-        raise NotProved(f"the curve is not proved to be longer than {float(least):g}")
+        raise NotProvedError(f"the curve is not proved to be longer than {float(least):g}")
     return total
 
 

@@ -6,14 +6,16 @@ in the interior of X, then F has exactly one zero in X, and it is in N.
 """
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from flint import arb, arb_mat, ctx
 
-from ..enclosure.flight import Undecided
+from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import ball_of
-from .certificate import Certificate, Finding, NotProved, box, lowest
+from .certificate import Certificate, Finding, NotProvedError, box, lowest
 
 BITS = 256
+CLOSE = Fraction(1, 10**30)  # how near a certificate's points must be to the orbit's
 
 
 @dataclass(frozen=True)
@@ -44,14 +46,15 @@ def check(text, surface, *, period, type, radius, window=None):
         certificate.surface(surface)
         centres, size = certificate.numbers("points", 2), certificate.number("radius")
         if len(centres) != period:
-            raise NotProved(f"the certificate has {len(centres)} points, not {period}")
+            raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
         if not size >= radius:
-            raise NotProved(f"the radius is {float(size):g}, the statement's {float(radius):g}")
+            raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
         orbit = prove(surface, centres, size)
+        meets(orbit, centres)
         if orbit.type != type:
-            raise NotProved(f"the orbit is {orbit.type}, not {type}")
+            raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
         if window is not None and not any(inside(surface, z, window) for z in orbit.points):
-            raise NotProved("no point is proved to lie in the window of the paper's figure")
+            raise NotProvedError("no point is proved to lie in the window of the paper's figure")
         margins = {"radius": float(size), "trace": lowest(abs(abs(orbit.trace) - 2))}
         return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
 
@@ -71,25 +74,33 @@ def prove(surface, centres, radius):
 
     Raises
     ------
-    NotProved
+    NotProvedError
         Where no orbit, or more than one, or a shorter one, cannot be excluded.
     """
     if not radius > 0:
-        raise NotProved(f"a radius of {float(radius):g} is no size of a box")
+        raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
     boxes = [box(centre, radius) for centre in centres]
     try:
         image = _newton(surface, boxes)
         for part, whole in zip(image, boxes, strict=True):
             if not all(w.contains_interior(p) for p, w in zip(part, whole, strict=True)):
-                raise NotProved("the Newton image of the boxes does not lie inside them")
+                raise NotProvedError("the Newton image of the boxes does not lie inside them")
         orbit = _enclose(surface, _narrow(surface, image), radius)
-    except (Undecided, ZeroDivisionError) as error:
-        raise NotProved(f"the boxes around the orbit: {error}") from None
+    except (UndecidedError, ZeroDivisionError) as error:
+        raise NotProvedError(f"the boxes around the orbit: {error}") from None
     for i, one in enumerate(orbit.points):
         for other in orbit.points[:i]:
             if all(a.overlaps(b) for a, b in zip(one, other, strict=True)):
-                raise NotProved("two points of the orbit may be one: its period may be shorter")
+                raise NotProvedError("two points may be one: the period may be shorter")
     return orbit
+
+
+def meets(orbit, centres):
+    """Check that the orbit's points are those that a certificate states, to CLOSE."""
+    for point, centre in zip(orbit.points, centres, strict=True):
+        for value, stated in zip(point, centre, strict=True):
+            if not abs(value - ball_of(stated)) < ball_of(CLOSE):
+                raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
 
 
 def _newton(surface, boxes):
@@ -139,7 +150,7 @@ def _enclose(surface, points, radius):
     }
     (kind,) = [name for name, holds in kinds.items() if holds] or [None]
     if kind is None:
-        raise NotProved("the trace may be 2 or -2: the orbit's type is not proved")
+        raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
     return Orbit(tuple(tuple(z) for z in points), tuple(impacts), matrix, kind, radius)
 
 

@@ -20,7 +20,7 @@ from flint import ctx
 
 from ..enclosure.surface import Surface, ball_of
 from . import birkhoff, periodic
-from .certificate import Certificate, Finding, NotProved, lowest
+from .certificate import Certificate, Finding, NotProvedError, lowest
 
 CLOSE = Fraction(1, 10**9)  # relative: how near a certificate's twist must be to the true one
 
@@ -30,14 +30,16 @@ def check(text, surface, *, period, radius):
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist")
         certificate.surface(surface)
-        orbit = _elliptic(surface, certificate.numbers("points", 2), certificate, period, radius)
+        centres = certificate.numbers("points", 2)
+        orbit = _elliptic(surface, centres, certificate, period, radius)
+        periodic.meets(orbit, centres)
         form = birkhoff.normal_form(surface, orbit)
         (twist,) = form.twists
         stated = certificate.number("twist")
         if not abs(twist - ball_of(stated)) < ball_of(CLOSE * abs(stated)):
-            raise NotProved(f"the twist is not the stated {float(stated):.10g}")
+            raise NotProvedError(f"the twist is not the stated {float(stated):.10g}")
         if not abs(twist) > 0:
-            raise NotProved("the twist may be zero")
+            raise NotProvedError("the twist may be zero")
         digits = {"twist": twist, "trace": orbit.trace}
         margins = {"twist": lowest(abs(twist)), "nonresonance": lowest(form.nonresonance)}
         return Finding(digits, margins, {"orbit": orbit})
@@ -53,19 +55,23 @@ def check_zero(text, k, g, *, radius, width):
         low = certificate.any_surface(k, g)
         band = certificate.number("width")
         if not 0 < band <= width:
-            raise NotProved(f"the band of energies is {float(band):g} wide, not {float(width):g}")
+            raise NotProvedError(
+                f"the band is {float(band):g} wide, not {float(width):g} as stated"
+            )
         centres = certificate.numbers("points", 2)
         high = Surface(low.k, low.g, low.energy + band)
         between = Surface(low.k, low.g, low.energy, band)
         twists = []
         for part in (low, high, between):
             orbit = _elliptic(part, centres, certificate, 1, radius)
+            if part is low:
+                periodic.meets(orbit, centres)
             twists.append(birkhoff.normal_form(part, orbit, order=5))
         first, last, whole = (form.twists for form in twists)
         if not (first[0] > 0 and last[0] < 0):
-            raise NotProved("the twist is not proved to fall through zero between the energies")
+            raise NotProvedError("the twist is not proved to fall through zero in the band")
         if not whole[1] < 0:
-            raise NotProved("the second twist is not proved to be negative between the energies")
+            raise NotProvedError("the second twist is not proved to be negative in the band")
         digits = {"energy": between.constants()[2], "second twist": whole[1]}
         margins = {
             "twist": min(lowest(first[0]), lowest(-last[0])),
@@ -77,11 +83,11 @@ def check_zero(text, k, g, *, radius, width):
 
 def _elliptic(surface, centres, certificate, period, radius):
     if len(centres) != period:
-        raise NotProved(f"the certificate has {len(centres)} points, not {period}")
+        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
     size = certificate.number("radius")
     if not size >= radius:
-        raise NotProved(f"the radius is {float(size):g}, the statement's {float(radius):g}")
+        raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
     orbit = periodic.prove(surface, centres, size)
     if orbit.type != "elliptic":
-        raise NotProved(f"the orbit is {orbit.type}, not elliptic")
+        raise NotProvedError(f"the orbit is {orbit.type}, not elliptic")
     return orbit

@@ -2,5 +2,5 @@
 
 A ball is a midpoint and a radius; every operation returns a ball that contains all results. What
 is asked of a set of states holds for each state in it. Where balls are too wide, or the precision
-of the context too low, to decide, `Undecided` is raised: nothing is ever assumed.
+of the context too low, to decide, `UndecidedError` is raised: nothing is ever assumed.
 """

@@ -18,7 +18,7 @@ _SHY = 1.0 - 1e-6  # of a parabola's root: far enough for its value there to be 
 _MOST_STEPS = 400
 
 
-class Undecided(ArithmeticError):
+class UndecidedError(ArithmeticError):
     """What is asked cannot be decided for this set of states at this precision."""
 
 
@@ -71,7 +71,7 @@ def first_root(x, c, s, g, after=None):
 
     Raises
     ------
-    Undecided
+    UndecidedError
         Where an earlier touch of the floor cannot be excluded, or s may be zero.
     """
     if isinstance(x, Jet):
@@ -91,7 +91,7 @@ def isolate(gap, after=None):
         with ctx.workprec(bits):
             try:
                 return _march(gap.rounded(), after)
-            except Undecided:
+            except UndecidedError:
                 if bits >= most:
                     raise
         bits = min(2 * bits, most)
@@ -112,7 +112,7 @@ def refine(gap, low, high):
             while True:
                 slope = at_level.slope(root)
                 if not slope > 0:
-                    raise Undecided("two impacts may be one: the slope of the gap may vanish")
+                    raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
                 middle = root.mid()
                 narrow = (middle - at_level.height(middle) / slope).intersection(root)
                 better = narrow.rad() < root.rad() * 0.75
@@ -154,7 +154,7 @@ def _march(gap, after):
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
         t = (t + step).mid()
-    raise Undecided("the ball may touch the floor earlier: a touch cannot be told from a miss")
+    raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
 def _step(height, slope, curve, bend, jerk):
@@ -187,16 +187,16 @@ def _first_step(x, c, s, g, jerk):
     if s == 0 and bend == 0:
         t = arb(_SHY) * (4 * c / jerk).lower()
         if not (c > 0 and t > 0):
-            raise Undecided("the ball may rest on the floor")
+            raise UndecidedError("the ball may rest on the floor")
         return t.mid()
     if not (s > 0 or (s == 0 and bend < 0)):
-        raise Undecided("the impact may be grazing: xdot + udot may be zero")
+        raise UndecidedError("the impact may be grazing: xdot + udot may be zero")
     half, third = bend.upper() / 2, jerk / 6
     root = (half * half + 4 * third * s.lower()).sqrt()
     t = 2 * s.lower() / (half + root) if half > 0 else (root - half) / (2 * third)
     t = (arb(_SHY) * t).mid()
     if not -s + t * (half + t * third) < 0:
-        raise Undecided("the impact may be grazing: xdot + udot may be zero")
+        raise UndecidedError("the impact may be grazing: xdot + udot may be zero")
     return t
 
 

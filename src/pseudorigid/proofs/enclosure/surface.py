@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from flint import arb, ctx, fmpq
 
-from .flight import Undecided, first_root
+from .flight import UndecidedError, first_root
 from .jets import Jet, algebra
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,4}|\s*/\s*\d+)?\s*")
@@ -111,11 +111,11 @@ class Surface:
         return ((2 * energy + g * g / k) / k).sqrt()
 
     def speed(self, x, y):
-        """s = xdot + udot at points of the chart; Undecided where one may lie on or off the rim."""
+        """s = xdot + udot in the chart; UndecidedError where a point may lie on or off the rim."""
         k, g, energy = self.constants()
         square = ((1 + k) * (2 * energy + x * (2 * g - k * x)) - y * y) / k
         if not (square.constant if isinstance(square, Jet) else square) > 0:
-            raise Undecided("a point is not proved to lie inside the section's rim")
+            raise UndecidedError("a point is not proved to lie inside the section's rim")
         return square.sqrt()
 
     def velocities(self, x, y):
@@ -133,7 +133,7 @@ class Surface:
 
         Raises
         ------
-        Undecided
+        UndecidedError
             Where a point may lie on the rim, or the next flight may touch the floor earlier.
         """
         k, g, _ = self.constants()

@@ -61,7 +61,7 @@ def propose(surface, ball, points, plan, measure):
         text = _text(surface, saddles, mirror, expanding, rho, track, impacts, first, plan)
     free = [["0.0", "0.0"]] * (len(points) + 2 * plan.steps + 2)
     measured = measure(text + rows("margins", free))
-    margins = [[f"{np.floor(1000 * m) / 1000:.3f}" for m in pair] for pair in measured]
+    margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
     return text + rows("margins", margins)
 
 

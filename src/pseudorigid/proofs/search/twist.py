@@ -55,7 +55,7 @@ def propose_zero(k, g, low, high, start, holds):
 
 def estimate(surface, points):
     """The twist by the formula, of the first point of an orbit that is all but exact."""
-    (a, b), (c, d) = _product(surface, points)
+    (a, b), (_, d) = _product(surface, points)
     cosine = ((a + d) / 2).mid()
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)
     beta = (b / sine).sqrt().mid()

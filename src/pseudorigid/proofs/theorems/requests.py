@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from ..checks import horseshoe, periodic
-from ..checks.certificate import NotProved
+from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
 
 
@@ -38,7 +38,7 @@ def prove_orbit(ball, orbit, energy=None):
     def holds(text):
         try:
             periodic.check(text, surface, **bounds)
-        except NotProved:
+        except NotProvedError:
             return False
         return True
 
@@ -46,7 +46,7 @@ def prove_orbit(ball, orbit, energy=None):
     try:
         text = proposals.propose(surface, points, holds)
         return periodic.check(text, surface, **bounds).parts["orbit"]
-    except (NotProved, ArithmeticError) as error:
+    except (NotProvedError, ArithmeticError) as error:
         raise ValueError(f"{what} cannot be proved: {error}") from None
 
 
@@ -76,7 +76,8 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
     ValueError
         One line that says what cannot be proved and why.
     """
-    from ..search import horseshoe as proposals, known  # fmt: skip
+    from ..search import horseshoe as proposals
+    from ..search import known
 
     if side not in ("outer", "inner"):
         raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
@@ -94,7 +95,7 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
             lambda text: horseshoe.check(text, surface, **bounds).parts["margins"],
         )  # fmt: skip
         return text, horseshoe.check(text, surface, **bounds)
-    except (NotProved, ArithmeticError) as error:
+    except (NotProvedError, ArithmeticError) as error:
         raise ValueError(f"the horseshoe at {surface} cannot be proved: {error}") from None
 
 

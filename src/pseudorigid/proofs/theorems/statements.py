@@ -11,7 +11,7 @@ from fractions import Fraction
 from importlib import resources
 
 from ..checks import horseshoe, jump, periodic, twist
-from ..checks.certificate import NotProved
+from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
 
 K, G = Fraction(1, 5), Fraction(1, 25)
@@ -70,7 +70,7 @@ class Theorem:
         return (folder / self.certificate).read_text(encoding="utf-8")
 
     def prove(self, text):
-        """The checker's Finding for a certificate's text; NotProved with the reason."""
+        """The checker's Finding for a certificate's text; NotProvedError with the reason."""
         return self.checker(text, **self.bounds)
 
     def check(self, text=None):
@@ -83,7 +83,7 @@ class Theorem:
             margins = found.margins
         except FileNotFoundError:
             reason = "there is no such certificate"
-        except NotProved as error:
+        except NotProvedError as error:
             reason = " ".join(str(error).split())
         return Result(
             self.name, self.statement, self.certificate, "not proved" if reason else "proved",
@@ -94,12 +94,12 @@ class Theorem:
         """Whether the checker takes a certificate whatever the radius that it claims."""
         try:
             self.checker(text, **self.bounds | {"radius": Fraction(0)})
-        except NotProved:
+        except NotProvedError:
             return False
         return True
 
 
-def search(name):
+def search_certificate(name):
     """A new certificate of a theorem, as text: not proved, but proposed to its checker."""
     theorem = THEOREMS[name]
     return theorem.search(theorem)
@@ -107,9 +107,11 @@ def search(name):
 
 def _orbit_theorem(name, surface, period, kind, radius):
     def propose(theorem):
-        from ..search import known, periodic as proposals  # fmt: skip
+        from ..search import known
+        from ..search import periodic as proposals
 
-        return proposals.propose(surface, known.points(surface, period, kind), theorem.of_any_size)
+        points = known.points(surface, period, kind)
+        return proposals.propose(surface, points, theorem.of_any_size)
 
     article = "an" if kind[0] in "ei" else "a"
     statement = (
@@ -124,7 +126,8 @@ def _orbit_theorem(name, surface, period, kind, radius):
 
 def _twist_theorem(name, surface, period, radius):
     def propose(theorem):
-        from ..search import known, twist as proposals  # fmt: skip
+        from ..search import known
+        from ..search import twist as proposals
 
         return proposals.propose(
             surface, known.points(surface, period, "elliptic"), theorem.of_any_size
@@ -141,7 +144,8 @@ def _twist_theorem(name, surface, period, radius):
 
 def _horseshoe_theorem(name, side, plan, crossing, entropy):
     def propose(theorem):
-        from ..search import horseshoe as proposals, known  # fmt: skip
+        from ..search import horseshoe as proposals
+        from ..search import known
 
         def measure(text):
             return theorem.prove(text).parts["margins"]
@@ -163,7 +167,8 @@ def _horseshoe_theorem(name, side, plan, crossing, entropy):
 
 def _zero_theorem():
     def propose(theorem):
-        from ..search import known, twist as proposals  # fmt: skip
+        from ..search import known
+        from ..search import twist as proposals
 
         low, high = Fraction("0.029"), Fraction("0.03")
         (start,) = known.points(Surface(K, G, low), 1, "elliptic")
