@@ -186,13 +186,13 @@ def _jump_theorem():
     def propose(theorem):
         from ..search import jump as proposals
 
-        return proposals.propose(HIGH, "0.02", "1e-20")
+        return proposals.propose(HIGH, "0.02", "1e-28")
 
     statement = (
         f"at E = {HIGH.energy} P is not continuous at the point below, and not a diffeomorphism; "
         "its jump set is one curve, from the rim to an inner end"
     )
-    bounds = {"surface": HIGH, "radius": Fraction("1e-20"), "length": Fraction("0.404")}
+    bounds = {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.404")}
     return Theorem("jump-set", statement, jump.check, bounds, propose)
 
 
