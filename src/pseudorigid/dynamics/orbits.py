@@ -69,6 +69,11 @@ def scene_orbits(ball, energy, starts, impacts):
         out = np.empty((1, count, 4))
         ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
         pieces.append(out[0].T)
+    return ragged_orbits(pieces, starts, states, impacts)
+
+
+def ragged_orbits(pieces, starts, states, impacts):
+    """The Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot, tau."""
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data["row_size"] = (
         "orbit",

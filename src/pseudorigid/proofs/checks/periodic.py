@@ -1,0 +1,170 @@
+"""Periodic orbits by interval Newton on the shooting map, eq. F_i = P(z_i) - z_(i+1).
+
+Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990, 5.1): let X be a box with
+midpoint c and A an interval matrix that contains DF on X and is regular. If N = c - A^-1 F(c) lies
+in the interior of X, then F has exactly one zero in X, and it is in N.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb, arb_mat, ctx
+
+from ..enclosure.flight import UndecidedError
+from ..enclosure.surface import ball_of
+from .certificate import Certificate, Finding, NotProvedError, box, lowest
+
+BITS = 256
+CLOSE = Fraction(1, 10**30)  # how near a certificate's points must be to the orbit's
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic orbit, enclosed: points ((x, y), ...), impacts, the product of its DP, type.
+
+    `radius`, a Fraction: of the boxes around the centres in which it is the only one.
+    """
+
+    points: tuple
+    impacts: tuple
+    matrix: arb_mat
+    type: str
+    radius: object
+
+    @property
+    def trace(self):
+        return self.matrix[0, 0] + self.matrix[1, 1]
+
+
+def check(text, surface, *, period, type, radius, window=None):
+    """Prove a certificate's orbit: prime period, type, and uniqueness within `radius`, at least.
+
+    `window` ((x low, x high), (xdot low, xdot high)), Fractions, must contain one of its points.
+    """
+    with ctx.workprec(BITS):
+        certificate = Certificate(text, "periodic orbit")
+        certificate.surface(surface)
+        centres, size = certificate.numbers("points", 2), certificate.number("radius")
+        if len(centres) != period:
+            raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
+        if not size >= radius:
+            raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
+        orbit = prove(surface, centres, size)
+        meets(orbit, centres)
+        if orbit.type != type:
+            raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
+        if window is not None and not any(inside(surface, z, window) for z in orbit.points):
+            raise NotProvedError("no point is proved to lie in the window of the paper's figure")
+        margins = {"radius": float(size), "trace": lowest(abs(abs(orbit.trace) - 2))}
+        return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
+
+
+def prove(surface, centres, radius):
+    """The only Orbit with a point within `radius` of each centre, per coordinate.
+
+    Parameters
+    ----------
+    centres : list of (x, y)
+        Fractions, one pair an impact.
+    radius : Fraction
+
+    Returns
+    -------
+    Orbit
+
+    Raises
+    ------
+    NotProvedError
+        Where no orbit, or more than one, or a shorter one, cannot be excluded.
+    """
+    if not radius > 0:
+        raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
+    boxes = [box(centre, radius) for centre in centres]
+    try:
+        image = _newton(surface, boxes)
+        for part, whole in zip(image, boxes, strict=True):
+            if not all(w.contains_interior(p) for p, w in zip(part, whole, strict=True)):
+                raise NotProvedError("the Newton image of the boxes does not lie inside them")
+        orbit = _enclose(surface, _narrow(surface, image), radius)
+    except (UndecidedError, ZeroDivisionError) as error:
+        raise NotProvedError(f"the boxes around the orbit: {error}") from None
+    for i, one in enumerate(orbit.points):
+        for other in orbit.points[:i]:
+            if all(a.overlaps(b) for a, b in zip(one, other, strict=True)):
+                raise NotProvedError("two points may be one: the period may be shorter")
+    return orbit
+
+
+def meets(orbit, centres):
+    """Check that the orbit's points are those that a certificate states, to CLOSE."""
+    for point, centre in zip(orbit.points, centres, strict=True):
+        for value, stated in zip(point, centre, strict=True):
+            if not abs(value - ball_of(stated)) < ball_of(CLOSE):
+                raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
+
+
+def _newton(surface, boxes):
+    """The Newton image of boxes ((x, y), ...) as a list of (x, y)."""
+    n = len(boxes)
+    slopes = arb_mat(2 * n, 2 * n)
+    rest = arb_mat(2 * n, 1)
+    centres = [[a.mid() for a in part] for part in boxes]
+    for i in range(n):
+        after = (i + 1) % n
+        rows, _ = surface.jacobian(*boxes[i])
+        image = surface.impact(*centres[i])
+        for r in range(2):
+            for c in range(2):
+                slopes[2 * i + r, 2 * i + c] += rows[r][c]
+            slopes[2 * i + r, 2 * after + r] -= 1
+            rest[2 * i + r, 0] = image[r] - centres[after][r]
+    step = slopes.solve(rest, algorithm="precond")
+    return [[centres[i][r] - step[2 * i + r, 0] for r in range(2)] for i in range(n)]
+
+
+def _narrow(surface, boxes):
+    """The orbit's points as narrow as the precision allows."""
+    while True:
+        image = _newton(surface, boxes)
+        after = [
+            [a.intersection(b) for a, b in zip(*pair, strict=True)]
+            for pair in zip(image, boxes, strict=True)
+        ]
+        if not after[0][0].rad() < boxes[0][0].rad() / 2:
+            return after
+        boxes = after
+
+
+def _enclose(surface, points, radius):
+    matrix = arb_mat([[1, 0], [0, 1]])
+    impacts = []
+    for point in points:
+        rows, impact = surface.jacobian(*point)
+        matrix = arb_mat(rows) * matrix
+        impacts.append(impact)
+    trace = matrix[0, 0] + matrix[1, 1]
+    kinds = {
+        "elliptic": abs(trace) < 2,
+        "hyperbolic": trace > 2,
+        "inverse hyperbolic": trace < -2,
+    }
+    (kind,) = [name for name, holds in kinds.items() if holds] or [None]
+    if kind is None:
+        raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
+    return Orbit(tuple(tuple(z) for z in points), tuple(impacts), matrix, kind, radius)
+
+
+def inside(surface, point, window):
+    """Whether a point is proved to lie in a window of x and xdot."""
+    xdot, _ = surface.velocities(*point)
+    return all(
+        ball_of(low) < value < ball_of(high)
+        for value, (low, high) in zip((point[0], xdot), window, strict=True)
+    )
+
+
+def _digits(surface, orbit):
+    x, y = orbit.points[0]
+    xdot, udot = surface.velocities(x, y)
+    total = sum((impact.tau for impact in orbit.impacts), arb(0))
+    return {"x": x, "xdot": xdot, "udot": udot, "period": total, "trace": orbit.trace}

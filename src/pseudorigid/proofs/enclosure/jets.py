@@ -1,0 +1,131 @@
+"""Truncated Taylor series in a few variables, with balls as coefficients."""
+
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+
+
+@dataclass(frozen=True)
+class Algebra:
+    """The monomials of total degree up to `order`, by degree, and which pairs make which."""
+
+    variables: int
+    order: int
+    monomials: tuple
+    products: tuple  # (i, j, k): monomial i times monomial j is monomial k
+
+    def index(self, *powers):
+        """The place of a monomial."""
+        return self.monomials.index(powers)
+
+
+@cache
+def algebra(variables, order):
+    """The Algebra of series in `variables` variables up to total degree `order`."""
+    every = [p for p in product(range(order + 1), repeat=variables) if sum(p) <= order]
+    every.sort(key=lambda p: (sum(p), [-power for power in p]))
+    place = {powers: i for i, powers in enumerate(every)}
+    products = tuple(
+        (i, j, place[total])
+        for i, p in enumerate(every)
+        for j, q in enumerate(every)
+        if (total := tuple(a + b for a, b in zip(p, q, strict=True))) in place
+    )
+    return Algebra(variables, order, tuple(every), products)
+
+
+class Jet:
+    """A series; its coefficients, real or complex balls, stand in the algebra's order."""
+
+    __slots__ = ("algebra", "coefficients")
+
+    def __init__(self, algebra, coefficients):
+        self.algebra, self.coefficients = algebra, coefficients
+
+    @classmethod
+    def constant_of(cls, algebra, value):
+        """The series of a constant."""
+        return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
+
+    @classmethod
+    def variable(cls, algebra, number, value):
+        """value + the variable of this number."""
+        jet = cls.constant_of(algebra, value)
+        jet.coefficients[1 + number] = jet.coefficients[1 + number] + 1
+        return jet
+
+    @property
+    def constant(self):
+        return self.coefficients[0]
+
+    def __getitem__(self, powers):
+        return self.coefficients[self.algebra.index(*powers)]
+
+    def __add__(self, other):
+        mine = self.coefficients
+        if isinstance(other, Jet):
+            theirs = other.coefficients
+            return Jet(self.algebra, [a + b for a, b in zip(mine, theirs, strict=True)])
+        return Jet(self.algebra, [mine[0] + other, *mine[1:]])
+
+    __radd__ = __add__
+
+    def __neg__(self):
+        return Jet(self.algebra, [-a for a in self.coefficients])
+
+    def __sub__(self, other):
+        return self + (-other)
+
+    def __rsub__(self, other):
+        return (-self) + other
+
+    def __mul__(self, other):
+        if not isinstance(other, Jet):
+            return Jet(self.algebra, [a * other for a in self.coefficients])
+        mine, theirs = self.coefficients, other.coefficients
+        out = [None] * len(mine)
+        for i, j, k in self.algebra.products:
+            term = mine[i] * theirs[j]
+            out[k] = term if out[k] is None else out[k] + term
+        return Jet(self.algebra, out)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other):
+        if not isinstance(other, Jet):
+            return Jet(self.algebra, [a / other for a in self.coefficients])
+        return self * other._inverse()
+
+    def __rtruediv__(self, other):
+        return self._inverse() * other
+
+    def _inverse(self):
+        value = self.constant
+        return self._compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
+
+    def sqrt(self):
+        """The square root with positive constant term."""
+        value = self.constant
+        terms = [value.sqrt()]
+        for n in range(self.algebra.order):
+            terms.append(terms[-1] * (1 - 2 * n) / (value * 2 * (n + 1)))
+        return self._compose(terms)
+
+    def sin_cos(self):
+        """(sine, cosine)."""
+        sine, cosine = self.constant.sin_cos()
+        cycle = (sine, cosine, -sine, -cosine)
+        terms, factorial = [], 1
+        for n in range(self.algebra.order + 2):
+            terms.append(cycle[n % 4] / factorial)
+            factorial *= n + 1
+        shifted = [n * a for n, a in enumerate(terms)][1:]  # cos = sin', term by term
+        return self._compose(terms[:-1]), self._compose(shifted)
+
+    def _compose(self, terms):
+        """The sum of terms[n] (self - constant)^n."""
+        rest = Jet(self.algebra, [0 * self.constant, *self.coefficients[1:]])
+        total = Jet.constant_of(self.algebra, terms[-1])
+        for term in reversed(terms[:-1]):
+            total = total * rest + term
+        return total

@@ -1,0 +1,216 @@
+"""Certificates of horseshoes: sets at the saddles and along a connection between two of them.
+
+Work is in coordinates in which the map stretches by the same factor rho at each saddle. A set's
+expanding side is tangent to the unstable manifold, its contracting side, the mirror image at the
+mirrored set, tangent to the stable one; so the map is all but diagonal from set to set. Along the
+chain the sets grow by the manifold's stretch divided by one factor kappa > 1, which is what they
+stretch beyond each other.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from flint import arb, ctx
+
+from .periodic import polished
+from .writing import decimal, header, rows
+
+BITS = 320
+DEEP = 100  # rounds about the saddles before the float's start of the connection
+START = 1e-7  # distance of that start from its saddle, in units of the expanding side
+DIGITS = 20
+NEWTON_STEPS = 12
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which connection, and the shape of the sets.
+
+    side: 1 the outer, -1 the inner unstable branches; steps: sets of the chain on either side of
+    its middle one; size: of the sets at the saddles; room: how much wider than its image, or
+    narrower, a set is where chain and saddles meet.
+    """
+
+    side: int
+    steps: int
+    size: float
+    room: float
+
+
+def propose(surface, ball, points, plan, measure):
+    """The text of a certificate.
+
+    Parameters
+    ----------
+    points : list of (x, y)
+        The hyperbolic orbit, floats; its own mirror image.
+    measure : callable
+        What a checker measures of a text: [(beyond, room), ...] of the coverings, in order.
+    """
+    with ctx.workprec(BITS):
+        saddles = polished(surface, points, NEWTON_STEPS)
+        mirror = _mirror_images(saddles)
+        rho, expanding = _directions(surface, saddles, plan.side)
+        multiplier = rho ** len(points)
+        numbers = [[float(a) for a in pair] for pair in (saddles[0], expanding[0])]
+        sigma, impacts = _start(ball, float(surface.energy), *numbers, float(multiplier))
+        impacts += len(points) * DEEP
+        sigma = arb(sigma) / multiplier**DEEP
+        track = _connection(surface, saddles[0], expanding[0], sigma, impacts, plan.steps)
+        first = (impacts - plan.steps) % len(points)
+        text = _text(surface, saddles, mirror, expanding, rho, track, impacts, first, plan)
+    free = [["0.0", "0.0"]] * (len(points) + 2 * plan.steps + 2)
+    measured = measure(text + rows("margins", free))
+    margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
+    return text + rows("margins", margins)
+
+
+def _times(matrix, vector):
+    return [(row[0] * vector[0] + row[1] * vector[1]).mid() for row in matrix]
+
+
+def _length(vector):
+    return (vector[0] * vector[0] + vector[1] * vector[1]).sqrt().mid()
+
+
+def _mirror_images(saddles):
+    """Index of the mirror image of each point; ValueError where the orbit has none."""
+    found = []
+    for x, y in saddles:
+        gaps = [float(abs(x - a) + abs(y + b)) for a, b in saddles]
+        found.append(int(np.argmin(gaps)))
+        if min(gaps) > 1e-20:
+            raise ValueError("the orbit is not its own mirror image: no symmetric connection")
+    return found
+
+
+def _directions(surface, saddles, side):
+    """rho, and at each saddle the unstable direction, all stretched by rho; outer for side = 1."""
+    slopes = [surface.jacobian(*z)[0] for z in saddles]
+    vector = [arb(1), arb(0)]
+    for _ in range(400):
+        size = _length(vector)
+        vector = [(a / size).mid() for a in vector]
+        for matrix in slopes:
+            vector = _times(matrix, vector)
+    multiplier = _length(vector)
+    vector = [(a / multiplier).mid() for a in vector]
+    middle = [sum((z[i] for z in saddles), arb(0)) / len(saddles) for i in (0, 1)]
+    outward = sum((vector[i] * (saddles[0][i] - middle[i]) for i in (0, 1)), arb(0))
+    if (outward > 0) != (side > 0):
+        vector = [-a for a in vector]
+    rho = (multiplier.log() / len(saddles)).exp().mid()
+    found = [vector]
+    for matrix in slopes[:-1]:
+        found.append([(a / rho).mid() for a in _times(matrix, found[-1])])
+    return rho, found
+
+
+def _start(ball, energy, saddle, vector, multiplier):
+    """(sigma, impacts): where the branch saddle + sigma vector first meets y = 0 at an x > 0."""
+    low, high, impacts = START, START * multiplier, None
+    for _ in range(4):
+        sigma = np.linspace(low, high, 1001)
+        place = (saddle[0] + sigma * vector[0], saddle[1] + sigma * vector[1])
+        state = [np.array(a) for a in ball.state_xy(*place, energy)]
+        if impacts is None:
+            impacts = 0
+            while not _changes(ball, state).size:
+                ball.map.steps(*state, ball.k, ball.g, 1, np.empty(sigma.size))
+                impacts += 1
+        else:
+            ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(sigma.size))
+        first = _changes(ball, state)[0]
+        low, high = sigma[first], sigma[first + 1]
+    return low, impacts
+
+
+def _changes(ball, state):
+    """Where y changes sign from one state to the next, at x > 0, without a jump."""
+    x, y = state[0], state[1] - ball.k * state[2]
+    near = (np.abs(np.diff(x)) < 0.1) & (x[1:] > 0.0)
+    return np.flatnonzero((y[:-1] * y[1:] <= 0.0) & near)
+
+
+def _follow(surface, point, vector, sigma, impacts):
+    """Points of the orbit of point + sigma vector, and their derivatives by sigma."""
+    points = [[(p + sigma * v).mid() for p, v in zip(point, vector, strict=True)]]
+    tangents = [vector]
+    for _ in range(impacts):
+        matrix, image = surface.jacobian(*points[-1])
+        points.append([image.x.mid(), image.y.mid()])
+        tangents.append(_times(matrix, tangents[-1]))
+    return points, tangents
+
+
+def _connection(surface, saddle, vector, sigma, before, after):
+    """Points and tangents from `before` impacts before y = 0 to `after` impacts after it."""
+    for _ in range(NEWTON_STEPS):
+        points, tangents = _follow(surface, saddle, vector, sigma, before)
+        step = (points[-1][1] / tangents[-1][1]).mid()
+        sigma = (sigma - step).mid()
+        if abs(step) < abs(sigma) * arb(2) ** (-BITS // 2):
+            break
+    return _follow(surface, saddle, vector, sigma, before + after)
+
+
+def _mirror(vector):
+    return [vector[0], -vector[1]]
+
+
+def _text(surface, saddles, mirror, expanding, rho, track, middle, first, plan):
+    """The certificate without its margins.
+
+    `track` is the connection, with y = 0 at index `middle`; index `first` is the saddle near which
+    the chain begins.
+    """
+    points, tangents = track
+    count, steps = len(saddles), plan.steps
+    chain = range(middle - steps, middle + steps + 1)
+    directions = {i: [a / _length(tangents[i]) for a in tangents[i]] for i in chain}
+    begin, end = chain[0], chain[-1]
+    leaves = (first - 1) % count
+    enters = mirror[leaves]
+    contracting = [_mirror(expanding[i]) for i in mirror]
+    size = arb(plan.size)
+    start = _along(points[begin], saddles[first], expanding[first], contracting[first])
+    widest = (size * rho - abs(start)) / plan.room * _length(expanding[first])
+    if not widest > 0:
+        raise ValueError(
+            f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "
+            f"{float(abs(start)):.2g} from its saddle, beyond the saddle's set"
+        )
+    # the last set's image is to be `room` times as wide as the saddle's set
+    last = _times(surface.jacobian(*points[end])[0], directions[end])
+    reach = _along(last, (0, 0), expanding[enters], contracting[enters])
+    stretch = _length(tangents[end]) / _length(tangents[begin])
+    kappa = ((widest * stretch * abs(reach) / (plan.room * size)).log() / (2 * steps)).exp()
+    widths = {
+        i: widest * _length(tangents[i]) / _length(tangents[begin]) / kappa ** (i - begin)
+        for i in chain
+    }
+    sides = {i: [widths[i] * a for a in directions[i]] for i in chain}
+    at_saddles = [
+        [*z, *(size * a for a in u), *(size * a for a in s)]
+        for z, u, s in zip(saddles, expanding, contracting, strict=True)
+    ]
+    approach = [[*points[i], *sides[i], *_mirror(sides[2 * middle - i])] for i in chain[:steps]]
+    decimals = [[decimal(a, DIGITS) for a in row] for row in at_saddles + approach]
+    half = [decimal(a, DIGITS) for a in (points[middle][0], *sides[middle])]
+    return (
+        header("horseshoe", surface)
+        + f"leaves = {leaves}\nenters = {enters}\n"
+        + "# a row: centre, expanding side, contracting side\n"
+        + rows("saddles", decimals[:count])
+        + "# up to y = 0; the rest of the chain is the mirror image\n"
+        + rows("approach", decimals[count:])
+        + f"middle = [{', '.join(half)}]\n"
+        + "# of each covering: how far beyond its target's edges, and the room within the others\n"
+    )
+
+
+def _along(point, origin, expanding, contracting):
+    """How far from the origin a point lies along the expanding side, in units of that side."""
+    (ux, uy), (sx, sy) = expanding, contracting
+    dx, dy = (p - o for p, o in zip(point, origin, strict=True))
+    return (dx * sy - dy * sx) / (ux * sy - uy * sx)

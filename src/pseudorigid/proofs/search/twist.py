@@ -1,0 +1,113 @@
+"""Certificates of the twist, and of the energy at which the fixed point's twist vanishes.
+
+The twist is proposed by the closed formula for Birkhoff's first coefficient.
+"""
+
+from fractions import Fraction
+from math import comb, factorial
+
+from flint import acb, arb, ctx
+
+from ..enclosure.jets import Jet, algebra
+from ..enclosure.surface import Surface
+from .periodic import BITS, DIGITS, largest, polished
+from .writing import decimal, header, rows
+
+TWIST_DIGITS = 13
+ENERGY_DIGITS = 13  # decimals of the energy
+
+
+def propose(surface, points, holds):
+    """The text of a certificate for the elliptic orbit near `points`, floats (x, y).
+
+    `holds(text)` says whether a checker takes it; the size is the largest for which it does.
+    """
+    with ctx.workprec(BITS):
+        points = polished(surface, points)
+        centres = [[decimal(a, DIGITS) for a in point] for point in points]
+        value = decimal(estimate(surface, points), TWIST_DIGITS)
+    first = header("twist", surface) + f"twist = {value}\n" + rows("points", centres)
+    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
+
+
+def propose_zero(k, g, low, high, start, holds):
+    """The text of a certificate for a zero of the twist at an energy between two Fractions.
+
+    `start` is the fixed point at one of these energies, floats (x, y).
+    """
+    unit = 10**ENERGY_DIGITS
+    with ctx.workprec(BITS):
+        point = [start]
+        while high - low > Fraction(1, unit):
+            middle = Fraction(round((low + high) / 2 * unit), unit)
+            surface = Surface(k, g, middle)
+            point = polished(surface, point)
+            if estimate(surface, point) > 0:
+                low = middle
+            else:
+                high = middle
+        surface = Surface(k, g, low)
+        centres = [[decimal(a, DIGITS) for a in polished(surface, point)[0]]]
+    first = header("zero of the twist", surface)
+    first += f"width = {float(high - low):.0e}\n" + rows("points", centres)
+    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
+
+
+def estimate(surface, points):
+    """The twist by the formula, of the first point of an orbit that is all but exact."""
+    (a, b), (_, d) = _product(surface, points)
+    cosine = ((a + d) / 2).mid()
+    sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)
+    beta = (b / sine).sqrt().mid()
+    delta = (beta * (cosine - a) / b).mid()
+    plane = algebra(2, 3)
+    q, p = (Jet.variable(plane, i, arb(0)) for i in (0, 1))
+    (x0, y0) = points[0]
+    x, y = x0 + q * beta, y0 + q * delta + p / beta
+    for _ in points:
+        image = surface.impact(x, y)
+        x, y = image.x, image.y
+    q, p = x / beta, (y - x * (delta / beta)) * beta
+    terms = {}
+    for (i, j), re, im in zip(plane.monomials, q.coefficients, p.coefficients, strict=True):
+        for (m, n), share in _complex_monomial(i, j).items():
+            terms[m, n] = terms.get((m, n), 0) + acb(re.mid(), im.mid()) * share
+    g20, g11, g02, g21 = (
+        terms[m, n] * factorial(m) * factorial(n) for m, n in ((2, 0), (1, 1), (0, 2), (2, 1))
+    )
+    z = acb(cosine, -sine)
+    w = acb(cosine, sine)
+    first = (
+        g20 * g11 * (w - 3 + 2 * z) / (2 * (z * z - z) * (w - 1))
+        + g11 * _conjugate(g11) / (1 - w)
+        + g02 * _conjugate(g02) / (2 * (z * z - w))
+        + g21 / 2
+    )
+    return (2 * (w * first).imag).mid()
+
+
+def _conjugate(number):
+    return acb(number.real, -number.imag)
+
+
+def _product(surface, points):
+    """The product of DP along the orbit, midpoints, as two rows."""
+    rows_ = ((arb(1), arb(0)), (arb(0), arb(1)))
+    for point in points:
+        matrix, _ = surface.jacobian(*point)
+        rows_ = tuple(
+            tuple((m[0] * rows_[0][j] + m[1] * rows_[1][j]).mid() for j in (0, 1)) for m in matrix
+        )
+    return rows_
+
+
+def _complex_monomial(i, j):
+    """q^i p^j as a polynomial in z = q + i p and its conjugate: {(powers): coefficient}."""
+    found = {}
+    scale = acb(0.5) ** i * (acb(0, -0.5)) ** j
+    for m in range(i + 1):
+        for n in range(j + 1):
+            key = (m + n, i + j - m - n)
+            share = scale * comb(i, m) * comb(j, n) * (-1) ** (j - n)
+            found[key] = found.get(key, acb(0)) + share
+    return found

@@ -1,0 +1,1 @@
+"""What is proved: the statements with their certificates, requests, and data for pictures."""

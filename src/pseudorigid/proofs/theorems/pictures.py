@@ -1,0 +1,125 @@
+"""What the pictures of the proofs show: datasets of doubles, rounded from balls."""
+
+from fractions import Fraction
+
+import numpy as np
+import xarray as xr
+from flint import arb, ctx
+
+from ..checks import birkhoff, horseshoe, periodic
+from ..enclosure.surface import Surface, ball_of
+from .statements import THEOREMS, G, K
+
+EDGE = 33  # points along each edge of a set whose image is drawn
+RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at every energy
+
+
+def horseshoe_data(name="horseshoe-outer"):
+    """The sets of a proved horseshoe, and one covering relation in the target's coordinates.
+
+    Returns
+    -------
+    Dataset
+        x, y (set): centres; corner_x, corner_y (set, corner): around each; chain (set): the index
+        along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
+        of the set before the middle one, in units of the middle one's half widths, its two exit
+        edges first.
+    """
+    theorem = THEOREMS[name]
+    found = theorem.prove(theorem.text()).parts
+    sets = [*found["saddles"], *found["chain"]]
+    steps = len(found["chain"]) // 2
+    index = [np.nan] * len(found["saddles"]) + [float(n) for n in range(-steps, steps + 1)]
+    surface = theorem.bounds["surface"]
+    with ctx.workprec(horseshoe.BITS):
+        around = [(1, 1), (1, -1), (-1, -1), (-1, 1)]
+        corners = np.array(
+            [[[float(a) for a in one.box(arb(p), arb(q))] for p, q in around] for one in sets]
+        )
+        source, target = found["chain"][steps - 1], found["chain"][steps]
+        image = np.array(
+            [[_image(surface, source, target, *point) for point in edge] for edge in _edges(EDGE)]
+        )
+        centres = np.array([[float(a) for a in one.centre] for one in sets])
+    text = {
+        "x": "centre of the set, position at impact",
+        "y": "centre of the set, y = xdot - k udot",
+        "chain": "index along the chain; NaN at the saddles",
+        "corner_x": "corners of the set, x",
+        "corner_y": "corners of the set, y",
+        "image_p": "image of a set, across the next one's expanding direction",
+        "image_q": "image of a set, across the next one's contracting direction",
+    }
+    return _dataset(
+        {
+            "x": ("set", centres[:, 0]),
+            "y": ("set", centres[:, 1]),
+            "chain": ("set", np.array(index)),
+            "corner_x": (("set", "corner"), corners[:, :, 0]),
+            "corner_y": (("set", "corner"), corners[:, :, 1]),
+            "image_p": (("edge", "point"), image[:, :, 0]),
+            "image_q": (("edge", "point"), image[:, :, 1]),
+        },
+        text,
+        surface,
+    )
+
+
+def _edges(count):
+    """The four edges of the unit square as lists of (p, q): p = -1, p = 1, q = -1, q = 1."""
+    line = [arb(2 * i - (count - 1)) / (count - 1) for i in range(count)]
+    for side in (arb(-1), arb(1)):
+        yield [(side, q) for q in line]
+    for side in (arb(-1), arb(1)):
+        yield [(p, side) for p in line]
+
+
+def _image(surface, source, target, p, q):
+    image = surface.impact(*source.box(p, q))
+    return [float(a) for a in target.place(image.x, image.y)]
+
+
+def twist_data(energies):
+    """The fixed point's twists against the energy, and the proved energy where the first is zero.
+
+    Parameters
+    ----------
+    energies : list of int, Fraction, Decimal or str
+        Exact; the fixed point is elliptic there, and none of its powers up to the fourth is 1.
+
+    Returns
+    -------
+    Dataset
+        energy, twist (energy); zero (a number): the energy at which the twist vanishes.
+    """
+    from ..search import known
+
+    surfaces = [Surface(K, G, energy) for energy in energies]
+    values = []
+    for surface in surfaces:
+        centre = [tuple(map(Fraction, z)) for z in known.points(surface, 1, "elliptic")]
+        with ctx.workprec(periodic.BITS):
+            orbit = periodic.prove(surface, centre, RADIUS)
+            values.append(float(birkhoff.normal_form(surface, orbit).twists[0]))
+    theorem = THEOREMS["twist-zero"]
+    zero = float(theorem.prove(theorem.text()).digits["energy"])
+    text = {
+        "energy": "total energy",
+        "twist": "twist of the elliptic fixed point",
+        "zero": "energy at which the twist vanishes",
+    }
+    with ctx.workprec(64):
+        axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
+    return _dataset(
+        {"energy": ("energy", axis), "twist": ("energy", np.array(values)), "zero": ((), zero)},
+        text,
+        surfaces[0],
+    )
+
+
+def _dataset(variables, text, surface):
+    data = {
+        name: (dims, values, {"long_name": text[name], "units": "1"})
+        for name, (dims, values) in variables.items()
+    }
+    return xr.Dataset(data, attrs={"k": float(surface.k), "g": float(surface.g)})

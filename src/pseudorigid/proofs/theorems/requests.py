@@ -1,0 +1,118 @@
+"""Proofs on request: of any symmetric orbit, and of a horseshoe on any hyperbolic one."""
+
+from fractions import Fraction
+
+from ..checks import horseshoe, periodic
+from ..checks.certificate import NotProvedError
+from ..enclosure.surface import Surface
+
+
+def prove_orbit(ball, orbit, energy=None):
+    """Prove that a periodic orbit exists, is alone in a box, and of which type it is.
+
+    Parameters
+    ----------
+    ball : Ball or Surface
+        A Ball's k and g are taken as the doubles that they are; a Surface has exact numbers.
+    orbit : Dataset
+        One orbit of `symmetric_orbits`: x, xdot, udot on `point`, type.
+    energy : int, Fraction, Decimal or str, optional
+        Exact, of a Ball's orbit; otherwise the double in the orbit's attributes.
+
+    Returns
+    -------
+    checks.periodic.Orbit
+        Enclosures: points (x, y), impacts, trace; type; radius, the largest of one digit for
+        which the orbit is proved to be the only one.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+    """
+    from ..search import periodic as proposals
+
+    surface, points, kind = _request(ball, orbit, energy)
+    bounds = {"period": len(points), "type": kind, "radius": Fraction(0)}
+
+    def holds(text):
+        try:
+            periodic.check(text, surface, **bounds)
+        except NotProvedError:
+            return False
+        return True
+
+    what = f"the {kind} orbit of period {len(points)} at {surface}"
+    try:
+        text = proposals.propose(surface, points, holds)
+        return periodic.check(text, surface, **bounds).parts["orbit"]
+    except (NotProvedError, ArithmeticError) as error:
+        raise ValueError(f"{what} cannot be proved: {error}") from None
+
+
+def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
+    """Prove a horseshoe on a hyperbolic orbit by its outer or inner symmetric connection.
+
+    Parameters
+    ----------
+    ball, orbit, energy
+        As for `prove_orbit`.
+    side : {"outer", "inner"}
+        Which unstable branches the connection belongs to, as its first point's lies.
+    steps : int
+        How many sets the chain has on either side of the one on y = 0.
+    size : float
+        Of the sets at the orbit's points, in (x, y).
+    room : float
+        How much wider than its image, or narrower, a set is where chain and orbit meet.
+
+    Returns
+    -------
+    str, checks.certificate.Finding
+        The certificate, and what its checker proved: digits, margins, parts.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+    """
+    from ..search import horseshoe as proposals
+    from ..search import known
+
+    if side not in ("outer", "inner"):
+        raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
+    surface, points, kind = _request(ball, orbit, energy)
+    if kind != "hyperbolic":
+        raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
+    bounds = {
+        "period": len(points), "radius": prove_orbit(ball, orbit, energy).radius, "window": None,
+        "crossing": None, "entropy": Fraction(0),
+    }  # fmt: skip
+    plan = proposals.Plan(1 if side == "outer" else -1, steps, size, room)
+    try:
+        text = proposals.propose(
+            surface, known.ball(surface), points, plan,
+            lambda text: horseshoe.check(text, surface, **bounds).parts["margins"],
+        )  # fmt: skip
+        return text, horseshoe.check(text, surface, **bounds)
+    except (NotProvedError, ArithmeticError) as error:
+        raise ValueError(f"the horseshoe at {surface} cannot be proved: {error}") from None
+
+
+def _request(ball, orbit, energy):
+    """(surface, points (x, y), type) of a request."""
+    from ..search import known
+
+    if "orbit" in orbit.dims:
+        raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
+    if isinstance(ball, Surface):
+        surface = ball
+    else:
+        energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
+        surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
+    near = known.ball(surface)
+    state = [orbit[name].values for name in ("x", "xdot", "udot")]
+    own, given = float(near.energy(*state)[0]), float(surface.energy)
+    if not abs(own - given) <= 1e-6 * (abs(given) + near.g**2 / near.k):
+        raise ValueError(f"the orbit's energy is {own:.6g}, not that of {surface}")
+    return surface, known.chart(near, orbit), str(orbit["type"].item())

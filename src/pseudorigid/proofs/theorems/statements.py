@@ -1,0 +1,243 @@
+"""The theorems at the paper's numbers, k = 1/5 and g = 1/25: how each is checked and searched.
+
+result = THEOREMS["horseshoe-outer"].check()
+result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[0.018... "]}
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from importlib import resources
+
+from ..checks import horseshoe, jump, periodic, twist
+from ..checks.certificate import NotProvedError
+from ..enclosure.surface import Surface
+
+K, G = Fraction(1, 5), Fraction(1, 25)
+HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
+# Figure 6 of the paper: x from 0.21 to 0.2116, xdot from 0.0925 to 0.0932.
+WINDOW = tuple(tuple(map(Fraction, pair)) for pair in (("0.21", "0.2116"), ("0.0925", "0.0932")))
+DIGITS = 30
+
+
+@dataclass(frozen=True)
+class Result:
+    """What checking a theorem's certificate gave.
+
+    verdict: "proved" or "not proved", with the reason; digits: name -> enclosure, as text with as
+    many digits as are proved; margins: name -> by how much the inequalities hold.
+    """
+
+    name: str
+    statement: str
+    certificate: str
+    verdict: str
+    reason: str
+    digits: dict
+    margins: dict
+    seconds: float
+
+    def line(self):
+        """All of it in one line."""
+        found = ", ".join(f"{name} = {value}" for name, value in self.digits.items())
+        margins = ", ".join(f"{name} {value:.3g}" for name, value in self.margins.items())
+        parts = [f"{self.certificate}: {self.statement}"]
+        parts += [found] if found else []
+        parts += [f"margins: {margins}"] if margins else []
+        parts += [f"{self.seconds:.2f} s", self.reason, self.verdict]
+        return "; ".join(part for part in parts if part)
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A statement, its checker with the statement's numbers, and how a certificate is sought."""
+
+    name: str
+    statement: str
+    checker: Callable
+    bounds: dict
+    search: Callable = field(repr=False)
+
+    @property
+    def certificate(self):
+        """The name of the certificate's file in the folder `certificates`."""
+        return f"{self.name}.toml"
+
+    def text(self):
+        """The certificate as it stands in the package."""
+        folder = resources.files(__package__.rpartition(".")[0]) / "certificates"
+        return (folder / self.certificate).read_text(encoding="utf-8")
+
+    def prove(self, text):
+        """The checker's Finding for a certificate's text; NotProvedError with the reason."""
+        return self.checker(text, **self.bounds)
+
+    def check(self, text=None):
+        """The Result for a certificate's text, or for the package's own."""
+        begin = time.perf_counter()
+        digits, margins, reason = {}, {}, ""
+        try:
+            found = self.prove(self.text() if text is None else text)
+            digits = {name: value.str(DIGITS) for name, value in found.digits.items()}
+            margins = found.margins
+        except FileNotFoundError:
+            reason = "there is no such certificate"
+        except NotProvedError as error:
+            reason = " ".join(str(error).split())
+        return Result(
+            self.name, self.statement, self.certificate, "not proved" if reason else "proved",
+            reason, digits, margins, time.perf_counter() - begin,
+        )  # fmt: skip
+
+    def of_any_size(self, text):
+        """Whether the checker takes a certificate whatever the radius that it claims."""
+        try:
+            self.checker(text, **self.bounds | {"radius": Fraction(0)})
+        except NotProvedError:
+            return False
+        return True
+
+
+def search_certificate(name):
+    """A new certificate of a theorem, as text: not proved, but proposed to its checker."""
+    theorem = THEOREMS[name]
+    return theorem.search(theorem)
+
+
+def _orbit_theorem(name, surface, period, kind, radius):
+    def propose(theorem):
+        from ..search import known
+        from ..search import periodic as proposals
+
+        points = known.points(surface, period, kind)
+        return proposals.propose(surface, points, theorem.of_any_size)
+
+    article = "an" if kind[0] in "ei" else "a"
+    statement = (
+        f"at E = {surface.energy} there is {article} {kind} orbit of period {period}, "
+        f"the only one within {float(radius):g} of its points"
+    )
+    bounds = {"surface": surface, "period": period, "type": kind, "radius": radius}
+    if kind == "hyperbolic":
+        bounds["window"] = WINDOW
+    return Theorem(name, statement, periodic.check, bounds, propose)
+
+
+def _twist_theorem(name, surface, period, radius):
+    def propose(theorem):
+        from ..search import known
+        from ..search import twist as proposals
+
+        return proposals.propose(
+            surface, known.points(surface, period, "elliptic"), theorem.of_any_size
+        )
+
+    what = "fixed point" if period == 1 else f"orbit of period {period}"
+    statement = (
+        f"at E = {surface.energy} closed invariant curves surround the elliptic {what} in each of "
+        "its neighbourhoods: it is stable for all time, and they fill a positive area"
+    )
+    bounds = {"surface": surface, "period": period, "radius": radius}
+    return Theorem(name, statement, twist.check, bounds, propose)
+
+
+def _horseshoe_theorem(name, side, plan, crossing, entropy):
+    def propose(theorem):
+        from ..search import horseshoe as proposals
+        from ..search import known
+
+        def measure(text):
+            return theorem.prove(text).parts["margins"]
+
+        points = known.points(HIGH, 6, "hyperbolic")
+        return proposals.propose(HIGH, known.ball(HIGH), points, proposals.Plan(**plan), measure)
+
+    statement = (
+        f"at E = {HIGH.energy} the {side} connections of the hyperbolic orbit of period 6 are "
+        "transversal, and P has a uniformly hyperbolic invariant set around them, conjugate to a "
+        f"mixing subshift of entropy at least {float(entropy):g}"
+    )
+    bounds = {
+        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": WINDOW,
+        "crossing": crossing, "entropy": entropy,
+    }  # fmt: skip
+    return Theorem(name, statement, horseshoe.check, bounds, propose)
+
+
+def _zero_theorem():
+    def propose(theorem):
+        from ..search import known
+        from ..search import twist as proposals
+
+        low, high = Fraction("0.029"), Fraction("0.03")
+        (start,) = known.points(Surface(K, G, low), 1, "elliptic")
+        return proposals.propose_zero(K, G, low, high, start, theorem.of_any_size)
+
+    statement = (
+        "as E rises the fixed point's twist falls through zero at the energy below, and the second "
+        "twist is negative there: just below it shearless curves shrink into the point"
+    )
+    bounds = {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")}
+    return Theorem("twist-zero", statement, twist.check_zero, bounds, propose)
+
+
+def _jump_theorem():
+    def propose(theorem):
+        from ..search import jump as proposals
+
+        return proposals.propose(HIGH, "0.02", "1e-28")
+
+    statement = (
+        f"at E = {HIGH.energy} P is not continuous at the point below, and not a diffeomorphism; "
+        "its jump set is one curve, from the rim to an inner end"
+    )
+    bounds = {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.404")}
+    return Theorem("jump-set", statement, jump.check, bounds, propose)
+
+
+def _smooth_theorem():
+    def propose(theorem):
+        from ..search import jump as proposals
+
+        return proposals.propose_smooth(K, G)
+
+    statement = (
+        "at every E below g^2 (1 + k/2) P is analytic on the open disk of the section, with the "
+        "analytic inverse R P R"
+    )
+    return Theorem("diffeomorphism", statement, jump.check_smooth, {"k": K, "g": G}, propose)
+
+
+_ORBITS = (
+    ("fixed-point", HIGH, 1, "elliptic", "4e-3"),
+    ("fixed-point-low", LOW, 1, "elliptic", "2e-3"),
+    ("six-elliptic", HIGH, 6, "elliptic", "1e-4"),
+    ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4"),
+    ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4"),
+    ("ten-elliptic", LOW, 10, "elliptic", "6e-6"),
+    ("twelve-elliptic", LOW, 12, "elliptic", "6e-6"),
+)
+_TWISTS = (
+    ("twist-fixed-point", HIGH, 1, "4e-3"),
+    ("twist-fixed-point-low", LOW, 1, "2e-3"),
+    ("twist-six", HIGH, 6, "1e-4"),
+)
+THEOREMS = {
+    theorem.name: theorem
+    for theorem in (
+        *(_orbit_theorem(*names, Fraction(radius)) for *names, radius in _ORBITS),
+        _horseshoe_theorem(
+            "horseshoe-outer", "outer", {"side": 1, "steps": 59, "size": 6.5e-5, "room": 1.14},
+            (Fraction("0.326"), Fraction("0.327")), Fraction("0.0185"),
+        ),
+        _horseshoe_theorem(
+            "horseshoe-inner", "inner", {"side": -1, "steps": 177, "size": 1e-10, "room": 1.12},
+            (Fraction("0.187"), Fraction("0.188")), Fraction("0.0083"),
+        ),
+        *(_twist_theorem(*names, Fraction(radius)) for *names, radius in _TWISTS),
+        _zero_theorem(),
+        _jump_theorem(),
+        _smooth_theorem(),
+    )
+}  # fmt: skip

@@ -1,0 +1,394 @@
+"""The theorems: proved as they stand, by digits that others find too; refused where altered."""
+
+import re
+import time
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from judge import exact_map
+
+from pseudorigid import Ball
+from pseudorigid.proofs import THEOREMS, Surface, search_certificate
+from pseudorigid.proofs.checks import jump, twist
+from pseudorigid.proofs.checks.certificate import NotProvedError
+
+BALL = Ball(k=0.2, g=0.04)
+ORBITS = [n for n in THEOREMS if re.match("fixed-|six-|ten-|twelve-", n)]
+TWISTS = [n for n in THEOREMS if n.startswith("twist-") and n != "twist-zero"]
+HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+
+
+@pytest.fixture(scope="module")
+def results():
+    return {name: theorem.check() for name, theorem in THEOREMS.items()}
+
+
+def test_every_theorem_is_proved_in_time(results):
+    assert [r.line() for r in results.values() if r.verdict != "proved"] == []
+    assert sum(r.seconds for r in results.values()) < 30
+    assert all(min(r.margins.values()) > 0 for r in results.values())
+
+
+def test_a_result_is_one_line_that_ends_in_its_verdict(results):
+    for name, result in results.items():
+        line = result.line()
+        assert "\n" not in line
+        assert line.startswith(f"{name}.toml: ")
+        assert line.endswith(" s; proved")
+    refused = THEOREMS["fixed-point"].check("nonsense")
+    assert re.search(r"s; the certificate cannot be read: .*; not proved$", refused.line())
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_a_new_search_gives_a_certificate_that_holds(name):
+    text = search_certificate(name)
+    assert THEOREMS[name].check(text).verdict == "proved"
+
+
+@pytest.mark.parametrize("name", HORSESHOES)
+def test_the_search_is_reproducible(name):
+    assert search_certificate(name) == THEOREMS[name].text()
+
+
+# ---- digits against other methods
+
+
+def numbers(text, field):
+    """The rows of a certificate's field, as text."""
+    block = re.search(rf"^{field} = \[\n(.*?)^\]", text, re.MULTILINE | re.DOTALL).group(1)
+    return [re.findall(r"[-\d.e]+", line) for line in block.splitlines()]
+
+
+@pytest.mark.parametrize("name", ORBITS)
+def test_orbits_close_in_an_independent_map_of_60_digits(name, results):
+    surface = THEOREMS[name].bounds["surface"]
+    digits = results[name].digits
+    with mpmath.workdps(60):
+        k, g, _ = (mpmath.mpf(a.numerator) / a.denominator for a in
+                   (surface.k, surface.g, surface.energy))  # fmt: skip
+        first = [mpmath.mpf(digits[n].strip("[").split()[0]) for n in ("x", "xdot", "udot")]
+
+        def around(state):
+            total = mpmath.mpf(0)
+            for _ in range(THEOREMS[name].bounds["period"]):
+                *state, tau = exact_map(k, g, *state)
+                total += tau
+            return state, total
+
+        after, total = around(first)
+        assert max(abs(a - b) for a, b in zip(after, first, strict=True)) < mpmath.mpf("1e-27")
+        assert abs(total - mpmath.mpf(digits["period"].strip("[").split()[0])) < mpmath.mpf("1e-26")
+        energy = first[1] ** 2 / 2 + k * first[2] ** 2 / 2 - g * first[0] + k * first[0] ** 2 / 2
+        exact = mpmath.mpf(surface.energy.numerator) / surface.energy.denominator
+        assert abs(energy - exact) < mpmath.mpf("1e-29")
+
+
+@pytest.mark.parametrize("name", ORBITS)
+def test_traces_by_differences_of_60_digits(name, results):
+    theorem = THEOREMS[name]
+    surface = theorem.bounds["surface"]
+    x, y = numbers(theorem.text(), "points")[0]
+    h = arb(2) ** -100
+    with ctx.workprec(400):
+
+        def around(a, b):
+            for _ in range(theorem.bounds["period"]):
+                image = surface.impact(a, b)
+                a, b = image.x, image.y
+            return a, b
+
+        x, y = arb(x), arb(y)
+        trace = (around(x + h, y)[0] - around(x - h, y)[0]
+                 + around(x, y + h)[1] - around(x, y - h)[1]) / (2 * h)  # fmt: skip
+        stated = arb(results[name].digits["trace"].strip("[").split()[0])
+        assert abs(trace - stated) < arb("1e-26")
+
+
+def test_the_paper_s_numbers(results):
+    six = results["six-hyperbolic"].digits
+    assert 0.21 < float(six["x"][1:].split()[0]) < 0.2116
+    assert 0.0925 < float(six["xdot"][1:].split()[0]) < 0.0932
+
+
+def rotation(surface_energy, x, impacts=40_000):
+    """Rotation number (of a turn an impact) about the fixed point of the orbit from (x, 0)."""
+    state = [np.array([a]) for a in BALL.state_xy(x, 0.0, surface_energy)]
+    out = np.empty((1, impacts, 4))
+    BALL.map.history(*state, BALL.k, BALL.g, out)
+    return out[0, :, 0], out[0, :, 1] - BALL.k * out[0, :, 2]
+
+
+def frequency(energy, fixed, frame, q):
+    """(action, angle an impact) of the orbit at q along the first axis of the normal frame."""
+    beta, delta = frame
+    x, y = rotation(energy, fixed + beta * q)
+    first, second = (x - fixed) / beta, beta * (y - delta * (x - fixed) / beta)
+    angle = np.unwrap(np.arctan2(second, first))
+    share = np.linspace(0.0, 1.0, angle.size + 1)[1:-1]
+    weight = np.exp(-1.0 / (share * (1.0 - share)))  # smooth, so that the mean converges fast
+    return np.mean(first**2 + second**2) / 2, np.sum(np.diff(angle) * weight) / weight.sum()
+
+
+@pytest.mark.parametrize(("name", "energy"), [("twist-fixed-point", 0.01),
+                                              ("twist-fixed-point-low", 0.001)])  # fmt: skip
+def test_the_twist_is_that_of_measured_rotation_numbers(name, energy, results):
+    """How the angle of rotation grows with the enclosed area, along double-precision orbits."""
+    orbit = "fixed-point" if energy == 0.01 else "fixed-point-low"
+    fixed = float(results[orbit].digits["x"][1:].split()[0])
+    state = BALL.state_xy(fixed, 0.0, energy)
+    (a, b), (c, d) = BALL.chart_jacobian(*state)
+    sine = np.copysign(np.sqrt(1 - ((a + d) / 2) ** 2), b)
+    beta = np.sqrt(b / sine)
+    frame = beta, beta * ((a + d) / 2 - a) / b
+    actions, angles = zip(*(frequency(energy, fixed, frame, q) for q in (0.002, 0.006)),
+                          strict=True)  # fmt: skip
+    slope = (angles[1] - angles[0]) / (actions[1] - actions[0])
+    stated = float(results[name].digits["twist"][1:].split()[0])
+    assert slope == pytest.approx(stated, rel=0.02)
+
+
+def test_one_sided_images_are_those_of_nearby_orbits(results):
+    digits = {n: float(v[1:].split()[0]) for n, v in results["jump-set"].digits.items()}
+    seen = set()
+    for angle in np.linspace(0, 2 * np.pi, 16, endpoint=False):
+        x = digits["point x"] + 1e-9 * np.cos(angle)
+        y = digits["point y"] + 1e-9 * np.sin(angle)
+        after = BALL.impact(*BALL.state_xy(x, y, 0.01))
+        place = after[0], after[1] - BALL.k * after[2]
+        for side in ("near", "far"):
+            image = digits[f"{side} image x"], digits[f"{side} image y"]
+            if np.hypot(place[0] - image[0], place[1] - image[1]) < 1e-3:
+                seen.add(side)
+                break
+        else:
+            pytest.fail(f"{place} is neither image")
+    assert seen == {"near", "far"}
+
+
+def test_the_jump_set_s_polygon_lies_where_flights_just_touch():
+    surface = THEOREMS["jump-set"].bounds["surface"]
+    with ctx.workprec(jump.BITS):
+        for x, y in jump.curve(surface, 12)[1:-1]:
+            sides = set()
+            for dx, dy in 1e-7 * np.array([(1, 0), (-1, 0), (0, 1), (0, -1)]):
+                after = BALL.impact(*BALL.state_xy(float(x) + dx, float(y) + dy, 0.01))
+                sides.add(bool(after[1] + after[2] < 0.02))
+            assert sides == {True, False}
+
+
+def test_coverings_hold_for_points_in_doubles():
+    """Corners and edges of the outer horseshoe's sets, mapped in double precision."""
+    theorem = THEOREMS["horseshoe-outer"]
+    edge = np.linspace(-1, 1, 21)
+    for source, target in theorem.prove(theorem.text()).parts["edges"]:
+        ends = []
+        for p in (-1.0, 1.0):
+            x, y = (
+                float(source.centre[i]) + p * float(source.u[i]) + edge * float(source.s[i])
+                for i in (0, 1)
+            )
+            image = BALL.impact(*BALL.state_xy(x, y, 0.01))
+            dx = image[0] - float(target.centre[0])
+            dy = image[1] - BALL.k * image[2] - float(target.centre[1])
+            (ux, uy), (sx, sy) = ([float(a) for a in side] for side in (target.u, target.s))
+            area = ux * sy - uy * sx
+            assert np.abs((ux * dy - uy * dx) / area).max() < 1
+            ends.append((dx * sy - dy * sx) / area)
+        assert np.abs(np.concatenate(ends)).min() > 1
+        assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
+
+
+def test_the_entropy_solves_its_equation(results):
+    for name in HORSESHOES:
+        loop = THEOREMS[name].prove(THEOREMS[name].text()).parts["loop"]
+        entropy = float(results[name].digits["entropy"][1:].split()[0])
+        assert np.exp(-6 * entropy) + np.exp(-loop * entropy) == pytest.approx(1, abs=1e-12)
+    assert float(results["horseshoe-outer"].digits["entropy"][1:].split()[0]) > 0.0146
+    assert float(results["horseshoe-inner"].digits["entropy"][1:].split()[0]) > 0.0071
+
+
+# ---- controls
+
+
+def refused(name, text):
+    result = THEOREMS[name].check(text)
+    assert result.verdict == "not proved"
+    assert result.reason
+    assert "\n" not in result.reason
+    return result.reason
+
+
+def altered(text, field, row, columns, change):
+    """The certificate with numbers of one row of a field changed."""
+    lines = text.splitlines(keepends=True)
+    at = lines.index(f"{field} = [\n") + 1 + row
+    values = [Fraction(a) for a in re.findall(r"-?\d[\d.e-]*", lines[at])]
+    for column in columns:
+        values[column] = Fraction(change(values, column))
+    lines[at] = "  [" + ", ".join(f'"{value}"' for value in values) + "],\n"
+    return "".join(lines)
+
+
+@pytest.mark.parametrize("name", HORSESHOES)
+@pytest.mark.parametrize("row", [0, 30, -2])
+def test_horseshoes_refuse_altered_sets(name, row):
+    text = THEOREMS[name].text()
+    row = row % len(numbers(text, "approach"))
+    wider = altered(text, "approach", row, (2, 3), lambda v, i: v[i] * Fraction("1.3"))
+    assert "cover" in refused(name, wider)
+    thinner = altered(text, "approach", row, (4, 5), lambda v, i: v[i] * Fraction("0.7"))
+    assert "cover" in refused(name, thinner)
+    shifted = altered(text, "approach", row, (0, 1), lambda v, i: v[i] + v[i + 2] / 2)
+    assert "cover" in refused(name, shifted)
+    across = altered(text, "approach", row, (0, 1), lambda v, i: v[i] + v[i + 4] / 2)
+    assert "cover" in refused(name, across)
+
+
+def test_horseshoes_refuse_the_other_connection_and_a_larger_entropy():
+    outer, inner = (THEOREMS[name] for name in HORSESHOES)
+    assert refused("horseshoe-outer", inner.text())
+    with pytest.raises(NotProvedError, match="where the statement says"):
+        outer.checker(inner.text(), **outer.bounds | {"entropy": Fraction(0)})
+    with pytest.raises(NotProvedError, match="entropy is not proved"):
+        outer.checker(outer.text(), **outer.bounds | {"entropy": Fraction("0.0186")})
+
+
+def test_horseshoes_refuse_an_orbit_that_is_not_the_paper_s():
+    theorem = THEOREMS["horseshoe-outer"]
+    elsewhere = ((Fraction(0), Fraction("0.01")), (Fraction(0), Fraction(1)))
+    with pytest.raises(NotProvedError, match="window"):
+        theorem.checker(theorem.text(), **theorem.bounds | {"window": elsewhere})
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+@pytest.mark.parametrize(("field", "value"), [("k", "1/4"), ("g", "1/24"), ("energy", "1/99")])
+def test_certificates_of_another_ball_are_refused(name, field, value):
+    text = THEOREMS[name].text()
+    other = re.sub(rf'^{field} = ".*"$', f'{field} = "{value}"', text, flags=re.MULTILINE)
+    if other != text:
+        reason = refused(name, other)
+        # the zero's certificate says itself at which energy it is
+        assert "the certificate is of" in reason or (name, field) == ("twist-zero", "energy")
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_unreadable_certificates_are_refused(name):
+    text = THEOREMS[name].text()
+    for broken in ("", text[: len(text) // 2], text.replace("k = ", "kk = "),
+                   re.sub(r"kind = .*", 'kind = "poem"', text), re.sub(r"\d+", "x", text)):  # fmt: skip
+        refused(name, broken)
+
+
+def test_a_missing_certificate_is_refused(monkeypatch):
+    def nothing(self):
+        raise FileNotFoundError
+
+    monkeypatch.setattr(type(THEOREMS["jump-set"]), "text", nothing)
+    assert THEOREMS["jump-set"].check().reason == "there is no such certificate"
+
+
+def test_boxes_without_an_orbit_are_refused():
+    text = THEOREMS["fixed-point"].text()
+    assert refused("fixed-point", text.replace("0.0212078", "0.0312078"))
+    assert refused("fixed-point", text.replace("radius = 4e-03", "radius = 5e-03"))
+    assert "as stated" in refused("fixed-point", text.replace("radius = 4e-03", "radius = 3e-03"))
+    # the hyperbolic orbit's boxes hold no elliptic orbit, and the other way round
+    assert "hyperbolic, not" in refused("six-elliptic", THEOREMS["six-hyperbolic"].text())
+    # every second point twice: an orbit of half the period is no orbit of this one
+    fixed = numbers(text, "points")[0]
+    twice = THEOREMS["six-elliptic"].text()
+    rows = "".join(f"  [{', '.join(fixed)}],\n" for _ in range(6))
+    twice = re.sub(r"points = \[\n.*?\n\]", f"points = [\n{rows}]", twice, flags=re.DOTALL)
+    assert "period may be shorter" in refused("six-elliptic", twice)
+
+
+@pytest.mark.parametrize("name", TWISTS)
+def test_a_twist_of_the_wrong_sign_or_size_is_refused(name):
+    text = THEOREMS[name].text()
+    line = re.search(r"^twist = (.*)$", text, re.MULTILINE)
+    value = Fraction(line.group(1))
+    for other in (-value, value * Fraction("1.00000001"), 0):
+        reason = refused(name, text.replace(line.group(0), f'twist = "{other}"'))
+        assert "not the stated" in reason
+
+
+def test_a_band_without_a_zero_of_the_twist_is_refused():
+    text = THEOREMS["twist-zero"].text()
+    energy = Fraction(re.search(r'energy = "(.*)"', text).group(1))
+    for other in (energy - Fraction("1e-13"), energy + Fraction("1e-13")):
+        moved = re.sub(r'energy = ".*"', f'energy = "{other}"', text)
+        assert refused("twist-zero", moved)
+    assert "wide" in refused("twist-zero", text.replace("width = 1e-13", "width = 1e-12"))
+
+
+def test_the_map_is_not_proved_smooth_above_its_threshold():
+    text = THEOREMS["diffeomorphism"].text()
+    for other in ("1/100", "11/6249", "11/6251"):
+        assert "product" in refused("diffeomorphism", text.replace("11/6250", other))
+    with pytest.raises(NotProvedError, match="no flight touches the floor"):
+        jump.check(THEOREMS["jump-set"].text().replace("1/100", "11/6250"),
+                   Surface("1/5", "1/25", "11/6250"), radius=Fraction(1), length=Fraction(0))  # fmt: skip
+
+
+def leading_digits(text, fields):
+    """Every certificate with the leading digit of one number of these fields changed."""
+    place, field = 0, None
+    for line in text.splitlines(keepends=True):
+        named = re.match(r"(\w+) = ", line)
+        if named:
+            field = named.group(1)
+        if field in fields and not line.startswith(("#", "]")):
+            for number in re.finditer(r"-?\d[\d.e-]*", line[named.end() if named else 0 :]):
+                digit = re.search(r"[1-9]", number.group(0))
+                if digit:
+                    at = place + (named.end() if named else 0) + number.start() + digit.start()
+                    for other in "123456789".replace(text[at], ""):
+                        yield number.group(0), text[:at] + other + text[at + 1 :]
+        place += len(line)
+
+
+FIELDS = {
+    "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
+    "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_no_leading_digit_may_change(name):
+    every = list(leading_digits(THEOREMS[name].text(), FIELDS))
+    assert every
+    if len(every) > 200:  # a fair part of it; all with -m slow
+        every = every[:: len(every) // 60]
+    for number, text in every:
+        assert THEOREMS[name].check(text).verdict == "not proved", number
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HORSESHOES)
+def test_no_leading_digit_of_a_horseshoe_may_change(name):
+    for number, text in leading_digits(THEOREMS[name].text(), FIELDS):
+        assert THEOREMS[name].check(text).verdict == "not proved", number
+
+
+def test_the_time_is_that_of_the_check():
+    begin = time.perf_counter()
+    result = THEOREMS["six-elliptic"].check()
+    assert 0 < result.seconds <= time.perf_counter() - begin
+
+
+def test_the_twist_of_the_search_is_found_another_way():
+    """The closed formula and the normal form: two derivations, one number."""
+    from pseudorigid.proofs.search import known
+    from pseudorigid.proofs.search import twist as formula
+    from pseudorigid.proofs.search.periodic import polished
+
+    theorem = THEOREMS["twist-six"]
+    found = theorem.prove(theorem.text()).digits["twist"]
+    surface = theorem.bounds["surface"]
+    with ctx.workprec(160):
+        points = polished(surface, known.points(surface, 6, "elliptic"))
+        assert abs(formula.estimate(surface, points) - found) < arb("1e-25")
+    assert twist.CLOSE < Fraction(1, 10**6)
