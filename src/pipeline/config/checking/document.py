@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..declared.fields import BallBlock, Block, Name
+from ..declared.variant import Prove
 from . import sweeps, variants
 from .mistakes import mistakes
 from .scenes import checked
@@ -27,6 +28,7 @@ class Document(Block):
     sweeps: Annotated[dict[Name, Any], Field(description="a mapping from names to sweeps")] = {}
     claims: Scenes = {}
     proofs: Scenes = {}
+    prove: Prove = {"impacts": 20_000}
 
 
 def check(document) -> dict:
@@ -60,6 +62,7 @@ def check(document) -> dict:
         "scenes": derived[variants.PAPER],
         "variants": derived,
         "sweeps": grids,
+        "prove": given["prove"] or Document.model_fields["prove"].default,
     }
 
 

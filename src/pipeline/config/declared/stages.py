@@ -26,6 +26,12 @@ STAGES = {
         ("period", "type", "branches", "point", "window", "length", "resolution"),
         ("periodic",),
     ),
+    "horseshoe": Stage(
+        "pseudorigid.proofs.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
+    ),
+    "twist": Stage(
+        "pseudorigid.proofs.theorems.scenes", "scene_twist", ("energies",), follows=False
+    ),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 

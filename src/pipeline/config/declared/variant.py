@@ -4,7 +4,13 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from .fields import Block, Energy, Method, PartOfBall, real
+from .fields import LARGEST, Block, Energy, Method, PartOfBall, real, whole
+
+
+class Prove(Block):
+    """a mapping with the key impacts"""
+
+    impacts: whole(1, LARGEST)
 
 
 class Variant(Block):

@@ -107,11 +107,11 @@ class Panel:
         """Draw marks of `size` points, filled or hollow."""
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
-    def note(self, x, y, text, shift=(0.0, 0.0)):
+    def note(self, x, y, text, shift=(0.0, 0.0), ha="left", va="center"):
         """Write `text` beside a point, `shift` points away."""
         across, up = self.place(x, y)
         across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha="left", va="center", size=6.0)
+        self.sheet.text(across, up, text, ha=ha, va=va, size=6.0)
 
     def _label(self, x, text):
         """Where the middle of a label below the frame is."""

@@ -25,7 +25,7 @@ def draw(scene, twist):
     )
     names = ("Energy $E$", r"Twist $\tau_1$ of the fixed point")
     plane = Plane(scene, ("energy", "twist"), names)
-    (left, right), (bottom, _) = plane.spans
+    (left, right), (bottom, _) = plane.across.limits, plane.up.limits
     zero = float(twist["zero"])
     plane.line([left, right], [0.0, 0.0], color=style.BACKDROP, lw=0.6)
     plane.line([zero, zero], [bottom, 0.0], color=style.BACKDROP, lw=0.6)

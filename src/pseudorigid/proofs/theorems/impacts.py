@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 
+from ...dynamics.starts import start_state
 from ..judge import impact_errors
 from .statements import Result
 
@@ -34,13 +35,13 @@ def impact_result(errors, name, seconds):
     return Result(name, statement, "no certificate", verdict, reason, {}, margins, seconds)
 
 
-def of_orbits(ball, energy, orbits):
-    """(before, after, tau) of all impacts of a scene's orbits, as from `scene_orbits`."""
+def of_orbits(ball, energy, orbits, starts):
+    """(before, after, tau) of all impacts of a scene's orbits, as `scene_orbits` makes them."""
     state = np.array([orbits[name].values for name in ("x", "xdot", "udot")])
     before = np.roll(state, 1, axis=1)
     sizes = orbits["row_size"].values
     first = np.cumsum(sizes) - sizes
-    before[:, first] = np.array(ball.start(orbits["start"].values, energy))
+    before[:, first] = np.array([start_state(ball, energy, start) for start in starts]).T
     return before, state, orbits["tau"].values
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
 from ..enclosure.surface import Surface, exact
 from . import keeping
@@ -31,7 +32,10 @@ def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=No
     if folder is not None:
         for file in Path(folder).glob("orbit_*.npz"):
             file.unlink()
-    return ragged_orbits(pieces, [float(exact("start", start)) for start in starts], impacts)
+    ball = Ball(float(exact("k", k)), float(exact("g", g)))
+    fractions = [float(exact("start", start)) for start in starts]
+    states = [ball.start(start, float(exact("energy", energy))) for start in fractions]
+    return ragged_orbits(pieces, fractions, states, impacts)
 
 
 def _kept(folder, index, k, g, energy, start, count, progress):

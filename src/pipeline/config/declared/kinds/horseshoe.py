@@ -1,0 +1,42 @@
+"""The sets of a proved horseshoe along a connection, and one of its covering relations."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ..fields import Branches, axes_of
+from ..scene import OfManifolds
+
+Side = Annotated[Literal["outer", "inner"], Field(description="outer or inner")]
+
+
+class Horseshoe(OfManifolds):
+    """the sets of a proved horseshoe along a connection of the orbit
+
+    The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its
+    {{ s.connection }} connection, at energy {{ s.energy }} for k = {{ s.ball.k }},
+    g = {{ s.ball.g }}; dots, far larger than the sets. Above, over the manifolds: at the saddles
+    (red) and along the connection. Below: the middle set as a square, and across it the image of
+    the set before it.
+
+    What to see: the image crosses the square from side to side, its heavy ends lie beyond, and it
+    touches neither top nor bottom. Each set covers the next in that way.
+    """
+
+    stages = ("manifolds", "horseshoe")
+    telling = "sets"
+
+    branches: Branches
+    connection: Side
+    axes: axes_of("x", "y", "p", "q")
+
+    @classmethod
+    def lengths(cls, block):
+        """Those of the branches."""
+        branches = block["branches"]
+        return {("branches", side, "length"): branches[side]["length"] for side in branches}
+
+    @staticmethod
+    def numbers(block, periodic, manifolds, horseshoe):
+        """The orbit, and how many sets there are."""
+        return Horseshoe.about_orbit(periodic, block) | {"sets": f"{horseshoe.sizes['set']}"}

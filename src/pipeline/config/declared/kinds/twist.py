@@ -1,0 +1,42 @@
+"""The fixed point's twist against the energy."""
+
+from itertools import pairwise
+
+from ..fields import Energy, axes_of, listed
+from ..scene import Scene
+
+
+class Twist(Scene):
+    """the fixed point's twist coefficient against the energy
+
+    The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for
+    k = {{ s.ball.k }}, g = {{ s.ball.g }}: doubles rounded from enclosures.
+
+    What to see: where it is not zero, Moser's theorem gives invariant curves around the point. It
+    vanishes once, at the ring, where the proof encloses the energy to ten digits and more; just
+    below that energy curves without shear shrink into the point.
+    """
+
+    stages = ("twist",)
+    framed_by = ("energies",)
+    telling = "zero of the twist"
+
+    energies: listed(Energy, "a list of energies in rising order", 2, 1000)
+    marks: listed(Energy, "a list of energies among those", 0, 10) = []
+    axes: axes_of("energy", "twist") = None
+
+    @classmethod
+    def faults(cls, block):
+        """Energies rise, and marks are among them."""
+        yield from super().faults(block)
+        energies = block["energies"]
+        if any(not a < b for a, b in pairwise(energies)):
+            yield ("energies",), energies, "a list of energies in rising order"
+        for mark in block["marks"]:
+            if mark not in energies:
+                yield ("marks",), mark, "one of energies"
+
+    @staticmethod
+    def numbers(block, twist):
+        """Where it vanishes."""
+        return {"zero of the twist": f"{float(twist['zero']):.12f}"}

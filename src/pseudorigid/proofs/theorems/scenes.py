@@ -1,0 +1,28 @@
+"""The stages behind the pictures of the proofs: theorems at the paper's numbers only."""
+
+from fractions import Fraction
+
+from .pictures import horseshoe_data, twist_data
+from .statements import HIGH, G, K
+
+
+def scene_horseshoe(ball, energy, connection):
+    """`horseshoe_data` of the paper's orbit by its "outer" or "inner" connection."""
+    _check(ball, energy)
+    return horseshoe_data(f"horseshoe-{connection}")
+
+
+def scene_twist(ball, energy, energies):
+    """`twist_data` at these energies, decimals as they are written."""
+    _check(ball, energy)
+    return twist_data([str(value) for value in energies])
+
+
+def _check(ball, energy):
+    """ValueError unless ball and energy are those that the theorems are about."""
+    given = [Fraction(str(value)) for value in (ball.k, ball.g, energy)]
+    if given != [K, G, HIGH.energy]:
+        raise ValueError(
+            f"no theorem at k = {ball.k:g}, g = {ball.g:g}, E = {energy:g}: "
+            f"they are at k = {K}, g = {G}, E = {HIGH.energy}"
+        )
