@@ -35,12 +35,13 @@ def draw(scene, twist):
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
         _name(plane, energy[at], values[at], f"$E$ = {style.number(mark)}")
     plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
-    _name(plane, zero, 0.0, f"$E$ = {zero:.6f}")
+    _name(plane, zero, 0.0, f"$E$ = {zero:.6f}", left=True)
     return plane.figure
 
 
-def _name(plane, x, y, text):
-    """Write a text to the upper right of a point."""
-    across, up = (float(a) for a in plane.place(x, y))
-    across, up = across + 4 * POINT, up + 2 * POINT
-    plane.sheet.text(across, up, text, ha="left", va="bottom", size=style.PLAIN)
+def _name(plane, x, y, text, left=False):
+    """Write a text above a point, to its right or left."""
+    across, up = (float(a[0]) for a in plane.place(x, y))
+    across, up = across + (-10 if left else 4) * POINT, up + (-14 if left else 2) * POINT
+    ha = "right" if left else "left"
+    plane.sheet.text(across, up, text, ha=ha, va="bottom", size=style.PLAIN)
