@@ -66,6 +66,11 @@ def code(result):
     return lambda wildcards: EXPECTED[result.format(**wildcards)].sources
 
 
+def maker(stage, result):
+    """Params function: module and function that compute a stage."""
+    return lambda wildcards: STAGES[stage].maker(EXPECTED[result.format(**wildcards)].config)
+
+
 def reported(drawing, kind):
     """A drawing, with the caption of its kind of picture in the report."""
     return report(

@@ -19,6 +19,6 @@ for stage in STAGES:
         params:
             block=block(result),
             sources=code(result),
-            function=(STAGES[stage].module, STAGES[stage].function),
+            maker=maker(stage, result),
         script:
             "../scripts/stage.py"

@@ -1,6 +1,7 @@
 """One stage of a scene: the function of the science that the rule names, on the scene's block."""
 
 import os
+import sys
 from importlib import import_module
 
 from job import one_line_errors, recorded
@@ -10,17 +11,39 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 
 block = snakemake.params.block
 os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
+
+
+def compute_exactly(compute, fields):
+    """From the decimals as they are written; finished orbits are kept while the job lasts."""
+    what = f"{snakemake.wildcards.variant}/{snakemake.wildcards.scene}"
+
+    def progress(share, seconds, orbit):
+        place = f"{what}: orbit {orbit + 1} of {len(fields['starts'])}"
+        print(f"{place}: {share:.0%}, {seconds:.0f} s to go", file=sys.stderr, flush=True)
+
+    numbers = {**block["ball"], "energy": block["energy"]}
+    return compute(
+        **{name: str(value) for name, value in numbers.items()},
+        **fields,
+        progress=progress,
+        folder=f"{snakemake.output[0]}.part",
+    )
+
+
 with one_line_errors(snakemake), recorded(snakemake):
-    module, function = snakemake.params.function
+    module, function = snakemake.params.maker
     compute = getattr(import_module(module), function)
     # A block with a `method` is computed by it, and its data say how many impacts that missed.
-    method = block.get("method")
-    how = ImpactMap((method["scan"], method["tolerance"]) if method else None)
+    method = block.get("method", {})
+    how = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
     ball = Ball(**block["ball"], map=how)
     inputs = [artifacts.load(path) for path in snakemake.input.data]
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
-    dataset = compute(ball, block["energy"], *inputs, **fields)
-    if method:
+    if "exact" in method:
+        dataset = compute_exactly(compute, fields)
+    else:
+        dataset = compute(ball, block["energy"], *inputs, **fields)
+    if "scan" in method:
         dataset.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
     artifacts.save(
         dataset,

@@ -27,7 +27,7 @@ def of_scenes(variants, variant=places.PAPER) -> dict[str, Expected]:
         for stage, parameters in places.stages(block).items():
             inputs = [serves[variant, scene, name] for name in STAGES[stage].inputs]
             path = serves[variant, scene, stage]
-            found[path] = Expected(parameters, places.stage_code(stage), inputs)
+            found[path] = Expected(parameters, places.stage_code(stage, parameters), inputs)
         kind = block["picture"]
         inputs = [serves[variant, scene, stage] for stage in KINDS[kind].stages]
         for extension in block["formats"]:

@@ -25,7 +25,8 @@ def stages(block: dict) -> dict[str, dict]:
     found = {}
     for name in behind(KINDS[block["picture"]].stages):
         stage = STAGES[name]
-        fields = ("ball", "energy", *stage.fields, *(("method",) if stage.follows else ()))
+        method = ("method",) if stage.takes(block.get("method", {})) else ()
+        fields = ("ball", "energy", *stage.fields, *method)
         found[name] = {field: block[field] for field in fields if field in block}
     return found
 
@@ -47,9 +48,9 @@ def served(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
     return serves
 
 
-def stage_code(stage: str) -> list[str]:
-    """The project's files that make the data of a stage."""
-    return sources.code("stage.py", STAGES[stage].module)
+def stage_code(stage: str, block: dict) -> list[str]:
+    """The project's files that make the data of a stage for a block of it."""
+    return sources.code("stage.py", STAGES[stage].maker(block)[0])
 
 
 def drawing_code(kind: str) -> list[str]:

@@ -6,7 +6,7 @@ Nothing is computed here: both must have their results.
 from ... import config
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
-from . import cycles, exponents, norms, picture
+from . import cycles, exponents, norms, orbits, picture
 
 
 def compare(root, variants, names, absent):
@@ -38,6 +38,8 @@ def compare(root, variants, names, absent):
                 if stage != "periodic":
                     both = [data(which, scene, stage) for which in (0, 1)]
                     _indented(stage, norms.table(*both, names))
+                    if stage == "orbits":
+                        _indented("", orbits.table(*both))
         image = root / picture_path(names, scene)
         if all(missing):
             image.unlink(missing_ok=True)

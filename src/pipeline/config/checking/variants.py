@@ -54,6 +54,8 @@ def derive(document, name, given):
 def _derived(block, variant, change):
     """A scene's block, ball included, with what a variant says of all scenes and of this one."""
     given = {key: variant[key] for key in _FOR_ALL if key in variant}
+    if "method" in variant:  # one method instead of another
+        block = {key: value for key, value in block.items() if key != "method"}
     after = merged(merged(block, given), change)
     framing = ("ball", "energy", *KINDS[block["picture"]].framed_by)
     moved = variant.get("scale", 1) != 1 or any(block.get(f) != after.get(f) for f in framing)

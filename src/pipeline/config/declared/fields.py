@@ -4,6 +4,7 @@ A field's description is what a refusal says and what docs/config.md lists. Mode
 blocks stay the plain mappings that were written, so that 1 and 1.0 stay what they are.
 """
 
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
@@ -34,11 +35,11 @@ def listed(item, allowed: str, low: int = 1, high: int | None = None):
     return Annotated[list[item], Field(description=allowed, min_length=low, max_length=high)]
 
 
-def one_or(other, one, mark: type, allowed: str):
-    """The type of what is either `other`, where it is given as a `mark`, or `one`."""
+def one_or(other, one, is_other: Callable, allowed: str):
+    """The type of what is either `other`, where `is_other` says so of what is given, or `one`."""
 
     def which(value):
-        return "(other)" if isinstance(value, mark) else "(one)"
+        return "(other)" if is_other(value) else "(one)"
 
     return Annotated[
         Annotated[one, Tag("(one)")] | Annotated[other, Tag("(other)")],
@@ -75,18 +76,33 @@ class PartOfBall(Block):
     g: Gravity = None
 
 
-class Method(Block):
+class Scan(Block):
     """a mapping with the keys scan and tolerance"""
 
     scan: real("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
     tolerance: real("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
 
 
-class FineMethod(Method):
+class FineScan(Scan):
     """a mapping with the keys scan and tolerance"""
 
     # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
     tolerance: real("a number from 1e-15 to 1e-12, for manifolds", ge=1e-15, le=1e-12)
+
+
+class Exact(Block):
+    """a mapping with the key exact"""
+
+    exact: Annotated[Literal[True], Field(description="true, or no method at all")]
+
+
+def _is_exact(value):
+    return isinstance(value, dict) and "exact" in value
+
+
+METHODS = "a mapping with the keys scan and tolerance, or {exact: true}"
+Method = one_or(Exact, Scan, _is_exact, METHODS)
+FineMethod = one_or(Exact, FineScan, _is_exact, METHODS)
 
 
 class Axis(Block):
@@ -142,7 +158,7 @@ Start = one_or(
     Point,
     real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",
          gt=-1, lt=1),
-    dict,
+    lambda value: isinstance(value, dict),
     "a fraction of the section's radius, or a point {x, xdot} or {x, y}",
 )  # fmt: skip
 Starts = listed(
@@ -153,7 +169,7 @@ Starts = listed(
 Impacts = one_or(
     listed(whole(1, LARGEST), "a list of whole numbers, one for each start"),
     whole(1, LARGEST),
-    list,
+    lambda value: isinstance(value, list),
     "a whole number, or a list of them, one for each start",
 )
 Period = whole(1, 12)

@@ -11,11 +11,26 @@ class Stage(NamedTuple):
     fields: tuple[str, ...]  # of those that the scene has
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
     follows: bool = True  # orbits, so that a scene's `method` decides its data too
+    exact: tuple[str, str] | None = None  # module and function for `method: {exact: true}`
+
+    def maker(self, block) -> tuple[str, str]:
+        """Module and function for a block of the config."""
+        exact = "exact" in block.get("method", {})
+        return self.exact if exact else (self.module, self.function)
+
+    def takes(self, method) -> bool:
+        """Whether a scene's `method` decides the data of this stage."""
+        return self.follows and (self.exact is not None or "exact" not in method)
 
 
 _DYNAMICS = "pseudorigid.dynamics"
 STAGES = {
-    "orbits": Stage(f"{_DYNAMICS}.orbits", "scene_orbits", ("starts", "impacts")),
+    "orbits": Stage(
+        f"{_DYNAMICS}.orbits",
+        "scene_orbits",
+        ("starts", "impacts"),
+        exact=("pseudorigid.proofs.true_orbits.scene", "true_scene_orbits"),
+    ),
     "periodic": Stage(f"{_DYNAMICS}.periodic", "symmetric_orbits", ("period",), follows=False),
     "motion": Stage(
         f"{_DYNAMICS}.motion", "scene_motion", ("period", "type", "duration"), ("periodic",)

@@ -22,7 +22,7 @@ class _Span(Block):
 Values = one_or(
     listed(Number, "a list of at least one number"),
     _Span,
-    list,
+    lambda value: isinstance(value, list),
     "a list of numbers, or a mapping with from, to and count",
 )
 

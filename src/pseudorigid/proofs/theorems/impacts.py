@@ -29,10 +29,10 @@ def impact_result(errors, name, seconds):
             if worst < np.inf
             else f"impact {place} grazes: which one is first is not decided"
         )
-    statement = f"each of {errors.size} impacts computed is the first one"
+    statement = f"each of {errors.size:,} impacts computed is the first one"
     verdict = "not proved" if reason else "proved"
     margins = {"worst error": worst}
-    return Result(name, statement, "no certificate", verdict, reason, {}, margins, seconds)
+    return Result(name, statement, name, verdict, reason, {}, margins, seconds)
 
 
 def of_orbits(ball, energy, orbits, starts):
