@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
+from ..dynamics import fixed_point
+from ..dynamics.follow import follow
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from . import fixed_point
-from .follow import follow
 
 # Over the second half of its impacts a tangent vector of a regular orbit grows like the number of
 # impacts, and ln(7/3) = 0.85 is its mean; a chaotic one grows by many times e.
