@@ -10,8 +10,11 @@ from .ball import Ball
 from .follow import follow
 from .variables import variables
 
+GROWN = 6.0  # ln of a tangent vector's growth over a chaotic orbit's second half, at least
+LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
 
-def rotation(ball, energy, energies, starts, impacts):
+
+def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     """Rotation number around the fixed point, and exponent, of starts along y = 0.
 
     Parameters
@@ -25,23 +28,34 @@ def rotation(ball, energy, energies, starts, impacts):
         How many starts at each energy, evenly from the fixed point to the section's rim.
     impacts : int
         Of each orbit.
+    detail : (float, float)
+        As many starts again lie evenly over this part of y = 0, in section radii, at the first
+        energy.
+    detail_impacts : int
+        Of each of these.
 
     Returns
     -------
     Dataset
         On (energy, start): place, the start in section radii from the centre; rotation, turns an
         impact around the fixed point, a weighted Birkhoff average; exponent, over the second half
-        of the orbit. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic).
-        Attribute impacts.
+        of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
+        detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
+        impacts and detail_impacts.
 
     References
     ----------
-    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017);
-    weights; here they are (t (1 - t))^3.
+    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017); the
+    weights here are (t (1 - t))^3.
     """
     all_energies = np.array([energy, *energies], dtype=float)
-    rows = [_one_energy(ball, value, starts, impacts) for value in all_energies.tolist()]
-    place, turns, grown, centre, about = (np.array(column) for column in zip(*rows, strict=True))
+    middle = (np.arange(starts) + 0.5) / starts
+    rows = []
+    for level in all_energies.tolist():
+        fixed, about = _fixed(ball, level)
+        place = fixed + (1.0 - fixed) * middle
+        rows.append((place, *_followed(ball, level, place, impacts), fixed, about))
+    place, turns, grown, fixed, about = (np.array(column) for column in zip(*rows, strict=True))
     names = {
         "place": "start along y = 0, in section radii from the centre",
         "rotation": "rotation number around the fixed point",
@@ -53,25 +67,85 @@ def rotation(ball, energy, energies, starts, impacts):
         "fixed_place": "the fixed point, in section radii from the centre",
         "fixed_rotation": "rotation number of the fixed point",
     }
-    data |= variables("energy", (all_energies, centre, about), names)
-    return xr.Dataset(data, attrs={"impacts": impacts})
+    data |= variables("energy", (all_energies, fixed, about), names)
+    names = {
+        "detail_place": "start along y = 0, in section radii from the centre",
+        "detail_rotation": "rotation number around the fixed point",
+        "detail_exponent": "Lyapunov exponent an impact",
+    }
+    place = detail[0] + (detail[1] - detail[0]) * middle
+    found = _followed(ball, energy, place, detail_impacts)
+    data |= variables("detail", (place, *found), names)
+    return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
 
 
-def _one_energy(ball, energy, starts, impacts):
-    unit = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
+def _fixed(ball, energy):
+    """The fixed point's place on y = 0, in section radii, and its rotation number."""
     e = energy / (ball.g * ball.g)
     theta = fixed_point.half_time(ball.k, e)
+    middle, radius = Ball(ball.k, 1.0).section(e)
     about = fixed_point.rotation(fixed_point.trace(ball.k, theta))
+    return (fixed_point.place(ball.k, theta) - middle) / radius, about
+
+
+def _followed(ball, energy, place, impacts):
+    """(rotation numbers, exponents) of the orbits from places on y = 0."""
+    unit = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
+    e = energy / (ball.g * ball.g)
     middle, radius = unit.section(e)
-    at = fixed_point.place(ball.k, theta)
-    centre = (at - middle) / radius
-    place = centre + (1.0 - centre) * (np.arange(starts) + 0.5) / starts
+    fixed, about = _fixed(ball, energy)
     time = (np.arange(impacts) + 0.5) / impacts
     bump = time * (1.0 - time)
     weight = bump * bump * bump
     weight /= weight.sum()
-    turns, grown = np.empty(starts), np.empty(starts)
+    turns, grown = np.empty(place.size), np.empty(place.size)
     states = [a.copy() for a in unit.start(place, e)]
     expected = 0.5 if math.isnan(about) else about
-    follow(*states, ball.k, at, expected, weight, grown, turns)
-    return place, turns, grown, centre, about
+    follow(*states, ball.k, middle + radius * fixed, expected, weight, grown, turns)
+    return turns, grown
+
+
+def regular(exponent, impacts):
+    """Which orbits of so many impacts are regular, by the growth of a tangent vector.
+
+    The exponent of a regular one is about ln 2 over half their number, or less.
+    """
+    return exponent * (0.5 * impacts) < GROWN
+
+
+def island(dataset, row):
+    """How many starts from the fixed point on lie in the main island, at the energy of that row.
+
+    It ends where two neighbouring starts are chaotic: a layer inside it may hold one.
+    """
+    chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
+    both = chaotic[:-1] & chaotic[1:]
+    return int(np.argmax(both)) if both.any() else chaotic.size
+
+
+def plateaus(place, turns, most=100, few=3):
+    """Gaps between the curves around the fixed point: starts in one chain of islands.
+
+    Parameters
+    ----------
+    place, turns : ndarray (n,)
+        Of regular orbits, in order.
+    most : int
+        Islands in a chain, at most.
+    few : int
+        Neighbouring starts with one rotation number, at least.
+
+    Returns
+    -------
+    list of (int, int, float, float)
+        p, q and the first and last place of starts with the rotation number p/q, in lowest terms.
+    """
+    found = []
+    for q in range(2, most + 1):
+        p = np.rint(turns * q).astype(np.int64)
+        hit = np.abs(turns - p / q) < LOCKED
+        for number in sorted(set(p[hit].tolist())):
+            (at,) = np.nonzero(hit & (p == number))
+            if at.size >= few and at[-1] - at[0] == at.size - 1 and np.gcd(number, q) == 1:
+                found.append((number, q, float(place[at[0]]), float(place[at[-1]])))
+    return found

@@ -124,3 +124,23 @@ def _entered(ball, energy, states, cells, visits):
 def _cell(place, cells):
     """The cell, 0 to cells - 1, of places between -1 and 1."""
     return np.clip((0.5 * (place + 1.0) * cells).astype(np.int64), 0, cells - 1)
+
+
+def stretches(dataset, length):
+    """Largest exponents over all stretches of `length` impacts of the sea's orbits.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As from `spread`.
+    length : int
+        A multiple of its block_impacts.
+
+    Returns
+    -------
+    ndarray (stretch,)
+    """
+    block = dataset["exponent"].values[:, :, 0]
+    count = length // int(dataset.attrs["block_impacts"])
+    whole = block[: block.shape[0] // count * count]
+    return whole.reshape(-1, count, block.shape[1]).mean(axis=1).ravel()
