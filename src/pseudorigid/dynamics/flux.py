@@ -22,6 +22,7 @@ from .variables import variables
 SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
 _SLABS = 2048  # into which a region's polygon is sorted by height
+_CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 
 
@@ -51,8 +52,10 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         the angle between the branches in the plane (x, y = xdot - k udot). From polygons of the
         traced lines: lobe_polygon, and region, the area closed in. From counting: carried_out and
         carried_in, areas that one impact moves; sea_inside, the share of the sea's impacts that are
-        inside, and sea_out, the share of its impacts that leave. Attributes: section, its area;
-        multiplier, of the orbit.
+        inside, and sea_out, the share of its impacts that leave. For pictures: outline_x, outline_y
+        (side, corner), of the region; branch_x, branch_y (side, vertex), of the unstable branch
+        from a lobe's one end to the mirror image of its other, whose own mirror image in y = 0 is
+        the stable branch. Attributes: section, its area; multiplier, of the orbit.
 
     Raises
     ------
@@ -83,6 +86,12 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     }
     crossings = np.array([row[1] for row in found]).transpose(1, 0, 2)
     data |= variables(("side", "crossing"), crossings, names)
+    names = {"outline_x": "x on the region's edge", "outline_y": "y on the region's edge"}
+    outlines = np.stack([row[3] for row in found], axis=1)
+    data |= variables(("side", "corner"), outlines, names)
+    names = {"branch_x": "x on the unstable branch", "branch_y": "y on that branch"}
+    branches = np.stack([row[4] for row in found], axis=1)
+    data |= variables(("side", "vertex"), branches, names)
     texts = np.array([row[2] for row in found], dtype=object)
     data["digits"] = ("side", texts, {"long_name": "area of a lobe, in decimals"})
     label = np.array(SIDES, dtype=object)
@@ -96,7 +105,7 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
 
 
 def _side(ball, energy, saddles, side, distance, grid, path):
-    """(numbers, crossings, digits) of one side."""
+    """(numbers, crossings, digits, region's outline, branch) of one side."""
     place, sign = _primary(ball, energy, saddles, side)
     state = [float(saddles[name].values[place]) for name in ("x", "xdot", "udot")]
     lobes = []
@@ -107,7 +116,7 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     area = lobes[1].area
     error = abs(lobes[1].area - lobes[0].area).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
-    lobe, region = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
+    lobe, region, branch = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
     polygon = _Polygon(region)
     out, back = _carried(ball, energy, polygon, grid)
     inside = polygon.holds(*path)
@@ -117,7 +126,13 @@ def _side(ball, energy, saddles, side, distance, grid, path):
         [float(one.points[-1][0]) for one in lobes[1].orbits],
         [float(one.sine()) for one in lobes[1].orbits],
     ]
-    return numbers, crossings, area.str(digits, radius=False)
+    text = area.str(digits, radius=False)
+    return numbers, crossings, text, _thinned(region, _CORNERS), _thinned(branch, _VERTICES)
+
+
+def _thinned(line, count):
+    """`count` vertices of a line (2, n), its ends among them."""
+    return line[:, np.arange(count) * (line.shape[1] - 1) // (count - 1)]
 
 
 def _primary(ball, energy, saddles, side):
@@ -146,7 +161,7 @@ def _primary(ball, energy, saddles, side):
 
 
 def _polygons(ball, energy, saddles, place, side, distance, lobe):
-    """The lobe's area between the traced lines, and the vertices (2, n) of the region."""
+    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
     first, second = lobe.orbits
     steps = 2 * second.impacts - first.impacts
     late = second.points[min(first.impacts, steps)]
@@ -181,7 +196,7 @@ def _polygons(ball, energy, saddles, place, side, distance, lobe):
         loop.append(np.stack([both[0], both[1] - ball.k * both[2]]))
         for part in (arc, back):
             ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
-    return abs(area), _closed(loop)
+    return abs(area), _closed(loop), line[:, min(at) : max(at) + 1]
 
 
 def _between(line, start, end, first, last):

@@ -74,13 +74,16 @@ def _detail(sheet, frame, rotation):
     name = "Start on $y=0$, section radii from the centre"
     across = Axis((low, high), tuple(ticks(low, high, 4)), name)
     least, most = float(turns[good].min()), float(turns[good].max())
-    limits = (least - 0.05 * (most - least), most + 0.05 * (most - least))
+    limits = (least - 0.05 * (most - least), most + 0.1 * (most - least))
     up = Axis(limits, tuple(ticks(*limits, 4)), "Rotation number, detail")
     panel = Panel(sheet, frame, across, up)
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     for p, q, first, last in plateaus(place[good], turns[good]):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
-        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", va="top", shift=(4, -2))
+        right = first > low + 0.8 * (high - low)
+        ha, shift = ("right", (-2, 3)) if right else ("left", (4, -2))
+        va = "bottom" if right else "top"
+        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", ha=ha, va=va, shift=shift)
 
 
 def _across(rotation):
@@ -100,15 +103,20 @@ def _energies(sheet, frame, rotation):
         curves.append((float(rotation["energy"].values[row]), place, change))
     low, high = -0.0125, 0.0125
     far = max(float(place[np.abs(change) < high].max()) for _, place, change in curves)
-    far = 0.2 * (int(far / 0.2) + 1)
+    far = 0.1 * (int(far / 0.1) + 1) + 0.05
     name = "Start, section radii from the fixed point"
     up = Axis(
         (low, high), (-0.01, -0.005, 0, 0.005, 0.01), "Rotation number, less the fixed point's"
     )
     panel = Panel(sheet, frame, Axis((0.0, far), tuple(ticks(0.0, far, 6)), name), up)
+    clipped = 0
     for number, (energy, place, change) in enumerate(curves):
         shown = np.abs(change) < high
-        cut = int(np.argmin(shown)) if not shown.all() else shown.size
+        cut = shown.size if shown.all() else int(np.argmin(shown))
         hue = style.HUES[number % len(style.HUES)]
         panel.line(place[:cut], change[:cut], color=hue, lw=1.0)
-        panel.note(place[cut - 1], change[cut - 1], style.number(energy), shift=(2.5, 0.0))
+        shift, ha = (2.5, 0.0), "left"
+        if cut < shown.size:  # the line leaves the frame: names to its left and to its right
+            shift, ha = ((3.0, 6.0), "left") if clipped == 0 else ((-15.0, 3.0), "right")
+            clipped += 1
+        panel.note(place[cut - 1], change[cut - 1], style.number(energy), ha=ha, shift=shift)
