@@ -11,17 +11,16 @@ import numpy as np
 import xarray as xr
 from flint import ctx
 
-from ..kernel.compiled import jit
 from .actions import Law, Lobe, Saddle, first_crossing
 from .manifolds import trace_manifold
 from .orbits import orbit
 from .periodic import of_type, symmetric_orbits
+from .polygon import Polygon
 from .sea import sea_states
 from .variables import variables
 
 SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
-_SLABS = 2048  # into which a region's polygon is sorted by height
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 
@@ -117,7 +116,7 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     error = abs(lobes[1].area - lobes[0].area).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
     lobe, region, branch = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
-    polygon = _Polygon(region)
+    polygon = Polygon(region)
     out, back = _carried(ball, energy, polygon, grid)
     inside = polygon.holds(*path)
     left = np.mean(inside[:-1] & ~inside[1:])
@@ -237,48 +236,3 @@ def _carried(ball, energy, polygon, grid):
     after = polygon.holds(states[0], states[1] - ball.k * states[2])
     cell = 4.0 * width * height / (grid * grid)
     return cell * int(np.sum(before & ~after)), cell * int(np.sum(after & ~before))
-
-
-class _Polygon:
-    """A closed polygon (2, n), its sides sorted into slabs by height."""
-
-    def __init__(self, vertices):
-        self.x, self.y = vertices
-        self.after_x, self.after_y = np.roll(self.x, -1), np.roll(self.y, -1)
-        low, high = np.minimum(self.y, self.after_y), np.maximum(self.y, self.after_y)
-        self.bottom, self.top = float(low.min()), float(high.max())
-        first, last = self._slab(low), self._slab(high)
-        sides = np.repeat(np.arange(low.size), last - first + 1)
-        shift = np.arange(sides.size) - np.repeat(np.cumsum(last - first + 1), last - first + 1)
-        slabs = last[sides] + shift + 1
-        order = np.argsort(slabs, kind="stable")
-        self.sides = sides[order]
-        self.begin = np.searchsorted(slabs[order], np.arange(_SLABS + 1))
-
-    def _slab(self, y):
-        place = (y - self.bottom) / (self.top - self.bottom) * _SLABS
-        return np.clip(place.astype(np.int64), 0, _SLABS - 1)
-
-    def area(self):
-        return abs(0.5 * float(np.sum(self.x * self.after_y - self.after_x * self.y)))
-
-    def holds(self, x, y):
-        """Whether points of any shape are inside."""
-        inside = np.zeros(np.shape(x), dtype=np.bool_)
-        slabs = self._slab(y).ravel()
-        shape = self.x, self.y, self.after_x, self.after_y, self.sides, self.begin
-        _crossings(np.ravel(x), np.ravel(y), slabs, *shape, inside.reshape(-1))
-        return inside
-
-
-@jit
-def _crossings(x, y, slabs, x0, y0, x1, y1, sides, begin, inside):
-    for i in range(x.size):
-        for j in range(begin[slabs[i]], begin[slabs[i] + 1]):
-            side = sides[j]
-            if (y0[side] > y[i]) != (y1[side] > y[i]):
-                across = x0[side] + (y[i] - y0[side]) / (y1[side] - y0[side]) * (
-                    x1[side] - x0[side]
-                )
-                if x[i] < across:
-                    inside[i] = not inside[i]

@@ -49,8 +49,8 @@ def _lengths(sheet, frame, spread):
     ticks = tuple(0.01 * (4 * i) for i in range(int(least / 0.04), 7))
     up = Axis((ticks[0], 0.27), ticks, "Largest exponent in the sea")
     panel = Panel(sheet, frame, across, up)
-    panel.line([10.0**low / 2, 10.0**high * 2], [_PAPER] * 2, color=style.BLUE, lw=0.7, ls="--")
-    panel.note(10.0**high, _PAPER, "the paper: 0.235", ha="right", shift=(0, 5))
+    panel.line([1.0, 1e30], [_PAPER] * 2, color=style.BLUE, lw=0.7, ls="--")
+    panel.note(lengths[-1], _PAPER, "the paper: 0.235", ha="right", shift=(0, 5))
     for length in lengths:
         values = np.sort(stretches(spread, length))
         last = values.size - 1
