@@ -7,12 +7,13 @@ is kept beside it. The same cells give the same bytes, whatever blocks they came
 
 import shutil
 from contextlib import contextmanager
+from itertools import groupby
 
 import netCDF4
 import numpy as np
 import xarray as xr
 
-from pseudorigid.sweep.cell import PERIODS, VARIABLES, cell
+from pseudorigid.sweep.cell import PERIODS, VARIABLES, cells
 
 from . import artifacts
 from .files import replacing
@@ -28,7 +29,9 @@ class StoreError(ValueError):
 
 def compute(block) -> xr.Dataset:
     """The cells of a block, as from grid.block, on the dim `cell`."""
-    found = [cell(k, e, block["starts"], block["impacts"]) for k, e in block["cells"]]
+    found = []
+    for k, row in groupby(block["cells"], key=lambda pair: pair[0]):
+        found += cells(k, [e for _, e in row], block["starts"], block["impacts"])
     dataset = xr.Dataset(
         {
             name: (_dims(name, "cell"), np.array([c[name] for c in found], kind), _about(text))

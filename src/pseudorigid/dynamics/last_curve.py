@@ -12,11 +12,10 @@ import xarray as xr
 
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
-from . import fixed_point
-from .ball import Ball
-from .follow import angle, follow
+from .follow import angle
 from .orbits import orbit
 from .variables import variables
+from .winding import fixed, winding
 
 # A bracket of the symmetric flight begins so wide, in section radii, and grows up to the other.
 _NARROW, _WIDE = 1e-13, 1e-3
@@ -80,7 +79,7 @@ def _one(ball, energy, noble, convergents, between, impacts, drawn):
     search = _Search(ball, energy, between)
     found = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
     place = found[-1][2]
-    turns, grown = search.follow(place, impacts)
+    (turns,), (grown,) = winding(ball, energy, np.array([place]), impacts)
     states = ball.start(place, energy)
     path = orbit(ball, states, drawn)
     numbers = value(noble), turns, grown
@@ -121,11 +120,9 @@ class _Search:
 
     def __init__(self, ball, energy, between):
         self.ball, self.energy, self.between = ball, energy, between
-        e = energy / (ball.g * ball.g)
-        theta = fixed_point.half_time(ball.k, e)
-        self.centre = ball.g * fixed_point.place(ball.k, theta)
-        self.expected = fixed_point.rotation(fixed_point.trace(ball.k, theta))
-        self.radius = ball.section(energy)[1]
+        middle, self.radius = ball.section(energy)
+        at, self.expected = fixed(ball, energy)
+        self.centre = middle + self.radius * at
 
     def orbit(self, turns, period):
         """(place, residue, closure) of the orbit that makes so many turns in a period."""
@@ -150,20 +147,6 @@ class _Search:
         names = ("x", "xdot", "udot")
         gap = max(abs(float(after[name]) - a) for name, a in zip(names, state, strict=True))
         return place, 0.25 * (2.0 - trace), gap / self.radius
-
-    def follow(self, place, impacts):
-        """(rotation number, exponent) of a long orbit."""
-        unit = Ball(self.ball.k, 1.0)
-        energy = self.energy / (self.ball.g * self.ball.g)
-        states = [np.array([a]) for a in unit.start(place, energy)]
-        time = (np.arange(impacts) + 0.5) / impacts
-        bump = time * (1.0 - time)
-        weight = bump * bump * bump
-        weight /= weight.sum()
-        grown, turns = np.empty(1), np.empty(1)
-        centre = self.centre / self.ball.g
-        follow(*states, self.ball.k, centre, self.expected, weight, grown, turns)
-        return float(turns[0]), float(grown[0])
 
     def _half(self, place, half):
         k, g = self.ball.k, self.ball.g

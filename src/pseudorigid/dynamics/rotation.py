@@ -1,14 +1,10 @@
 """Rotation number and exponent of orbits against their start along y = 0, at several energies."""
 
-import math
-
 import numpy as np
 import xarray as xr
 
-from . import fixed_point
-from .ball import Ball
-from .follow import follow
 from .variables import variables
+from .winding import fixed, winding
 
 GROWN = 6.0  # ln of a tangent vector's growth over a chaotic orbit's second half, at least
 LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
@@ -42,20 +38,15 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
         of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
         detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
         impacts and detail_impacts.
-
-    References
-    ----------
-    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017); the
-    weights here are (t (1 - t))^3.
     """
     all_energies = np.array([energy, *energies], dtype=float)
     middle = (np.arange(starts) + 0.5) / starts
     rows = []
     for level in all_energies.tolist():
-        fixed, about = _fixed(ball, level)
-        place = fixed + (1.0 - fixed) * middle
-        rows.append((place, *_followed(ball, level, place, impacts), fixed, about))
-    place, turns, grown, fixed, about = (np.array(column) for column in zip(*rows, strict=True))
+        at, about = fixed(ball, level)
+        place = at + (1.0 - at) * middle
+        rows.append((place, *winding(ball, level, place, impacts), at, about))
+    place, turns, grown, at, about = (np.array(column) for column in zip(*rows, strict=True))
     names = {
         "place": "start along y = 0, in section radii from the centre",
         "rotation": "rotation number around the fixed point",
@@ -67,42 +58,16 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
         "fixed_place": "the fixed point, in section radii from the centre",
         "fixed_rotation": "rotation number of the fixed point",
     }
-    data |= variables("energy", (all_energies, fixed, about), names)
+    data |= variables("energy", (all_energies, at, about), names)
     names = {
         "detail_place": "start along y = 0, in section radii from the centre",
         "detail_rotation": "rotation number around the fixed point",
         "detail_exponent": "Lyapunov exponent an impact",
     }
     place = detail[0] + (detail[1] - detail[0]) * middle
-    found = _followed(ball, energy, place, detail_impacts)
+    found = winding(ball, energy, place, detail_impacts)
     data |= variables("detail", (place, *found), names)
     return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
-
-
-def _fixed(ball, energy):
-    """The fixed point's place on y = 0, in section radii, and its rotation number."""
-    e = energy / (ball.g * ball.g)
-    theta = fixed_point.half_time(ball.k, e)
-    middle, radius = Ball(ball.k, 1.0).section(e)
-    about = fixed_point.rotation(fixed_point.trace(ball.k, theta))
-    return (fixed_point.place(ball.k, theta) - middle) / radius, about
-
-
-def _followed(ball, energy, place, impacts):
-    """(rotation numbers, exponents) of the orbits from places on y = 0."""
-    unit = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
-    e = energy / (ball.g * ball.g)
-    middle, radius = unit.section(e)
-    fixed, about = _fixed(ball, energy)
-    time = (np.arange(impacts) + 0.5) / impacts
-    bump = time * (1.0 - time)
-    weight = bump * bump * bump
-    weight /= weight.sum()
-    turns, grown = np.empty(place.size), np.empty(place.size)
-    states = [a.copy() for a in unit.start(place, e)]
-    expected = 0.5 if math.isnan(about) else about
-    follow(*states, ball.k, middle + radius * fixed, expected, weight, grown, turns)
-    return turns, grown
 
 
 def regular(exponent, impacts):
