@@ -10,6 +10,7 @@ import sympy as sp
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import impact, law
+from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.proofs import derivations
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
 from pseudorigid.proofs.derivations.symbols import energy, flight, g, k, rebound, tau, v, w, x
@@ -114,7 +115,8 @@ def test_derivatives_of_a_flight_time():
     end = BALL.impact(*state)
     values = dict(zip((x, v, w), state, strict=True)) | {k: BALL.k, g: BALL.g, tau: end[3]}
     speed, rate = law.rebound(state[1], state[2], BALL.k, *law.transfer(BALL.k))[:2]
-    found = impact.flight_derivatives(state[0], speed, rate, state[1] + state[2], BALL.g, end[3])
+    speeds = state[0], speed, rate, state[1] + state[2], BALL.g, end[3]
+    found = impact.flight_derivatives(*speeds, quadrant(end[3]))
     slope = float(gap.diff(tau).subs(values))
     expected = [-float((1 - sp.cos(tau)).subs(values)) / slope, end[3] / slope]
     expected.append(-float((sp.sin(tau) - tau).subs(values)) / slope)

@@ -51,7 +51,8 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
         with period_error between orbits. On (cut, lag, first, then): correlation; on (cut, lag,
         then): dependence, with _low and _high, the ends of 95 % intervals. On orbit: time, its
         length, and strain_energy, the mean in time of k u^2/2; largest_strain and least_strain,
-        max and min of u. Attribute energy_at_rest, -g^2/(2k).
+        max and min of u; energy_error, of all impacts the largest. Attribute energy_at_rest,
+        -g^2/(2k).
 
     Raises
     ------
@@ -76,7 +77,9 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
         "least_strain": "largest compression, as a negative strain",
         "largest_strain": "largest stretch",
     }
-    data |= variables("orbit", strain, names)
+    error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
+    names |= {"energy_error": "largest difference of an impact's energy from the start's"}
+    data |= variables("orbit", [*strain, error], names)
     bits = np.random.default_rng(seed)
     chosen = bits.integers(0, orbits, (resamples, orbits))
     found = [_cut(out, ball.k, cut, lags, chosen) for cut in cuts]

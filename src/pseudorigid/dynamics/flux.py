@@ -46,7 +46,8 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     -------
     Dataset
         On side, inner and outer. From actions, in balls: area of the lobe, area_error, and digits,
-        the area as text with the digits that two starts and two precisions have in common. On
+        the area as text with the digits that two starts and two precisions have in common; saddle
+        and target, the indices of the points of the orbit that the branch leaves and meets. On
         (side, crossing): crossing_x on y = 0, where the two primary orbits meet it, and sine, of
         the angle between the branches in the plane (x, y = xdot - k udot). From polygons of the
         traced lines: lobe_polygon, and region, the area closed in. From counting: carried_out and
@@ -91,6 +92,11 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     names = {"branch_x": "x on the unstable branch", "branch_y": "y on that branch"}
     branches = np.stack([row[4] for row in found], axis=1)
     data |= variables(("side", "vertex"), branches, names)
+    names = {
+        "saddle": "index of the point that the branch leaves",
+        "target": "index of the point whose stable branch it meets",
+    }
+    data |= variables("side", np.array([row[5] for row in found], dtype=np.int64).T, names)
     texts = np.array([row[2] for row in found], dtype=object)
     data["digits"] = ("side", texts, {"long_name": "area of a lobe, in decimals"})
     label = np.array(SIDES, dtype=object)
@@ -104,7 +110,7 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
 
 
 def _side(ball, energy, saddles, side, distance, grid, path):
-    """(numbers, crossings, digits, region's outline, branch) of one side."""
+    """(numbers, crossings, digits, region's outline, branch, saddles) of one side."""
     place, sign = _primary(ball, energy, saddles, side)
     state = [float(saddles[name].values[place]) for name in ("x", "xdot", "udot")]
     lobes = []
@@ -126,7 +132,10 @@ def _side(ball, energy, saddles, side, distance, grid, path):
         [float(one.sine()) for one in lobes[1].orbits],
     ]
     text = area.str(digits, radius=False)
-    return numbers, crossings, text, _thinned(region, _CORNERS), _thinned(branch, _VERTICES)
+    x, y = (saddles["x"].values, saddles["xdot"].values - ball.k * saddles["udot"].values)
+    target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
+    lines = _thinned(region, _CORNERS), _thinned(branch, _VERTICES)
+    return numbers, crossings, text, *lines, (place, target)
 
 
 def _thinned(line, count):
