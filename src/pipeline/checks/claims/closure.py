@@ -11,6 +11,11 @@ CLAIMS = []
 claim = ledger.collector(CLAIMS)
 
 
+def _turns(rises, falls):
+    """Whether a rotation number with so many steps up and down has an extremum."""
+    return min(rises, falls) > 0.1 * (rises + falls)
+
+
 def _turning(found, row):
     """(rises, falls) of the rotation number from start to start across the main island."""
     size = island(found, row)
@@ -32,7 +37,7 @@ def no_twist_map(data, proved):
     found = data["rotation/rotation"]
     energies = found["energy"].values
     counts = [_turning(found, row) for row in range(energies.size)]
-    both = [f"{e:g}" for e, (up, down) in zip(energies, counts, strict=True) if min(up, down) > 10]
+    both = [f"{e:g}" for e, count in zip(energies, counts, strict=True) if _turns(*count)]
     monotone = min(counts[0]) == 0
     word = CORRECTED if monotone and both else HOLDS if both else OPEN
     said = "proved near the fixed point" if proved("twist-fixed-point") else "seen"

@@ -17,7 +17,7 @@ def flights(data, proved):
     return derived(data["derivations"], "flights")
 
 
-@claim(13, "(28)", "E", words="the impact map", data=["derivations"])
+@claim(13, "(28)", "E", words="the map from one impact to the next", data=["derivations"])
 def impact_map(data, proved):
     remark = "a sign in the first line; of many solutions the smallest flight time is meant"
     return derived(data["derivations"], "impact_map", remark=remark)
