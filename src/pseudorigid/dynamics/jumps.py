@@ -31,31 +31,31 @@ def jumps(ball, energy, energies, sides):
     energies : sequence of float
         The others.
     sides : int
-        Into how many sides a curve is divided; even.
+        Into how many sides a curve is divided, a multiple of four.
 
     Returns
     -------
     Dataset
         On energy: radius, of the section along y = 0, and length, of the curve in the plane
-        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule from all vertices and
-        every second one, with length_error, the difference that makes. On (energy, point), NaN
-        where there is none: rim_x, rim_y, the arc of the rim; x, y, its image under the map,
-        where the inverse jumps.
-        The map jumps on the mirror image, (x, -y); there its two values are the point of the rim
-        and (x, y). flight_x, flight_y (half_time, branch): the symmetry line Fix RP of flights
+        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
+        much it differs from what half as many sides give. On (energy, point), NaN where there is
+        none: rim_x, rim_y, the arc of the rim; x, y, its image under the map, where the inverse
+        jumps. The map jumps on the mirror image (x, -y). On one side of it the next impact is near
+        (rim_x, -rim_y), on the other near the image of that, the point with the same index counted
+        from the end. flight_x, flight_y (half_time, branch): the symmetry line Fix RP of flights
         symmetric in time, NaN where a flight is not the first to end.
 
     Raises
     ------
     ValueError
-        An odd number of sides, or an energy below the lowest.
+        A number of sides that four does not divide, or an energy below the lowest.
 
     References
     ----------
     The paper's section 3 calls the map (28) a diffeomorphism; that holds up to E = g^2 (1 + k/2).
     """
-    if sides % 2:
-        raise ValueError(f"sides = {sides} is not allowed: an even number")
+    if sides % 4:
+        raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
     levels = [energy, *energies]
     arcs = [_arc(ball, level, sides + 1) for level in levels]
     names = {
@@ -66,16 +66,17 @@ def jumps(ball, energy, energies, sides):
     }
     curves = np.stack(arcs, axis=1)
     data = variables(("energy", "point"), curves, names)
-    fine, coarse = _lengths(curves[2:]), _lengths(curves[2:, :, ::2])
+    fine, middle, coarse = (_lengths(curves[2:, :, ::step]) for step in (1, 2, 4))
+    length = fine + (fine - middle) / 3.0
+    error = np.abs(length - (middle + (middle - coarse) / 3.0))
     radii = [ball.section(level)[1] for level in levels]
     names = {
         "energy": "energy",
         "radius": "the section's radius along y = 0",
         "length": "length of the curve in (x, y)",
-        "length_error": "by how much the length of all sides and Richardson's differ",
+        "length_error": "by how much it differs from what half as many sides give",
     }
-    more = (fine - coarse) / 3.0
-    numbers = (np.array(levels, dtype=float), radii, fine + more, np.abs(more))
+    numbers = (np.array(levels, dtype=float), radii, length, error)
     data |= variables("energy", numbers, names)
     names = {"flight_x": "x on the symmetry line Fix RP", "flight_y": "y on that line"}
     data |= variables(("half_time", "branch"), _symmetric_flights(ball, energy, sides), names)
