@@ -223,15 +223,15 @@ def test_length_of_the_jump_curve_by_another_way(energy):
         return after[0], after[1] - k * after[2]
 
     step = mpf(10) ** -20
-    nodes, weights = np.polynomial.legendre.leggauss(100)
+    nodes, weights = np.polynomial.legendre.leggauss(120)
     length = mpf(0)
     for node, weight in zip(nodes, weights, strict=True):
         angle = end * mpf(float(node))
         (x0, y0), (x1, y1) = curve(angle - step), curve(angle + step)
         length += end * mpf(float(weight)) * mp.hypot(x1 - x0, y1 - y0) / (2 * step)
     found = jumps(BALL, energy, [], 4000)
-    assert float(found["length"].values[0]) == pytest.approx(float(length), abs=2e-11)
-    assert 0.0 < float(found["length_error"].values[0]) < 1e-10
+    assert float(found["length"].values[0]) == pytest.approx(float(length), abs=1e-12)
+    assert 0.0 < float(found["length_error"].values[0]) < 1e-12
 
 
 def test_the_map_jumps_across_the_curve():

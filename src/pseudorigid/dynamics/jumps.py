@@ -17,7 +17,7 @@ from ..kernel.law import rebound, transfer
 from .variables import variables
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
-_INSIDE = 1.0 - 2.0**-36
+_LEFT_OUT = 2.0**-46
 
 
 def jumps(ball, energy, energies, sides):
@@ -38,9 +38,9 @@ def jumps(ball, energy, energies, sides):
     Dataset
         On energy: radius, of the section along y = 0, and length, of the curve in the plane
         (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
-        much it differs from what half as many sides give. On (energy, point), NaN where there is
-        none: rim_x, rim_y, the arc of the rim; x, y, its image under the map, where the inverse
-        jumps. The map jumps on the mirror image (x, -y). On one side of it the next impact is near
+        much it differs from what half as many sides give, and what the ends left out make. On
+        (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
+        under the map, where the inverse jumps. The map jumps on the mirror image (x, -y). On one side of it the next impact is near
         (rim_x, -rim_y), on the other near the image of that, the point with the same index counted
         from the end. flight_x, flight_y (half_time, branch): the symmetry line Fix RP of flights
         symmetric in time, NaN where a flight is not the first to end.
@@ -68,7 +68,7 @@ def jumps(ball, energy, energies, sides):
     data = variables(("energy", "point"), curves, names)
     fine, middle, coarse = (_lengths(curves[2:, :, ::step]) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
-    error = np.abs(length - (middle + (middle - coarse) / 3.0))
+    error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
     radii = [ball.section(level)[1] for level in levels]
     names = {
         "energy": "energy",
@@ -99,7 +99,7 @@ def _arc(ball, energy, points):
     high = math.sqrt(k * (1.0 + k)) * radius
     depth = (centre + g) / radius
     end = math.sqrt((1.0 - depth) / (1.0 + depth))
-    t = end * _INSIDE * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
+    t = end * (1.0 - _LEFT_OUT) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
     x = centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t))
     y = high * (2.0 * t / (1.0 + t * t))
     states = x, y / (1.0 + k), -y / (1.0 + k)
