@@ -40,8 +40,9 @@ def jumps(ball, energy, energies, sides):
         (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
         much it differs from what half as many sides give, and what the ends left out make. On
         (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
-        under the map, where the inverse jumps. The map jumps on the mirror image (x, -y). On one side of it the next impact is near
-        (rim_x, -rim_y), on the other near the image of that, the point with the same index counted
+        under the map, where the inverse jumps. The map jumps on the mirror image (x, -y). On one
+        side of it the next impact is near (rim_x, -rim_y), on the other near the image of that,
+        the point with the same index counted
         from the end. flight_x, flight_y (half_time, branch): the symmetry line Fix RP of flights
         symmetric in time, NaN where a flight is not the first to end.
 

@@ -39,7 +39,7 @@ def diffeomorphism(data, proved):
     energy = float(jumps["energy"].values[0])
     if length > 0.0 and known:
         said = "proved" if proved("jump-set") and proved("diffeomorphism") else "computed"
-        value = f"it jumps on a curve of length {length:.9f} at E = {energy:g}; smooth ({said}) "
+        value = f"it jumps on a curve of length {length:.12f} at E = {energy:g}; smooth ({said}) "
         value += f"below E = g^2 (1 + k/2) = {threshold:g}"
         return Verdict(FALSE, value, f"{error:.0e}", "more_figures/claims/jumps.png")
     return Verdict(HOLDS, f"no jump at E = {energy:g}", "", "more_figures/claims/jumps.png")
