@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures import atlas
 from pseudorigid.figures.axes import raster
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels
-from pseudorigid.sweep import cell, fixed_point
+from pseudorigid.sweep import cell
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
 LINE = {"k": [0.2], "g": 0.04, "energy": [0.625 * i for i in range(1, 21)]}

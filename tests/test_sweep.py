@@ -26,7 +26,8 @@ from pipeline import config
 from pipeline.cli import sweep_run as run
 from pipeline.records import blocks as store
 from pseudorigid import Ball
-from pseudorigid.sweep import cell, fixed_point, follow, grid
+from pseudorigid.dynamics import fixed_point, follow
+from pseudorigid.sweep import cell, grid
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 RANGE = {"from": 0.1, "to": 10, "count": 3}

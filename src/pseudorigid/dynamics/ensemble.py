@@ -11,14 +11,23 @@ import numpy as np
 
 from ..kernel import impact, lanes
 
-# Fewer orbits than this are faster one after the other.
-_FEW = 12
-
 
 def threads() -> int:
     """How many threads to use: OMP_NUM_THREADS, or one for each core of this process."""
     given = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, int(given)) if given.isdigit() else len(os.sched_getaffinity(0))
+
+
+def shared(work, *arrays):
+    """The sum of what `work` returns for the pieces of the arrays, cut along their first axis, the
+    orbits: one piece a thread.
+    """
+    workers = min(threads(), len(arrays[0]) // lanes.LANES)
+    if workers < 2:
+        return work(*arrays)
+    pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)
+    with ThreadPoolExecutor(workers) as pool:
+        return sum(pool.map(lambda piece: work(*piece), pieces))
 
 
 class ImpactMap:
@@ -77,22 +86,14 @@ class ImpactMap:
         self.missed += missed
 
     def _share(self, x, v, w, k, g, impacts, tau, out):
-        workers = min(threads(), x.size // lanes.LANES)
-        if workers < 2:
-            missed = self._some(x, v, w, k, g, impacts, tau, out)
-        else:
-            pieces = [np.array_split(a, workers) for a in (x, v, w, tau, out)]
-            with ThreadPoolExecutor(workers) as pool:
-                jobs = [
-                    pool.submit(self._some, x, v, w, k, g, impacts, tau, out)
-                    for x, v, w, tau, out in zip(*pieces, strict=True)
-                ]
-            missed = sum(job.result() for job in jobs)
-        self.count(impacts * x.size, missed)
+        def some(x, v, w, tau, out):
+            return self._some(x, v, w, k, g, impacts, tau, out)
+
+        self.count(impacts * x.size, shared(some, x, v, w, tau, out))
 
     def _some(self, x, v, w, k, g, impacts, tau, out):
         """One thread's share; how many impacts it missed."""
-        if self.certified and x.size >= _FEW and impacts > 0 and not numba.config.DISABLE_JIT:
+        if self.certified and x.size >= lanes.FEW and impacts > 0 and not numba.config.DISABLE_JIT:
             lanes.steps(x, v, w, k, g, impacts, tau, out)
             return 0
         if out.size > 0:

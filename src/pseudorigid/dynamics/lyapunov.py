@@ -10,10 +10,13 @@ import math
 import numpy as np
 import xarray as xr
 
-from ..kernel import impact as kernel
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
+from ..kernel.impact import transfer
+from ..kernel.lanes import FEW
+from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
 from .ball import whole_number
+from .ensemble import shared
 from .starts import start_state, start_variables
 from .variables import orbit_dims
 
@@ -41,13 +44,16 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     shape = state[0].shape
     dims = orbit_dims(shape)
     at = (np.arange(1, records + 1) * impacts) // records
-    out = np.empty((records, state[0].size, 3))
-    columns = (a.flatten() for a in state)
-    missed = _spectrum(*columns, ball.k, ball.g, at, out, ball.map.how)
+    out = np.empty((state[0].size, records, 3))
+
+    def some(x, v, w, out):
+        return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)
+
+    missed = shared(some, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
     exponent = (
         ("impact", *dims, "index"),
-        out.reshape(records, *shape, 3),
+        np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
         {"long_name": "Lyapunov exponent an impact", "units": "1"},
     )
     attributes = {"long_name": "number of impacts", "units": "1"}
@@ -89,58 +95,110 @@ def _unit(a, b, c):
 
 
 @jit
-def _orthonormal(a, b, c):
-    """Gram-Schmidt in the order given: the three lengths and the frame, each vector a tuple."""
-    p, a0, a1, a2 = _unit(*a)
-    d = (a0 * b[0] + a1 * b[1]) + a2 * b[2]
-    q, b0, b1, b2 = _unit(b[0] - d * a0, b[1] - d * a1, b[2] - d * a2)
-    d = (a0 * c[0] + a1 * c[1]) + a2 * c[2]
-    c0, c1, c2 = c[0] - d * a0, c[1] - d * a1, c[2] - d * a2
-    d = (b0 * c0 + b1 * c1) + b2 * c2
-    r, c0, c1, c2 = _unit(c0 - d * b0, c1 - d * b1, c2 - d * b2)
-    return p, q, r, (a0, a1, a2), (b0, b1, b2), (c0, c1, c2)
+def _without(a, b, c, d, e, f):
+    """The vector (d, e, f) without its part along the unit vector (a, b, c)."""
+    along = (a * d + b * e) + c * f
+    return d - along * a, e - along * b, f - along * c
+
+
+# Of each orbit its frame, three vectors, and the product of the lengths that each had; rows as in
+# `tangents`.
+_A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
+
+
+@jit
+def _advance(frames, n, k, g, head, low, states, flights, row):
+    """Carry the frames of some orbits over an impact, make them orthonormal and multiply up their
+    lengths. Returns whether one of these nears the end of what a double holds.
+    """
+    far = 0
+    row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
+    for i in range(n):
+        a0, a1, a2 = frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i]
+        b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
+        c0, c1, c2 = frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i]
+        at = row + i
+        a0, a1, a2 = carried(a0, a1, a2, k, g, head, low, states, flights, at)
+        b0, b1, b2 = carried(b0, b1, b2, k, g, head, low, states, flights, at)
+        c0, c1, c2 = carried(c0, c1, c2, k, g, head, low, states, flights, at)
+        p, a0, a1, a2 = _unit(a0, a1, a2)
+        q, b0, b1, b2 = _unit(*_without(a0, a1, a2, b0, b1, b2))
+        c0, c1, c2 = _without(a0, a1, a2, c0, c1, c2)
+        r, c0, c1, c2 = _unit(*_without(b0, b1, b2, c0, c1, c2))
+        p, q, r = (
+            frames[_GROWN + i] * p,
+            frames[_GROWN + GROUP + i] * q,
+            frames[_GROWN + 2 * GROUP + i] * r,
+        )
+        frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i] = a0, a1, a2
+        frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
+        frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
+        frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
+        far += 0 if _held(p) & _held(q) & _held(r) else 1
+    return far > 0
+
+
+@jit
+def _held(length):
+    return (length > 1e-100) & (length < 1e100)
+
+
+@jit
+def _collect(total, frames, i):
+    """Add the logarithms of the lengths of orbit i to its sums, and start again from 1."""
+    for m in range(3):
+        total[m, i] += log(frames[_GROWN + m * GROUP + i])
+        frames[_GROWN + m * GROUP + i] = 1.0
 
 
 @jit
 def _spectrum(x, v, w, k, g, at, out, how):
-    """Exponents of the states (n,) after each of `at` (m,) impacts: out (m, n, 3).
+    """Exponents of the states (n,) after each of `at` (m,) impacts: out (n, m, 3).
 
     `how` and what is returned, the impacts missed, are as in `impact`.
     """
-    head, low = kernel.transfer(k)
     missed = 0
-    for i in range(x.size):
-        y0, y1, y2 = x[i], v[i], w[i]
-        a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-        # lengths are multiplied up, and the logarithm taken before they over- or underflow
-        sum_a, sum_b, sum_c = 0.0, 0.0, 0.0
-        done = 0
-        for j in range(at.size):
-            grown_a, grown_b, grown_c = 1.0, 1.0, 1.0
-            while done < at[j]:
-                y0, y1, y2, _, sine, cosine, tau_x, tau_s, tau_c, late = kernel.step_with_flight(
-                    y0, y1, y2, k, g, head, low, how
-                )
-                missed += late
-                a = kernel.tangent(*a, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
-                b = kernel.tangent(*b, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
-                c = kernel.tangent(*c, k, g, head, low, y0, y2, sine, cosine, tau_x, tau_s, tau_c)
-                p, q, r, a, b, c = _orthonormal(a, b, c)
-                grown_a *= p
-                grown_b *= q
-                grown_c *= r
-                done += 1
-                if not (
-                    1e-100 < grown_a < 1e100
-                    and 1e-100 < grown_b < 1e100
-                    and 1e-100 < grown_c < 1e100
-                ):
-                    sum_a, sum_b, sum_c = (
-                        sum_a + log(grown_a),
-                        sum_b + log(grown_b),
-                        sum_c + log(grown_c),
-                    )
-                    grown_a, grown_b, grown_c = 1.0, 1.0, 1.0
-            sum_a, sum_b, sum_c = sum_a + log(grown_a), sum_b + log(grown_b), sum_c + log(grown_c)
-            out[j, i, 0], out[j, i, 1], out[j, i, 2] = sum_a / done, sum_b / done, sum_c / done
+    for first in range(0, x.size, GROUP):
+        group = slice(first, min(first + GROUP, x.size))
+        missed += _group(x[group], v[group], w[group], k, g, at, out[group], how)
     return missed
+
+
+@jit
+def _group(x, v, w, k, g, at, out, how):
+    n = x.size
+    head, low = transfer(k)
+    states, flights = room()
+    frames, total = np.zeros(_SIZE), np.zeros((3, n))
+    for i in range(n):
+        frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
+        frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
+    missed, done = 0, 0
+    for m in range(at.size):
+        while done < at[m]:
+            impacts = min(STRETCH, at[m] - done)
+            missed += stretch(x, v, w, k, g, impacts, states, flights, how)
+            if n < FEW:  # one after the other
+                for i in range(n):
+                    for row in range(0, impacts * GROUP, GROUP):
+                        one = frames[i:], 1, k, g, head, low, states[i:], flights[i:], row
+                        if _advance(*one):
+                            _collect(total, frames, i)
+            else:
+                for row in range(0, impacts * GROUP, GROUP):
+                    if _advance(frames, n, k, g, head, low, states, flights, row):
+                        _collect_far(total, frames, n)
+            done += impacts
+        for i in range(n):
+            _collect(total, frames, i)
+            for j in range(3):
+                out[i, m, j] = total[j, i] / done
+    return missed
+
+
+@jit
+def _collect_far(total, frames, n):
+    for i in range(n):
+        p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
+        if not (_held(p) and _held(q) and _held(r)):
+            _collect(total, frames, i)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..sweep import fixed_point
+from ..dynamics import fixed_point
 from .axes import raster
 from .axes.panel import Axis, Panel, log10
 from .canvas import style

@@ -207,23 +207,14 @@ def sincos_each(t):
 
 
 @jit
-def log(a):
-    """Natural logarithm of a double, within 0.8 ulp; -inf at 0, NaN below, inf at inf."""
-    if not a > 0.0:
-        return -math.inf if a == 0.0 else math.nan
-    if a == math.inf:
-        return a
-    k = 0
-    if a < 2.0**-1022:  # subnormal
-        a = a * 2.0**54
-        k = -54
+def _log(a, exponent):
+    """log of a 2**exponent for a normal number a, without a branch; exponent a float."""
     bits = np.float64(a).view(np.int64)
-    k += (bits >> 52) - 1023
     m = np.int64((bits & 0xFFFFFFFFFFFFF) | 0x3FE0000000000000).view(np.float64)
-    if m < _SQRT_HALF:
-        m = m * 2.0
-    else:
-        k += 1
+    n = np.int64((bits >> 52) | 0x4330000000000000).view(np.float64) - (2.0**52 + 1023.0)
+    small = m < _SQRT_HALF
+    m = m * 2.0 if small else m
+    n = exponent + (n if small else n + 1.0)
     f = m - 1.0  # exact
     s = f / (2.0 + f)
     z = s * s
@@ -233,6 +224,22 @@ def log(a):
     half = 0.5 * head * head
     rest = 0.5 * (f - head) * (f + head)
     odd = s * ((half + rest) + odd) - rest
-    if k == 0:
-        return f - (half - odd)
-    return k * _LN2_HI - ((half - (odd + k * _LN2_LO)) - f)
+    return n * _LN2_HI - ((half - (odd + n * _LN2_LO)) - f)
+
+
+@jit
+def narrow_log(a):
+    """`log` for a normal number above 0, without a branch."""
+    return _log(a, 0.0)
+
+
+@jit
+def log(a):
+    """Natural logarithm of a double, within 0.8 ulp; -inf at 0, NaN below, inf at inf."""
+    if not a > 0.0:
+        return -math.inf if a == 0.0 else math.nan
+    if a == math.inf:
+        return a
+    if a < 2.0**-1022:  # subnormal
+        return _log(a * 2.0**54, -54.0)
+    return _log(a, 0.0)

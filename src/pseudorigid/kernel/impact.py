@@ -40,23 +40,22 @@ def step(x, v, w, k, g, head, low, how):
 
 
 @jit
-def flight_derivatives(x, b, c, s, g, tau):
+def flight_derivatives(x, b, c, s, g, tau, trigonometry):
     """sin tau, cos tau, and the derivatives of tau by x, s and c, from f = 0.
 
     tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f', where s = v + w and c
     are varied separately: so nothing cancels where tau is small. f' is the speed v' + w' of the
-    impact.
+    impact. `trigonometry` is `quadrant` of tau.
     """
-    sine, cosine, sine_tail, cosine_tail, n = quadrant(tau)
+    sine, cosine, sine_tail, cosine_tail, n = trigonometry
     cosine, sine = quarter_turns(cosine, sine, n)
-    if n == 0.0:
-        versine = 0.5 * tau * tau - cosine_tail
-        speed = ((g + x) * tau - s) + (x * sine_tail - c * versine)
-    else:
-        versine = 1.0 - cosine
-        speed = b + g * tau + (x * sine + c * cosine)
-        sine_tail = sine - tau
-    return sine, cosine, -versine / speed, tau / speed, -sine_tail / speed
+    near = n == 0.0
+    versine = 0.5 * tau * tau - cosine_tail if near else 1.0 - cosine
+    speed_near = ((g + x) * tau - s) + (x * sine_tail - c * versine)
+    speed_far = b + g * tau + (x * sine + c * cosine)
+    speed = speed_near if near else speed_far
+    tail = sine_tail if near else sine - tau
+    return sine, cosine, -versine / speed, tau / speed, -tail / speed
 
 
 @jit
@@ -76,7 +75,7 @@ def step_with_flight(x, v, w, k, g, head, low, how):
     """One step, what `tangent` needs to carry vectors along with it, and missed."""
     b, c, s = rebound(v, w, k, head, low)
     p, v, q, tau, _, missed = step(x, v, w, k, g, head, low, how)
-    sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, g, tau)
+    sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, g, tau, quadrant(tau))
     return p, v, q, tau, sine, cosine, tau_x, tau_s, tau_c, missed
 
 

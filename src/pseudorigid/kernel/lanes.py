@@ -30,6 +30,7 @@ from .flight import (
 from .impact import rebound, step, transfer
 
 LANES = 32
+FEW = 12  # fewer orbits than this are faster one after the other
 # The state of a lane, the flight that led there, and how many impacts are left; of the flight under
 # way the time to look at, 1 once it is close to its root, the bracket then, the times between which
 # it can jump, and how many looks it took.

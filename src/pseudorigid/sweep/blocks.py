@@ -1,16 +1,20 @@
 """Blocks of cells, and the dataset that they are joined into: the same whatever the blocks."""
 
+from itertools import groupby
+
 import numpy as np
 import xarray as xr
 
-from .cell import PERIODS, VARIABLES, cell
+from .cell import PERIODS, VARIABLES, cells
 
 AXES = {"k": "Euler inertia", "energy": "energy over g^2"}
 
 
 def compute(block):
     """The cells of a block, as from `grid.block`: a Dataset on the dim `cell`."""
-    found = [cell(k, e, block["starts"], block["impacts"]) for k, e in block["cells"]]
+    found = []
+    for k, row in groupby(block["cells"], key=lambda pair: pair[0]):
+        found += cells(k, [e for _, e in row], block["starts"], block["impacts"])
     data = {
         name: (
             ("cell", "period") if name == "chains" else "cell",
@@ -27,7 +31,7 @@ def compute(block):
 
 def join(sweep, blocks):
     """The Dataset of a sweep, dims (k, energy), from its blocks in the order of their cells."""
-    cells = xr.concat(
+    joined = xr.concat(
         list(blocks), "cell", data_vars="minimal", coords="minimal", compat="override"
     )
     shape = len(sweep["k"]), len(sweep["energy"])
@@ -37,11 +41,11 @@ def join(sweep, blocks):
             variable.values.reshape(*shape, *variable.shape[1:]),
             variable.attrs,
         )
-        for name, variable in cells.variables.items()
+        for name, variable in joined.variables.items()
         if name in VARIABLES
     }
     data |= {axis: (axis, np.array(sweep[axis]), _about(text)) for axis, text in AXES.items()}
-    return xr.Dataset(data | {"period": cells.variables["period"]})
+    return xr.Dataset(data | {"period": joined.variables["period"]})
 
 
 def _about(text):

@@ -4,17 +4,15 @@ import math
 
 import numpy as np
 
+from ..dynamics import fixed_point
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from . import fixed_point
-from .follow import follow
+from .verdict import judge
 
-# Over the second half of its impacts a tangent vector of a regular orbit grows like the number of
-# impacts, and ln(7/3) = 0.85 is its mean; a chaotic one grows by many times e.
-THRESHOLD = 3.0
 PERIODS = 24  # chains of more islands are not told from curves around the fixed point
 LOCKED = 1e-5  # turns an impact; that far from a fraction a winding number is taken for it
 NORMAL = 1.959964  # standard deviations either way that hold 95 %
+BATCH = 40_000  # orbits that are followed together: lanes stay full, and memory small
 _GOLDEN = 0.6180339887498949
 
 # Variable -> (long name, type); each is a number a cell, but `chains`, one a cell and period.
@@ -22,13 +20,15 @@ VARIABLES = {
     "trace": ("trace of the fixed point's Jacobian", "f8"),
     "rotation": ("rotation number of the fixed point, NaN where it is not elliptic", "f8"),
     "regular": ("share of the section's area with regular orbits", "f8"),
-    "regular_low": ("lower end of the share's 95 % interval (Wilson)", "f8"),
-    "regular_high": ("upper end of the share's 95 % interval (Wilson)", "f8"),
+    "regular_low": ("lower end of its 95 % interval, starts and threshold together", "f8"),
+    "regular_high": ("upper end of its 95 % interval, starts and threshold together", "f8"),
     "regular_strict": ("the share with half the threshold", "f8"),
     "regular_lenient": ("the share with twice the threshold", "f8"),
-    "exponent": ("median Lyapunov exponent an impact of the other orbits, the sea", "f8"),
-    "exponent_low": ("lower quartile of the sea's exponents", "f8"),
-    "exponent_high": ("upper quartile of the sea's exponents", "f8"),
+    "exponent": ("Lyapunov exponent an impact of the other orbits, the sea, pooled", "f8"),
+    "exponent_error": ("standard error of the exponent, from the spread between orbits", "f8"),
+    "exponent_low": ("lower quartile of the single orbits' exponents", "f8"),
+    "exponent_high": ("upper quartile of the single orbits' exponents", "f8"),
+    "followed": ("mean number of impacts of an orbit", "f8"),
     "chain_period": ("islands of the largest chain, 0 where there is none", "i4"),
     "chain_turns": ("turns around the fixed point in that many impacts", "i4"),
     "chain_share": ("share of the section's area in that chain's islands", "f8"),
@@ -44,55 +44,70 @@ def cell(k, e, starts, impacts):
         e: energy E/g^2, above -1/(2k).
         starts: how many orbits. They start evenly over one half, y >= 0, of the section's area;
             the reversor maps regular orbits of the one half to those of the other.
-        impacts: of each.
+        impacts: at most so many of each, at least 4.
 
-    An orbit is regular while a tangent vector grows by less than THRESHOLD in the mean logarithm
-    from the second to the last quarter, which bounds its exponent by about 2 THRESHOLD/impacts. One
-    that grazes exactly, where there is no derivative, is not.
+    Which orbits are regular is decided by `verdict.judge`. The interval of their share goes from
+    the lower end of Wilson's interval with half the threshold to the upper end of that with twice
+    the threshold.
+
+    The sea's exponent is the growth of a tangent vector, all other orbits together, over the
+    impacts that all have in common: so it does not depend on when the verdict on an orbit was safe.
 
     A regular orbit belongs to a chain of q islands where its winding number around the fixed point
     is within LOCKED of a fraction p/q, q <= PERIODS: on curves around the fixed point the winding
     number changes from one to the next, in islands it does not; one within LOCKED of the fixed
-    point's own is not told from it. It is a weighted Birkhoff average, with weight (t (1-t))^3 over
-    the run (Das et al. 2017). A chain inside the main island counts
-    too, islands around an island count with it, and so do those of a second orbit of that period.
+    point's own is not told from it. A chain inside the main island counts too, islands around an
+    island count with it, and so do those of a second orbit of that period.
     """
-    theta = fixed_point.half_time(k, e)
-    trace = fixed_point.trace(k, theta)
-    rotation = fixed_point.rotation(trace)
-    expected = 0.5 if math.isnan(rotation) else rotation
-    time = (np.arange(impacts) + 0.5) / impacts
-    bump = time * (1.0 - time)
-    weight = bump * bump * bump
-    weight /= weight.sum()
-    growth, winding = np.empty(starts), np.empty(starts)
-    states = _even(k, e, starts)
-    follow(*states, k, fixed_point.place(k, theta), expected, weight, growth, winding)
-    grown = growth * (impacts - 2 * (impacts // 4))
-    regular = grown < THRESHOLD
-    low, high = wilson(int(regular.sum()), starts)
-    sea = np.sort(growth[~regular & ~np.isnan(growth)])
-    apart = ~(np.abs(winding - rotation) <= LOCKED)
-    turns, periods = fractions(winding[regular & apart])
-    chains = np.bincount(periods, minlength=PERIODS + 1)[1:]
-    found = {
-        "trace": trace,
-        "rotation": rotation,
+    return cells(k, [e], starts, impacts)[0]
+
+
+def cells(k, energies, starts, impacts):
+    """What `cell` returns for each of the energies: the same bits, in less time."""
+    found = []
+    step = max(1, BATCH // starts)
+    for first in range(0, len(energies), step):
+        found += _batch(k, energies[first : first + step], starts, impacts)
+    return found
+
+
+def _batch(k, energies, starts, impacts):
+    thetas = [fixed_point.half_time(k, e) for e in energies]
+    traces = [fixed_point.trace(k, theta) for theta in thetas]
+    rotations = [fixed_point.rotation(trace) for trace in traces]
+    states = np.concatenate([_even(k, e, starts) for e in energies], axis=1)
+    centre = np.repeat([fixed_point.place(k, theta) for theta in thetas], starts)
+    expected = np.repeat([0.5 if math.isnan(r) else r for r in rotations], starts)
+    verdicts = judge(k, states, centre, expected, impacts)
+    return [
+        {"trace": trace, "rotation": rotation}
+        | _numbers(verdicts[i * starts : (i + 1) * starts], rotation)
+        for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True))
+    ]
+
+
+def _numbers(orbits, rotation):
+    """What the verdicts on the orbits of a cell come to."""
+    starts, regular = orbits.regular.size, orbits.regular
+    sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
+    apart = ~(np.abs(orbits.winding - rotation) <= LOCKED)
+    turns, periods = fractions(orbits.winding[regular & apart])
+    period, winds, count = _largest(turns, periods)
+    return {
         "regular": regular.sum() / starts,
-        "regular_low": low,
-        "regular_high": high,
-        "regular_strict": (grown < 0.5 * THRESHOLD).sum() / starts,
-        "regular_lenient": (grown < 2.0 * THRESHOLD).sum() / starts,
-        "exponent": _quantile(sea, 2),
+        "regular_low": wilson(int(orbits.strict.sum()), starts)[0],
+        "regular_high": wilson(int(orbits.lenient.sum()), starts)[1],
+        "regular_strict": orbits.strict.sum() / starts,
+        "regular_lenient": orbits.lenient.sum() / starts,
+        "exponent": np.mean(sea) if sea.size else math.nan,
+        "exponent_error": np.std(sea, ddof=1) / math.sqrt(sea.size) if sea.size > 1 else math.nan,
         "exponent_low": _quantile(sea, 1),
         "exponent_high": _quantile(sea, 3),
-    }
-    period, winds, count = _largest(turns, periods)
-    return found | {
+        "followed": np.mean(orbits.followed),
         "chain_period": period,
         "chain_turns": winds,
         "chain_share": count / starts,
-        "chains": chains,
+        "chains": np.bincount(periods, minlength=PERIODS + 1)[1:],
     }
 
 

@@ -1,0 +1,70 @@
+"""CLAIMS.md: a row a claim, the corrections first."""
+
+from . import CLAIMS
+from .ledger import CORRECTED, FALSE, HOLDS, NOT_COMPUTED, OPEN, PROVED
+
+ORDER = (FALSE, CORRECTED, OPEN, PROVED, HOLDS, NOT_COMPUTED)
+TITLES = {
+    FALSE: "Does not hold",
+    CORRECTED: "Holds with a correction",
+    OPEN: "Open",
+    PROVED: "Proved",
+    HOLDS: "Holds",
+    NOT_COMPUTED: "Not computed",
+}
+HEAD = """# The paper's statements, checked
+
+E. Kanso and P. Papadopoulos, *Dynamics of pseudo-rigid ball impact on rigid foundation*. Each row
+is a statement of the paper, in its own words between quotation marks, else in ours; what became of
+it; our value with its error; and what to look at. `./reproduce claims` writes this file;
+`./reproduce claims --check NUMBER --data FILE` judges one claim by another dataset.
+"""
+
+
+def render(verdicts):
+    """The text of CLAIMS.md.
+
+    Parameters
+    ----------
+    verdicts : dict from number to Verdict
+        As from `judge`, all claims.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        A claim without a verdict.
+    """
+    missing = sorted(set(CLAIMS) - set(verdicts))
+    if missing:
+        raise ValueError(f"no verdict on {', '.join(map(str, missing))}")
+    groups = {word: [] for word in ORDER}
+    for number in sorted(verdicts):
+        groups[verdicts[number].verdict.partition(":")[0]].append(number)
+    counts = ", ".join(f"{len(groups[word])} {word}" for word in ORDER if groups[word])
+    lines = [HEAD, f"Of {len(verdicts)} statements: {counts}.", ""]
+    for word in ORDER:
+        if not groups[word]:
+            continue
+        lines += [f"## {TITLES[word]}", ""]
+        lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
+        lines += [_row(CLAIMS[number], verdicts[number]) for number in groups[word]]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _row(claim, verdict):
+    words = f"\N{LEFT DOUBLE QUOTATION MARK}{claim.words}\N{RIGHT DOUBLE QUOTATION MARK}"
+    why = verdict.verdict.partition(": ")[2]
+    cells = (
+        str(claim.number),
+        claim.place,
+        words if claim.quoted else claim.words,
+        why or verdict.value,
+        verdict.error,
+        verdict.evidence,
+    )
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

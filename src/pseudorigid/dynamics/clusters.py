@@ -1,0 +1,243 @@
+"""Clusters of impacts in the chaotic sea: flights in time, and what one cluster says of the next.
+
+A cluster begins with an impact whose flight before was longer than a cut. What begins it is its
+first state, the point (x, y = xdot - k udot) of the section. Two measures say how much of that the
+next cluster remembers: the correlation coefficients of the coordinates, and the correlation ratio,
+the share of a coordinate's variance that is explained by the cell in which the cluster before
+began, which sees any dependence and not only a linear one. Both have intervals from a bootstrap
+whose blocks are whole orbits.
+"""
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from ..kernel import impact as kernel
+from ..kernel.arithmetic import sincos
+from ..kernel.compiled import jit
+from .sea import sea_states
+from .variables import variables
+
+_BINS = 8  # of each coordinate, alike in count, for the cells of the correlation ratio
+_MEASURES = {
+    "correlation": "correlation of what begins a cluster with what begins a later one",
+    "dependence": "share of the variance explained by the cell in which the earlier one began",
+}
+
+
+def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed):
+    """Flight times in the sea, clusters for each cut, and what they remember of those before.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    between, orbits, impacts
+        Orbits evenly over that part of y = 0, in section radii from the centre, and their length.
+    cuts : sequence of float
+        A flight longer than that parts two clusters.
+    lags : int
+        Clusters are compared with the next, the next but one, ... up to this many later.
+    resamples, seed : int
+        Of the bootstrap.
+
+    Returns
+    -------
+    Dataset
+        flights (bin) and bin_edge: the histogram of flight times. On cut: count, the clusters;
+        cluster_impacts, impacts in one; cluster_time, from its first impact to its last;
+        period, from one cluster's first impact to the next one's, their means over all orbits,
+        with period_error between orbits. On (cut, lag, first, then): correlation; on (cut, lag,
+        then): dependence, with _low and _high, the ends of 95 % intervals. On orbit: time, its
+        length, and strain_energy, the mean in time of k u^2/2; largest_strain and least_strain,
+        max and min of u; energy_error, of all impacts the largest. Attribute energy_at_rest,
+        -g^2/(2k).
+
+    Raises
+    ------
+    ValueError
+        A cut that leaves an orbit with fewer clusters than lags + 2.
+    """
+    _, *states = sea_states(ball, energy, between, orbits)
+    out = np.empty((orbits, impacts + 1, 4))
+    for column, values in enumerate(states):
+        out[:, 0, column] = values
+    ball.map.history(*(a.copy() for a in states), ball.k, ball.g, out[:, 1:])
+    out[:, 0, 3] = math.nan
+    tau = out[:, 1:, 3]
+    edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
+    data = variables("edge", [edges], {"bin_edge": "flight time"})
+    counts = np.histogram(tau, bins=edges)[0].astype(np.int64)
+    data |= variables("bin", [counts], {"flights": "flights of such a time"})
+    strain = _strain(out, ball.k)
+    names = {
+        "time": "length of the orbit in time",
+        "strain_energy": "mean in time of the strain energy",
+        "least_strain": "largest compression, as a negative strain",
+        "largest_strain": "largest stretch",
+    }
+    error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
+    names |= {"energy_error": "largest difference of an impact's energy from the start's"}
+    data |= variables("orbit", [*strain, error], names)
+    bits = np.random.default_rng(seed)
+    chosen = bits.integers(0, orbits, (resamples, orbits))
+    found = [_cut(out, ball.k, cut, lags, chosen) for cut in cuts]
+    names = {
+        "count": "clusters",
+        "cluster_impacts": "mean number of impacts in a cluster",
+        "cluster_time": "mean time from a cluster's first impact to its last",
+        "period": "mean time from a cluster's first impact to the next one's",
+        "period_error": "standard error of that mean, between orbits",
+    }
+    data |= variables("cut", np.array([row[0] for row in found]).T, names)
+    ends = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
+    dims = {
+        "correlation": ("cut", "lag", "first", "then"),
+        "dependence": ("cut", "lag", "then"),
+    }
+    for which, (measure, what) in enumerate(_MEASURES.items()):
+        names = {measure + end: what + said for end, said in ends.items()}
+        values = [np.array([row[1][which][i] for row in found]) for i in range(3)]
+        data |= variables(dims[measure], values, names)
+    coordinates = {
+        "cut": ("cut", np.asarray(cuts, dtype=float), {"long_name": "cut", "units": "1"}),
+        "lag": ("lag", np.arange(1, lags + 1), {"long_name": "clusters later", "units": "1"}),
+    }
+    rest = ball.energy_bounds()[0]
+    return xr.Dataset(data, coords=coordinates, attrs={"energy_at_rest": rest})
+
+
+def _strain(out, k):
+    """(time, mean strain energy, least and largest strain) of each orbit, (4, orbits)."""
+    found = np.empty((4, out.shape[0]))
+    _strains(out, k, *kernel.transfer(k), found)
+    return found
+
+
+@jit
+def _strains(out, k, head, low, found):
+    for i in range(out.shape[0]):
+        time, square, least, most = 0.0, 0.0, 0.0, 0.0
+        for j in range(out.shape[1] - 1):
+            x, tau = out[i, j, 0], out[i, j + 1, 3]
+            _, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, head, low)
+            sine, cosine = sincos(tau)
+            both = sine * cosine
+            # u = c sin t - x cos t
+            square += 0.5 * (x * x * (tau + both) + c * c * (tau - both)) - x * c * sine * sine
+            time += tau
+            # u' changes sign once at most in a part shorter than pi, at an end of u's range
+            size = math.sqrt(x * x + c * c)
+            parts = int(tau / 3.0) + 1
+            before = c
+            least, most = min(least, -x), max(most, -x)
+            for part in range(1, parts + 1):
+                sine, cosine = sincos(tau * part / parts)
+                after = c * cosine + x * sine
+                if before > 0.0 > after:
+                    most = max(most, size)
+                elif before < 0.0 < after:
+                    least = min(least, -size)
+                before = after
+        found[0, i], found[1, i] = time, 0.5 * k * square / time
+        found[2, i], found[3, i] = least, most
+
+
+def _cut(out, k, cut, lags, chosen):
+    """What one cut gives: the numbers on `cut`, and both measures as (value, low, high)."""
+    begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
+    fewest = min(places.size for places in begun)
+    if fewest < lags + 2:
+        raise ValueError(f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters")
+    first = [
+        np.stack([row[at, 0], row[at, 1] - k * row[at, 2]])
+        for row, at in zip(out, begun, strict=True)
+    ]
+    clock = np.cumsum(out[:, 1:, 3], axis=1)
+    periods, lengths, sizes = [], [], []
+    for at, time, tau in zip(begun, clock, out[:, 1:, 3], strict=True):
+        starts = time[at - 1]
+        periods.append(starts[1:] - starts[:-1])
+        lengths.append(periods[-1] - tau[at[1:] - 1])
+        sizes.append(at[1:] - at[:-1])
+    means = np.array([row.mean() for row in periods])
+    error = math.sqrt(float(np.sum((means - means.mean()) ** 2)) / (means.size - 1) / means.size)
+    numbers = (
+        sum(places.size for places in begun),
+        np.concatenate(sizes).mean(),
+        np.concatenate(lengths).mean(),
+        np.concatenate(periods).mean(),
+        error,
+    )
+    return numbers, _memory(first, lags, chosen)
+
+
+def _memory(first, lags, chosen):
+    """Both measures over all lags: values, and the ends of their intervals."""
+    cells = _cells(first)
+    correlations, dependences = [], []
+    for lag in range(1, lags + 1):
+        linear = np.array([_linear_sums(states[:, :-lag], states[:, lag:]) for states in first])
+        by_cell = np.array(
+            [
+                _cell_sums(cell[:-lag], states[:, lag:])
+                for cell, states in zip(cells, first, strict=True)
+            ]
+        )
+        correlations.append(_interval(_correlation, linear, chosen))
+        dependences.append(_interval(_dependence, by_cell, chosen))
+    return [np.stack(rows, axis=1) for rows in (correlations, dependences)]
+
+
+def _interval(measure, sums, chosen):
+    """(value, low, high) of a measure of the orbits' sums, from resampled orbits."""
+    drawn = np.sort([measure(sums[orbits].sum(axis=0)) for orbits in chosen], axis=0)
+    cut = len(drawn) // 40
+    return np.stack([measure(sums.sum(axis=0)), drawn[cut], drawn[len(drawn) - 1 - cut]])
+
+
+def _linear_sums(a, b):
+    """Sums of one orbit for the correlation of a (2, n) with b (2, n): a flat row."""
+    count = np.array([a.shape[1]], dtype=float)
+    products = [np.sum(a[i] * b[j]) for i in range(2) for j in range(2)]
+    squares = [np.sum(row * row, axis=1) for row in (a, b)]
+    return np.concatenate([count, a.sum(axis=1), b.sum(axis=1), *squares, products])
+
+
+def _correlation(sums):
+    """Pearson's coefficients (first, then) from the sums of `_linear_sums`."""
+    n, mean_a, mean_b = sums[0], sums[1:3] / sums[0], sums[3:5] / sums[0]
+    var_a, var_b = sums[5:7] / n - mean_a * mean_a, sums[7:9] / n - mean_b * mean_b
+    both = sums[9:].reshape(2, 2) / n - mean_a[:, None] * mean_b
+    return both / np.sqrt(var_a[:, None] * var_b)
+
+
+def _cells(first):
+    """The cell of each state, alike in count for each coordinate over all orbits: (n,) each."""
+    borders = []
+    for coordinate in range(2):
+        values = np.sort(np.concatenate([states[coordinate] for states in first]))
+        borders.append(values[[i * values.size // _BINS for i in range(1, _BINS)]])
+    return [
+        np.searchsorted(borders[0], states[0]) * _BINS + np.searchsorted(borders[1], states[1])
+        for states in first
+    ]
+
+
+def _cell_sums(cell, after):
+    """Count, sums and sums of squares of `after` (2, n) by cell: (cells, 5)."""
+    rows = [np.ones(cell.size), *after, *(after * after)]
+    return np.stack(
+        [np.bincount(cell, weights=row, minlength=_BINS * _BINS) for row in rows], axis=1
+    )
+
+
+def _dependence(sums):
+    """The correlation ratio squared of each coordinate, less what chance alone would give."""
+    sums = sums[sums[:, 0] > 0.0]
+    count, total = sums[:, :1], sums.sum(axis=0)
+    n = total[0]
+    whole = total[3:5] - total[1:3] * total[1:3] / n
+    within = np.sum(sums[:, 3:5] - sums[:, 1:3] * sums[:, 1:3] / count, axis=0)
+    return 1.0 - (within / (n - sums.shape[0])) / (whole / (n - 1.0))

@@ -1,0 +1,247 @@
+"""What passes through the broken separatrices of a hyperbolic orbit: crossings, lobes, escape.
+
+The unstable branch of each saddle up to its first crossing with y = 0, or that crossing's images,
+and from there the stable branch into the neighbouring saddle close a region in. Each impact carries
+one lobe out of it and one of the same area in (MacKay, Meiss and Percival, Physica D 13, 1984).
+"""
+
+import math
+
+import numpy as np
+import xarray as xr
+from flint import ctx
+
+from .actions import Law, Lobe, Saddle, first_crossing
+from .manifolds import trace_manifold
+from .orbits import orbit
+from .periodic import of_type, symmetric_orbits
+from .polygon import Polygon
+from .sea import sea_states
+from .variables import variables
+
+SIDES = ("inner", "outer")
+_BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
+_CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
+_BEND = 5.0  # degrees, of the lines that polygons are made of
+
+
+def flux(ball, energy, period, distance, grid, between, orbits, impacts):
+    """Crossings and lobes of both branches of the hyperbolic orbit, and the flux through them.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    period : int
+        Of the orbit, even.
+    distance : float
+        Largest side of the polygons, in section radii.
+    grid : int
+        The flux is also counted over grid x grid points of the section's bounding rectangle.
+    between, orbits, impacts
+        And along so many orbits of the sea, each of that length, which start evenly over that part
+        of y = 0, in section radii.
+
+    Returns
+    -------
+    Dataset
+        On side, inner and outer. From actions, in balls: area of the lobe, area_error, and digits,
+        the area as text with the digits that two starts and two precisions have in common; saddle
+        and target, the indices of the points of the orbit that the branch leaves and meets. On
+        (side, crossing): crossing_x on y = 0, where the two primary orbits meet it, and sine, of
+        the angle between the branches in the plane (x, y = xdot - k udot). From polygons of the
+        traced lines: lobe_polygon, and region, the area closed in. From counting: carried_out and
+        carried_in, areas that one impact moves; sea_inside, the share of the sea's impacts that are
+        inside, and sea_out, the share of its impacts that leave. For pictures: outline_x, outline_y
+        (side, corner), of the region; branch_x, branch_y (side, vertex), of the unstable branch
+        from a lobe's one end to the mirror image of its other, whose own mirror image in y = 0 is
+        the stable branch. Attributes: section, its area; multiplier, of the orbit.
+
+    Raises
+    ------
+    ValueError
+        No hyperbolic orbit of that period, an odd period, or a branch that does not meet y = 0.
+    """
+    if period % 2:
+        raise ValueError(f"period = {period} is not allowed: an even number")
+    saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
+    _, *states = sea_states(ball, energy, between, orbits)
+    sea = orbit(ball, states, impacts)
+    path = sea["x"].values, sea["xdot"].values - ball.k * sea["udot"].values
+    found = [_side(ball, energy, saddles, side, distance, grid, path) for side in SIDES]
+    names = {
+        "area": "area of a lobe, by differences of action",
+        "area_error": "its error",
+        "lobe_polygon": "area of that lobe between the traced lines",
+        "region": "area closed in",
+        "carried_out": "area that an impact carries out, counted",
+        "carried_in": "area that an impact carries in, counted",
+        "sea_inside": "share of the sea's impacts that are inside",
+        "sea_out": "share of the sea's impacts that leave",
+    }
+    data = variables("side", np.array([row[0] for row in found]).T, names)
+    names = {
+        "crossing_x": "x where a primary orbit meets y = 0",
+        "sine": "sine of the angle from the unstable branch to the stable one",
+    }
+    crossings = np.array([row[1] for row in found]).transpose(1, 0, 2)
+    data |= variables(("side", "crossing"), crossings, names)
+    names = {"outline_x": "x on the region's edge", "outline_y": "y on the region's edge"}
+    outlines = np.stack([row[3] for row in found], axis=1)
+    data |= variables(("side", "corner"), outlines, names)
+    names = {"branch_x": "x on the unstable branch", "branch_y": "y on that branch"}
+    branches = np.stack([row[4] for row in found], axis=1)
+    data |= variables(("side", "vertex"), branches, names)
+    names = {
+        "saddle": "index of the point that the branch leaves",
+        "target": "index of the point whose stable branch it meets",
+    }
+    data |= variables("side", np.array([row[5] for row in found], dtype=np.int64).T, names)
+    texts = np.array([row[2] for row in found], dtype=object)
+    data["digits"] = ("side", texts, {"long_name": "area of a lobe, in decimals"})
+    label = np.array(SIDES, dtype=object)
+    data["side"] = ("side", label, {"long_name": "which branch"})
+    width, height = _half_axes(ball, energy)
+    attributes = {
+        "section": math.pi * width * height,
+        "multiplier": float(saddles["multiplier"].values),
+    }
+    return xr.Dataset(data, attrs=attributes)
+
+
+def _side(ball, energy, saddles, side, distance, grid, path):
+    """(numbers, crossings, digits, region's outline, branch, saddles) of one side."""
+    place, sign = _primary(ball, energy, saddles, side)
+    state = [float(saddles[name].values[place]) for name in ("x", "xdot", "udot")]
+    lobes = []
+    for bits, nearer in zip(_BITS, _NEARER, strict=True):
+        with ctx.workprec(bits):
+            saddle = Saddle(Law(ball, energy), state, saddles.sizes["point"])
+            lobes.append(Lobe(saddle, sign, nearer))
+    area = lobes[1].area
+    error = abs(lobes[1].area - lobes[0].area).upper() + area.rad()
+    digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
+    lobe, region, branch = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
+    polygon = Polygon(region)
+    out, back = _carried(ball, energy, polygon, grid)
+    inside = polygon.holds(*path)
+    left = np.mean(inside[:-1] & ~inside[1:])
+    numbers = (float(area), float(error), lobe, polygon.area(), out, back, inside.mean(), left)
+    crossings = [
+        [float(one.points[-1][0]) for one in lobes[1].orbits],
+        [float(one.sine()) for one in lobes[1].orbits],
+    ]
+    text = area.str(digits, radius=False)
+    x, y = (saddles["x"].values, saddles["xdot"].values - ball.k * saddles["udot"].values)
+    target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
+    lines = _thinned(region, _CORNERS), _thinned(branch, _VERTICES)
+    return numbers, crossings, text, *lines, (place, target)
+
+
+def _thinned(line, count):
+    """`count` vertices of a line (2, n), its ends among them."""
+    return line[:, np.arange(count) * (line.shape[1] - 1) // (count - 1)]
+
+
+def _primary(ball, energy, saddles, side):
+    """(saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
+    points = np.stack([saddles[name].values for name in ("x", "xdot", "udot")])
+    chart = np.stack([points[0], points[1] - ball.k * points[2]])
+    weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # in the disk's own proportions
+    best = None
+    with ctx.workprec(128):
+        for place in range(points.shape[1]):
+            saddle = Saddle(Law(ball, energy), points[:, place].tolist(), points.shape[1])
+            along = np.array([float(saddle.ex), float(saddle.ey)])
+            outward = np.sum((chart[:, place] - chart.mean(axis=1)) * weight * along) > 0.0
+            sign = 1 if outward == (side == "outer") else -1
+            crossing = first_crossing(saddle, sign, 0)
+            if crossing is None:
+                continue
+            parameter, impacts = crossing
+            for _ in range(impacts // saddle.period):
+                parameter *= float(saddle.multiplier)
+            if best is None or parameter < best[0]:
+                best = parameter, place, sign
+    if best is None:
+        raise ValueError(f"no {side} branch meets y = 0")
+    return best[1:]
+
+
+def _polygons(ball, energy, saddles, place, side, distance, lobe):
+    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
+    first, second = lobe.orbits
+    steps = 2 * second.impacts - first.impacts
+    late = second.points[min(first.impacts, steps)]
+    one = np.array([float(a) for a in first.points[-1]])
+    other = np.array([float(a) for a in late])
+    if steps < first.impacts:
+        other[1] = -other[1]
+    ends = [one, other, other * np.array([1.0, -1.0])]
+    length = 0.25
+    while True:
+        traced = trace_manifold(
+            ball, energy, saddles, place, side=side, length=length, distance=distance, bend=_BEND
+        )
+        states = np.stack([traced[name].values for name in ("x", "xdot", "udot")])
+        line = np.stack([states[0], states[1] - ball.k * states[2]])
+        at = [int(np.argmin(np.sum((line - end[:, None]) ** 2, axis=0))) for end in ends]
+        gaps = [np.max(np.abs(line[:, i] - end)) for i, end in zip(at, ends, strict=True)]
+        if max(at) < line.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
+            break
+        length *= 2.0
+        if length > 16.0:
+            raise ValueError("the traced branch does not meet the lobe's corners")
+    # the stable arc is the mirror image of the unstable one from w1 to the mirror image of w2
+    area = _between(line, at[0], at[1], one, other)
+    area += _between(line, at[0], at[2], one, ends[2])
+    arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*one, energy))[:, None], axis=1)
+    arc = arc[:, ~np.isnan(arc[0])]
+    back = np.stack(ball.reflect(*arc[:, ::-1]))
+    loop = []
+    for _ in range(saddles.sizes["point"]):
+        both = np.concatenate([arc, back[:, 1:]], axis=1)
+        loop.append(np.stack([both[0], both[1] - ball.k * both[2]]))
+        for part in (arc, back):
+            ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
+    return abs(area), _closed(loop), line[:, min(at) : max(at) + 1]
+
+
+def _between(line, start, end, first, last):
+    """The integral of y dx along a line (2, n) between points next to two of its vertices."""
+    low, high = min(start, end), max(start, end)
+    inner = line[:, low + 1 : high]
+    ends = (first, last) if start < end else (last, first)
+    part = np.concatenate([ends[0][:, None], inner, ends[1][:, None]], axis=1)
+    area = np.sum(0.5 * (part[1, 1:] + part[1, :-1]) * (part[0, 1:] - part[0, :-1]))
+    return float(area if start < end else -area)
+
+
+def _closed(arcs):
+    """Arcs (2, n) from saddle to saddle, put one after the other to a closed line."""
+    rest, loop = arcs[1:], [arcs[0]]
+    while rest:
+        end = loop[-1][:, -1]
+        gaps = [np.max(np.abs(arc[:, 0] - end)) for arc in rest]
+        loop.append(rest.pop(int(np.argmin(gaps))))
+    return np.concatenate(loop, axis=1)
+
+
+def _half_axes(ball, energy):
+    radius = ball.section(energy)[1]
+    return radius, math.sqrt(ball.k * (1.0 + ball.k)) * radius
+
+
+def _carried(ball, energy, polygon, grid):
+    """Areas that one impact carries out of a region and into it, counted on a grid."""
+    width, height = _half_axes(ball, energy)
+    middle = (2.0 * np.arange(grid) + 1.0) / grid - 1.0
+    x, y = (a.ravel() for a in np.meshgrid(middle, middle))
+    keep = x * x + y * y < 1.0
+    x, y = ball.section(energy)[0] + width * x[keep], height * y[keep]
+    before = polygon.holds(x, y)
+    states = [np.array(a) for a in ball.state_xy(x, y, energy)]
+    ball.map.steps(*states, ball.k, ball.g, 1, np.empty(x.size))
+    after = polygon.holds(states[0], states[1] - ball.k * states[2])
+    cell = 4.0 * width * height / (grid * grid)
+    return cell * int(np.sum(before & ~after)), cell * int(np.sum(after & ~before))

@@ -1,0 +1,201 @@
+"""The edge of the main island: Greene's residues of the convergents of noble rotation numbers.
+
+A curve whose rotation number is noble exists if the residues of the periodic orbits whose rotation
+numbers are its convergents go to zero, and is broken if they grow without bound (Greene, J. Math.
+Phys. 20, 1979). The residue is (2 - trace)/4 of the orbit's Jacobian on the energy surface.
+"""
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from ..kernel import impact as kernel
+from ..kernel.compiled import jit
+from .follow import angle
+from .orbits import orbit
+from .variables import variables
+from .winding import fixed, winding
+
+# A bracket of the symmetric flight begins so wide, in section radii, and grows up to the other.
+_NARROW, _WIDE = 1e-13, 1e-3
+
+
+def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
+    """Residues of the convergents of noble rotation numbers, and orbits where curves would be.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    nobles : sequence of sequences of int
+        Continued fractions up to where nothing but ones follows, [0, a1, a2, ...].
+    convergents : int
+        How many of each, from the one that ends with the last given number on.
+    between : (float, float)
+        Part of y = 0, in section radii, where the orbits are looked for; the first end is nearer
+        to the fixed point.
+    impacts, drawn : int
+        Length of the orbit that starts at the last convergent's point, and how much of it is kept.
+
+    Returns
+    -------
+    Dataset
+        On (noble, convergent): turns and period, of the convergent; place, of its orbit's point on
+        y = 0, in section radii; residue; closure, by how much the orbit misses its start, in
+        section radii. On noble: rotation, the number itself; orbit_rotation and orbit_exponent, of
+        the long orbit. On (noble, impact): x and y = xdot - k udot of its beginning.
+
+    Raises
+    ------
+    ValueError
+        A convergent with no orbit between the two places.
+    """
+    quotients = [[int(a) for a in noble] for noble in nobles]
+    rows = [_one(ball, energy, noble, convergents, between, impacts, drawn) for noble in quotients]
+    table = np.array([row[0] for row in rows]).transpose(2, 0, 1)
+    names = {
+        "turns": "turns around the fixed point",
+        "period": "impacts in which it makes them",
+        "place": "the orbit's point on y = 0, in section radii",
+        "residue": "Greene's residue",
+        "closure": "by how much the orbit misses its start, in section radii",
+    }
+    data = variables(("noble", "convergent"), table, names)
+    names = {
+        "rotation": "noble rotation number",
+        "orbit_rotation": "rotation number of the orbit there",
+        "orbit_exponent": "Lyapunov exponent of the orbit there",
+    }
+    data |= variables("noble", np.array([row[1] for row in rows]).T, names)
+    names = {"x": "position at impact, downwards", "y": "xdot - k udot just before impact"}
+    paths = np.array([row[2] for row in rows]).transpose(1, 0, 2)
+    data |= variables(("noble", "impact"), paths, names)
+    return xr.Dataset(data, attrs={"impacts": impacts})
+
+
+def _one(ball, energy, noble, convergents, between, impacts, drawn):
+    """Rows of the table, numbers and the drawn orbit of one noble number."""
+    search = _Search(ball, energy, between)
+    found = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
+    place = found[-1][2]
+    (turns,), (grown,) = winding(ball, energy, np.array([place]), impacts)
+    states = ball.start(place, energy)
+    path = orbit(ball, states, drawn)
+    numbers = value(noble), turns, grown
+    return found, numbers, [path["x"].values, path["xdot"].values - ball.k * path["udot"].values]
+
+
+def fractions(noble, count):
+    """(p, q) of the convergents of a noble number, from that of the given quotients on."""
+    before, last = (1, 0), (noble[0], 1)
+    for quotient in noble[1:]:
+        before, last = last, _next(before, last, quotient)
+    found = [last]
+    while len(found) < count:
+        before, last = last, _next(before, last, 1)
+        found.append(last)
+    return found
+
+
+def _next(before, last, quotient):
+    return before[0] + quotient * last[0], before[1] + quotient * last[1]
+
+
+def value(noble):
+    """The number [a0, a1, ..., 1, 1, 1, ...]."""
+    number = 0.5 * (math.sqrt(5.0) + 1.0)
+    for quotient in reversed(noble):
+        number = quotient + 1.0 / number
+    return number
+
+
+class _Search:
+    """Symmetric orbits by their turns around the fixed point, from starts on y = 0.
+
+    With m = period // 2 the orbit is symmetric if after m impacts it is on y = 0 (even periods) or
+    its next flight is symmetric in time (odd ones). Which of the many zeros belongs to a rotation
+    number is decided by the turns around the fixed point in that time.
+    """
+
+    def __init__(self, ball, energy, between):
+        self.ball, self.energy, self.between = ball, energy, between
+        middle, self.radius = ball.section(energy)
+        at, self.expected = fixed(ball, energy)
+        self.centre = middle + self.radius * at
+
+    def orbit(self, turns, period):
+        """(place, residue, closure) of the orbit that makes so many turns in a period."""
+        half, odd = divmod(period, 2)
+
+        def excess(place):
+            before, last, _ = self._half(place, half)
+            return 2.0 * before + odd * last - turns
+
+        ends = self.between
+        if not excess(ends[0]) > 0.0 > excess(ends[1]):
+            raise ValueError(
+                f"between = {list(ends)} is not allowed: no rotation number {turns}/{period} there"
+            )
+        place = _bisect(excess, *ends)
+        if odd:
+            place = self._symmetric_flight(place, half)
+        state = self.ball.start(place, self.energy)
+        jacobian = self.ball.jacobian(*state, impacts=period)
+        trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
+        after = orbit(self.ball, state, period, keep="last")
+        names = ("x", "xdot", "udot")
+        gap = max(abs(float(after[name]) - a) for name, a in zip(names, state, strict=True))
+        return place, 0.25 * (2.0 - trace), gap / self.radius
+
+    def _half(self, place, half):
+        k, g = self.ball.k, self.ball.g
+        state = self.ball.start(place, self.energy)
+        return _turned(*state, k, g, self.centre, self.expected, half)
+
+    def _symmetric_flight(self, place, half):
+        """The place next to this one from which the flight after `half` impacts is symmetric."""
+        room = _NARROW
+        while room < _WIDE:
+            low, high = place - room, place + room
+            first, last = self._half(low, half)[2], self._half(high, half)[2]
+            if first * last < 0.0:
+                sign = 1.0 if first > 0.0 else -1.0
+                break
+            room *= 2.0
+        else:
+            raise ValueError(f"no symmetric flight after {half} impacts next to {place!r}")
+        return _bisect(lambda at: sign * self._half(at, half)[2], low, high)
+
+
+def _bisect(function, low, high):
+    """Where a function that is above 0 at `low` and below at `high` changes sign, to a double."""
+    while True:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            return middle
+        if function(middle) > 0.0:
+            low = middle
+        else:
+            high = middle
+
+
+@jit
+def _turned(x, v, w, k, g, centre, expected, impacts):
+    """(turns, turns of one impact more, b + g tau/2 of that one's flight) around x = centre."""
+    head, low = kernel.transfer(k)
+    round_y = 1.0 / math.sqrt(k * (1.0 + k))
+    total, turn, defect = 0.0, 0.0, 0.0
+    p, q = x - centre, round_y * (v - k * w)
+    for i in range(impacts + 1):
+        total += turn if i else 0.0
+        x, v, w, tau, _, _ = kernel.step(x, v, w, k, g, head, low, None)
+        r, s = x - centre, round_y * (v - k * w)
+        turn = angle(p * r + q * s, q * r - p * s) / (2.0 * math.pi)
+        if turn < expected - 0.5:
+            turn += 1.0
+        elif turn > expected + 0.5:
+            turn -= 1.0
+        defect = v - 0.5 * g * tau
+        p, q = r, s
+    return total, turn, defect

@@ -1,0 +1,116 @@
+"""Rotation number and exponent of orbits against their start along y = 0, at several energies."""
+
+import numpy as np
+import xarray as xr
+
+from .variables import variables
+from .winding import fixed, winding
+
+GROWN = 6.0  # ln of a tangent vector's growth over a chaotic orbit's second half, at least
+LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
+
+
+def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
+    """Rotation number around the fixed point, and exponent, of starts along y = 0.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        The first of the energies.
+    energies : sequence of float
+        The others.
+    starts : int
+        How many starts at each energy, evenly from the fixed point to the section's rim.
+    impacts : int
+        Of each orbit.
+    detail : (float, float)
+        As many starts again lie evenly over this part of y = 0, in section radii, at the first
+        energy.
+    detail_impacts : int
+        Of each of these.
+
+    Returns
+    -------
+    Dataset
+        On (energy, start): place, the start in section radii from the centre; rotation, turns an
+        impact around the fixed point, a weighted Birkhoff average; exponent, over the second half
+        of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
+        detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
+        impacts and detail_impacts.
+    """
+    all_energies = np.array([energy, *energies], dtype=float)
+    middle = (np.arange(starts) + 0.5) / starts
+    rows = []
+    for level in all_energies.tolist():
+        at, about = fixed(ball, level)
+        place = at + (1.0 - at) * middle
+        rows.append((place, *winding(ball, level, place, impacts), at, about))
+    place, turns, grown, at, about = (np.array(column) for column in zip(*rows, strict=True))
+    names = {
+        "place": "start along y = 0, in section radii from the centre",
+        "rotation": "rotation number around the fixed point",
+        "exponent": "Lyapunov exponent an impact",
+    }
+    data = variables(("energy", "start"), (place, turns, grown), names)
+    names = {
+        "energy": "energy",
+        "fixed_place": "the fixed point, in section radii from the centre",
+        "fixed_rotation": "rotation number of the fixed point",
+    }
+    data |= variables("energy", (all_energies, at, about), names)
+    names = {
+        "detail_place": "start along y = 0, in section radii from the centre",
+        "detail_rotation": "rotation number around the fixed point",
+        "detail_exponent": "Lyapunov exponent an impact",
+    }
+    place = detail[0] + (detail[1] - detail[0]) * middle
+    found = winding(ball, energy, place, detail_impacts)
+    data |= variables("detail", (place, *found), names)
+    return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
+
+
+def regular(exponent, impacts):
+    """Which orbits of so many impacts are regular, by the growth of a tangent vector.
+
+    The exponent of a regular one is about ln 2 over half their number, or less.
+    """
+    return exponent * (0.5 * impacts) < GROWN
+
+
+def island(dataset, row):
+    """How many starts from the fixed point on lie in the main island, at the energy of that row.
+
+    It ends where two neighbouring starts are chaotic: a layer inside it may hold one.
+    """
+    chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
+    both = chaotic[:-1] & chaotic[1:]
+    return int(np.argmax(both)) if both.any() else chaotic.size
+
+
+def plateaus(place, turns, most=100, few=3):
+    """Gaps between the curves around the fixed point: starts in one chain of islands.
+
+    Parameters
+    ----------
+    place, turns : ndarray (n,)
+        Of regular orbits, in order.
+    most : int
+        Islands in a chain, at most.
+    few : int
+        Neighbouring starts with one rotation number, at least.
+
+    Returns
+    -------
+    list of (int, int, float, float)
+        p, q and the first and last place of starts with the rotation number p/q, in lowest terms.
+    """
+    found = []
+    for q in range(2, most + 1):
+        p = np.rint(turns * q).astype(np.int64)
+        hit = np.abs(turns - p / q) < LOCKED
+        for number in sorted(set(p[hit].tolist())):
+            (at,) = np.nonzero(hit & (p == number))
+            if at.size >= few and at[-1] - at[0] == at.size - 1 and np.gcd(number, q) == 1:
+                found.append((number, q, float(place[at[0]]), float(place[at[-1]])))
+    return found

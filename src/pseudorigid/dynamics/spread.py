@@ -1,0 +1,146 @@
+"""How the Lyapunov exponents of many orbits spread, and how the spread shrinks with their length.
+
+The exponents of long orbits of the sea are kept as means over blocks; means over longer stretches
+follow from them. So one run gives the long-run value, its error, and the distribution of the short
+runs that it is made of.
+"""
+
+import numpy as np
+import xarray as xr
+
+from .lyapunov import lyapunov_spectrum
+from .sea import sea_states
+from .variables import variables
+
+# A chunk of impacts of all orbits that is held in memory at once.
+_CHUNK = 4000
+
+
+def spread(ball, energy, between, orbits, impacts, blocks, regular, regular_impacts, cells, visits):
+    """Exponents of many orbits, block by block, and what part of the sea each of them enters.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    between : (float, float)
+        The orbits start evenly over this part of y = 0, in section radii from the centre.
+    orbits, impacts : int
+        How many orbits, and how long each is.
+    blocks : int
+        Into how many equal blocks an orbit is divided.
+    regular : sequence of float
+        Starts of regular orbits on y = 0, in section radii.
+    regular_impacts : int
+        Their length; the exponents so far are kept at that number and its halves.
+    cells : int
+        The section's bounding rectangle has cells x cells cells.
+    visits : int
+        Impacts of each orbit of which the cells they are in are kept; counts at this number and
+        its halves.
+
+    Returns
+    -------
+    Dataset
+        exponent (block, orbit, index): mean over a block, not over all blocks so far, largest
+        first. regular_exponent (length, island, index): over the first `length` impacts.
+        entered_any, entered_all (visit): cells entered by at least one of the orbits, by each of
+        them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
+        (island), and the attribute impacts, of a block.
+
+    Raises
+    ------
+    ValueError
+        impacts that are no multiple of blocks, or a start beyond the section.
+
+    References
+    ----------
+    Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks.
+    """
+    if impacts % blocks:
+        raise ValueError(f"blocks = {blocks} is not allowed: impacts = {impacts} is no multiple")
+    start, *states = sea_states(ball, energy, between, orbits)
+    so_far = lyapunov_spectrum(ball, states, impacts, blocks)["exponent"].values
+    count = np.arange(1, blocks + 1)[:, None, None]
+    sums = so_far * count
+    block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
+    data = _one("exponent", ("block", "orbit", "index"), block, "mean exponent of a block")
+    data |= _one("start", ("orbit",), start, "start along y = 0, in section radii")
+    data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
+    data |= _entered(ball, energy, states, cells, visits)
+    return xr.Dataset(data, attrs={"block_impacts": impacts // blocks})
+
+
+def _one(name, dims, values, long_name):
+    return variables(dims, [values], {name: long_name})
+
+
+def _halves(number):
+    """number, number/2, ... above 0, in rising order."""
+    found = []
+    while number:
+        found.append(number)
+        number //= 2
+    return np.array(found[::-1])
+
+
+def _regular(ball, energy, starts, impacts):
+    lengths = _halves(impacts)
+    states = ball.start(starts, energy)
+    found = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
+    data = _one("length", ("length",), lengths, "number of impacts")
+    data |= _one("regular_start", ("island",), starts, "start along y = 0, in section radii")
+    dims = ("length", "island", "index")
+    return data | _one("regular_exponent", dims, np.array(found), "exponent of a regular orbit")
+
+
+def _entered(ball, energy, states, cells, visits):
+    """Counts of cells of the chart that orbits enter, at `visits` impacts and its halves."""
+    centre, radius = ball.section(energy)
+    high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
+    x, v, w = (a.copy() for a in states)
+    seen = np.zeros((x.size, cells * cells), dtype=bool)
+    lengths, done, counts = _halves(visits), 0, []
+    for length in lengths.tolist():
+        while done < length:
+            out = np.empty((x.size, min(_CHUNK, length - done), 4))
+            ball.map.history(x, v, w, ball.k, ball.g, out)
+            done += out.shape[1]
+            across = _cell((out[..., 0] - centre) / radius, cells)
+            up = _cell((out[..., 1] - ball.k * out[..., 2]) / high, cells)
+            for orbit, places in enumerate(up * cells + across):
+                seen[orbit, places] = True
+        each = seen.sum(axis=1)
+        counts.append((int(seen.any(axis=0).sum()), int(seen.all(axis=0).sum()), int(each.min())))
+    names = {
+        "entered_any": "cells entered by at least one orbit",
+        "entered_all": "cells entered by each orbit",
+        "entered_least": "cells entered by the orbit that enters fewest",
+    }
+    data = _one("visit", ("visit",), lengths, "number of impacts of each orbit")
+    return data | variables("visit", np.array(counts, dtype=np.int64).T, names)
+
+
+def _cell(place, cells):
+    """The cell, 0 to cells - 1, of places between -1 and 1."""
+    return np.clip((0.5 * (place + 1.0) * cells).astype(np.int64), 0, cells - 1)
+
+
+def stretches(dataset, length):
+    """Largest exponents over all stretches of `length` impacts of the sea's orbits.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        As from `spread`.
+    length : int
+        A multiple of its block_impacts.
+
+    Returns
+    -------
+    ndarray (stretch,)
+    """
+    block = dataset["exponent"].values[:, :, 0]
+    count = length // int(dataset.attrs["block_impacts"])
+    whole = block[: block.shape[0] // count * count]
+    return whole.reshape(-1, count, block.shape[1]).mean(axis=1).ravel()

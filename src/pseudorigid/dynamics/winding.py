@@ -1,0 +1,75 @@
+"""How orbits that start on y = 0 wind round the fixed point, and how fast neighbours part."""
+
+import math
+
+import numpy as np
+
+from . import fixed_point
+from .ball import Ball
+from .follow import CENTRE, EXPECTED, KEPT, VECTOR, follow
+
+
+def fixed(ball, energy):
+    """(place, rotation) of the symmetric fixed point.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+
+    Returns
+    -------
+    place : float
+        Where it is on y = 0, in section radii from the centre.
+    rotation : float
+        Its rotation number, NaN where it is not elliptic.
+    """
+    e = energy / (ball.g * ball.g)
+    theta = fixed_point.half_time(ball.k, e)
+    middle, radius = Ball(ball.k, 1.0).section(e)
+    rotation = fixed_point.rotation(fixed_point.trace(ball.k, theta))
+    return (fixed_point.place(ball.k, theta) - middle) / radius, rotation
+
+
+def winding(ball, energy, place, impacts):
+    """Rotation numbers around the fixed point, and exponents.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    place : ndarray (n,)
+        Starts on y = 0, in section radii from the centre.
+    impacts : int
+        Of each orbit.
+
+    Returns
+    -------
+    rotation : ndarray (n,)
+        Turns an impact, a weighted Birkhoff average.
+    exponent : ndarray (n,)
+        Of a tangent vector, an impact, between the middles of the second and the last quarter.
+
+    References
+    ----------
+    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017); the
+    weights here are (t (1 - t))^3.
+    """
+    unit = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
+    e = energy / (ball.g * ball.g)
+    middle, radius = unit.section(e)
+    at, about = fixed(ball, energy)
+    orbits = np.zeros((KEPT, place.size))
+    orbits[:VECTOR] = unit.start(place, e)
+    orbits[VECTOR + 1], orbits[VECTOR + 2] = ball.k * orbits[2], -orbits[1]  # along the surface
+    orbits[CENTRE] = middle + radius * at
+    orbits[EXPECTED] = 0.5 if math.isnan(about) else about
+    quarter = impacts // 4
+    turning = np.array([(0, impacts)])
+    growing = np.array([(quarter, quarter), (impacts - quarter, quarter)])
+    turned, growth = np.zeros((1, place.size)), np.zeros((2, place.size))
+    follow(orbits, ball.k, 0, impacts, turning, growing, turned, growth)
+    time = (np.arange(impacts) + 0.5) / impacts
+    bump = time * (1.0 - time)
+    exponent = (growth[1] - growth[0]) / (quarter * (impacts - 2.0 * quarter))
+    return turned[0] / np.sum(bump * bump * bump), exponent

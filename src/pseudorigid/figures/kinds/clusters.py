@@ -1,0 +1,90 @@
+"""Clusters of impacts: flight times in the sea, and what one cluster says of the next."""
+
+import numpy as np
+
+from ..axes.panel import Axis, Panel, key
+from ..canvas import style
+from ..canvas.sheet import POINT, Sheet
+
+_LEFT, _RIGHT = 135, 1005
+_MARKS = ("o", "s", "^", "D")
+_PAIRS = (("x", 0, 0), ("y", 1, 1))
+
+
+@style.pinned()
+def draw(scene, clusters):
+    """Return the Figure of flight times and of the memory from cluster to cluster.
+
+    Parameters
+    ----------
+    scene : dict
+    clusters : Dataset
+        The artifact of that stage.
+
+    Returns
+    -------
+    Figure
+        Above: the distribution of flight times, with the cuts. Middle: correlation of x, and of y,
+        at the beginning of a cluster with the same so many clusters later. Below: share of the
+        variance of y there that is explained by where the earlier cluster began. Bars are 95 %
+        intervals.
+    """
+    sheet = Sheet(style.COLUMN, 1575)
+    _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
+    correlation = clusters["correlation"].values
+    span = 0.1 * (int(10.0 * float(np.abs(correlation).max())) + 1)
+    ticks = tuple(0.1 * i for i in range(-8, 9, 2) if abs(0.1 * i) <= span + 1e-9)
+    up = Axis((-span, span), ticks, "Correlation of $x$ (filled), $y$ (hollow)")
+    panel = _by_lag(sheet, (_LEFT, 680, _RIGHT, 1010), clusters, up, named=False)
+    for i, (name, first, then) in enumerate(_PAIRS):
+        rows = [clusters[f"correlation{end}"].values[..., first, then] for end in _ENDS]
+        _bars(panel, clusters, rows, shift=0.04 * i, hollow=name == "y")
+    panel.line([0.0, 99.0], [0.0, 0.0], color=style.BLACK, lw=0.7)
+    up = Axis((0.0, 0.7), (0, 0.2, 0.4, 0.6), "Share of the variance of $y$ explained")
+    panel = _by_lag(sheet, (_LEFT, 240, _RIGHT, 560), clusters, up, named=True)
+    rows = [clusters[f"dependence{end}"].values[..., 1] for end in _ENDS]
+    _bars(panel, clusters, rows, shift=0.0, hollow=False)
+    entries = [
+        (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4], False)
+        for i, cut in enumerate(clusters["cut"].values)
+    ]
+    key(sheet, entries, _LEFT, 75, _RIGHT - _LEFT, 4)
+    return sheet.figure
+
+
+_ENDS = ("", "_low", "_high")
+
+
+def _flights(sheet, frame, clusters):
+    edges = clusters["bin_edge"].values
+    share = clusters["flights"].values / clusters["flights"].values.sum()
+    last = float(edges[-1])
+    across = Axis((0.0, last), tuple(range(int(last) + 1)), "Time of flight")
+    tall = 0.01 * (int(100.0 * float(share.max())) + 1)
+    ticks = tuple(0.01 * i for i in range(round(100 * tall) + 1))
+    panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of flights"), grid=False)
+    corners = np.repeat(edges, 2)[1:-1]
+    panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
+    for i, cut in enumerate(clusters["cut"].values):
+        panel.line([cut, cut], [0.0, tall], color=style.HUES[i], lw=0.8, ls="--")
+        period = f"{float(clusters['period'].values[i]):.1f}"
+        panel.note(cut, (0.95 - 0.1 * i) * tall, period, shift=(2, 0))
+    text = "dashes: cuts, and the mean time between clusters"
+    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=6.0)
+
+
+def _by_lag(sheet, frame, clusters, up, named):
+    lags = clusters["lag"].values
+    name = "Clusters later" if named else ""
+    labels = None if named else ("",) * lags.size
+    across = Axis((0.6, float(lags[-1]) + 0.5), tuple(lags.tolist()), name, labels=labels)
+    return Panel(sheet, frame, across, up)
+
+
+def _bars(panel, clusters, rows, shift, hollow):
+    lags, cuts = clusters["lag"].values, clusters["cut"].values
+    for i in range(cuts.size):
+        at = lags + 0.12 * (i - 0.5 * (cuts.size - 1)) + shift
+        for place, low, high in zip(at, rows[1][i], rows[2][i], strict=True):
+            panel.line([place, place], [low, high], color=style.HUES[i], lw=0.7)
+        panel.dots(at, rows[0][i], style.HUES[i], hollow=hollow, marker=_MARKS[i % 4])

@@ -1,0 +1,105 @@
+"""The regions that the branches of a hyperbolic orbit close in, and the lobes through which the
+sea passes.
+"""
+
+import math
+
+import numpy as np
+
+from ...kernel.arithmetic import sincos
+from ...kernel.compiled import jit
+from ..axes.panel import Axis, Panel, key
+from ..axes.raster import ticks
+from ..canvas import style
+from ..canvas.sheet import Sheet
+
+_LEFT, _WIDE = 150, 825  # pixels
+_INNER, _OUTER = style.PURPLE, style.ORANGE
+
+
+@style.pinned()
+def draw(scene, flux):
+    """Return the Figure of regions and lobes.
+
+    Parameters
+    ----------
+    scene : dict
+    flux : Dataset
+        The artifact of that stage.
+
+    Returns
+    -------
+    Figure
+        Above: the section with both regions. Below, left: the outer branches at a lobe. Below,
+        right: the distance of the inner unstable branch from the stable one, which are a line to
+        the eye.
+    """
+    sheet = Sheet(style.COLUMN, 1575)
+    top = sheet.high - 75
+    _regions(sheet, (_LEFT, top - _WIDE, _LEFT + _WIDE, top), flux)
+    entries = [
+        ("edge of the inner region", _INNER, "", False),
+        ("edge of the outer region", _OUTER, "", False),
+        ("stable", style.STABLE, "", False),
+        ("unstable", style.UNSTABLE, "", False),
+    ]
+    key(sheet, entries, _LEFT + 10, top - _WIDE - 130, _WIDE, 2)
+    _outer_lobe(sheet, (_LEFT, 105, 505, 420), flux)
+    _inner_lobe(sheet, (680, 105, 1005, 420), flux)
+    return sheet.figure
+
+
+def _regions(sheet, frame, flux):
+    k, g, energy = (float(flux.attrs[name]) for name in ("k", "g", "energy"))
+    radius = math.sqrt((2.0 * energy + g * g / k) / k)
+    half = 1.06 * radius
+    across = Axis((g / k - half, g / k + half), tuple(ticks(g / k - half, g / k + half, 5)), "$x$")
+    high = 0.54 * half
+    up = Axis((-high, high), tuple(ticks(-high, high, 5)), r"$y=\dot{x}^{-}-k\dot{u}^{-}$")
+    panel = Panel(sheet, frame, across, up, grid=False)
+    sine, cosine = np.empty(721), np.empty(721)
+    _circle(sine, cosine)
+    rim = math.sqrt(k * (1.0 + k)) * radius
+    panel.line(g / k + radius * cosine, rim * sine, color=style.BLACK, lw=0.8)
+    for side, hue in ((1, _OUTER), (0, _INNER)):
+        x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
+        panel.line(x, y, color=hue, lw=1.1)
+        text = f"lobe {float(flux['area'].values[side]):.4g}"
+        at = float(flux["crossing_x"].values[side].max())
+        shift = (4.0, 0.0) if side else (-4.0, 0.0)
+        panel.note(at, 0.0, text, ha="left" if side else "right", shift=shift)
+        panel.dots([at], [0.0], hue)
+
+
+@jit
+def _circle(sine, cosine):
+    for i in range(sine.size):
+        sine[i], cosine[i] = sincos(2.0 * math.pi * i / (sine.size - 1))
+
+
+def _outer_lobe(sheet, frame, flux):
+    x, y = flux["branch_x"].values[1], flux["branch_y"].values[1]
+    spans = []
+    for low, high in ((x.min(), x.max()), (-np.abs(y).max(), np.abs(y).max())):
+        room = 0.06 * (high - low)
+        spans.append((float(low - room), float(high + room)))
+    across = Axis(spans[0], tuple(ticks(*spans[0], 3)), "$x$")
+    panel = Panel(sheet, frame, across, Axis(spans[1], tuple(ticks(*spans[1], 5)), "$y$, outer"))
+    panel.line(x, -y, color=style.STABLE, lw=1.0)
+    panel.line(x, y, color=style.UNSTABLE, lw=1.0)
+
+
+def _inner_lobe(sheet, frame, flux):
+    x, y = flux["branch_x"].values[0], flux["branch_y"].values[0]
+    order = np.argsort(y, kind="stable")
+    half = float(min(y.max(), -y.min()))
+    at = half * (np.arange(-200, 201) / 200.0)
+    apart = np.interp(at, y[order], x[order]) - np.interp(-at, y[order], x[order])
+    power = int(f"{float(np.abs(apart).max()):e}".partition("e")[2])
+    apart = apart / float(f"1e{power}")
+    most = 1.1 * float(np.abs(apart).max())
+    across = Axis((-half, half), tuple(ticks(-half, half, 3)), "$y$")
+    name = rf"$\Delta x$ / $10^{{{power}}}$, inner"
+    panel = Panel(sheet, frame, across, Axis((-most, most), tuple(ticks(-most, most, 5)), name))
+    panel.line([-half, half], [0.0, 0.0], color=style.STABLE, lw=1.0)
+    panel.line(at, apart, color=style.UNSTABLE, lw=1.0)

@@ -1,0 +1,71 @@
+"""Greene's residues on either side of the last curve of the main island, and the orbits there."""
+
+import numpy as np
+
+from ..axes.panel import Axis, Panel, key, log10
+from ..axes.raster import ticks
+from ..canvas import style
+from ..canvas.sheet import POINT, Sheet
+
+_LEFT, _RIGHT = 150, 1005
+_CRITICAL = 0.25
+
+
+@style.pinned()
+def draw(scene, last_curve):
+    """Return the Figure of residues and of orbits, one hue a noble rotation number.
+
+    Parameters
+    ----------
+    scene : dict
+    last_curve : Dataset
+        The artifact of that stage.
+
+    Returns
+    -------
+    Figure
+        Above: the residues of the convergents against their period. Below: what becomes of an orbit
+        that starts at the last convergent, in the plane (x, y).
+    """
+    sheet = Sheet(style.COLUMN, 1500)
+    _residues(sheet, (_LEFT, 1030, _RIGHT, 1425), last_curve)
+    _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
+    names = [f"rotation number {number:.6f}" for number in last_curve["rotation"].values]
+    entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
+    key(sheet, entries, _LEFT, 855, _RIGHT - _LEFT, 2)
+    return sheet.figure
+
+
+def _residues(sheet, frame, last_curve):
+    periods = last_curve["period"].values
+    size = np.abs(last_curve["residue"].values)
+    ends = log10([periods.min(), periods.max()]) + np.array([-0.1, 0.1])
+    across = Axis(tuple(ends.tolist()), _whole(*ends), "Period", True)
+    limits = tuple(np.floor(log10([size.min(), 10.0 * size.max()])).tolist())
+    up = Axis(limits, _whole(*limits), "Residue, its modulus", True)
+    panel = Panel(sheet, frame, across, up)
+    panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
+    for i in range(periods.shape[0]):
+        panel.line(periods[i], size[i], color=style.HUES[i], lw=0.9)
+        above = last_curve["residue"].values[i] > 0.0
+        panel.dots(periods[i][above], size[i][above], style.HUES[i])
+        panel.dots(periods[i][~above], size[i][~above], style.HUES[i], hollow=True)
+    sheet.text(frame[2], frame[3] + 4 * POINT, "hollow: negative", ha="right", va="bottom", size=6)
+
+
+def _whole(low, high):
+    return tuple(range(int(np.ceil(low)), int(np.floor(high)) + 1))
+
+
+def _orbits(sheet, frame, last_curve):
+    x, y = last_curve["x"].values, last_curve["y"].values
+    spans = []
+    for values in (x, y):
+        low, high = float(values.min()), float(values.max())
+        room = 0.04 * (high - low)
+        spans.append((low - room, high + room))
+    across = Axis(spans[0], tuple(ticks(*spans[0], 6)), "$x$")
+    up = Axis(spans[1], tuple(ticks(*spans[1], 6)), r"$y=\dot{x}^{-}-k\dot{u}^{-}$")
+    panel = Panel(sheet, frame, across, up, grid=False)
+    for i in reversed(range(x.shape[0])):
+        panel.dots(x[i], y[i], style.HUES[i], size=0.9)

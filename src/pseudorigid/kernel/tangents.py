@@ -1,0 +1,90 @@
+"""Tangent vectors carried along many orbits at once.
+
+A stretch of impacts at a time: first the orbits, in lanes or one after the other; then, for all
+flights of the stretch, what a tangent vector needs of them; then the vectors, impact by impact.
+The loops are plain ones over the rows of flat arrays, which the compiler turns into vector
+instructions, and call the functions of `impact`: so the bits are those that each orbit has alone.
+"""
+
+import numpy as np
+
+from . import lanes
+from .arithmetic import WIDE, narrow_quadrant, quadrant
+from .compiled import jit
+from .impact import flight_derivatives, history, rebound, tangent, transfer
+
+# Impacts of a stretch, and orbits that are followed together: what is kept of them fits into the
+# processor's own memory.
+STRETCH = 32
+GROUP = 128
+# Rows of GROUP numbers, one an orbit. Of the states: x, v, w before each impact, and the time of
+# the flight that led there, the first row of each from before the stretch. Of the flights: what
+# `flight_derivatives` returns.
+X, V, W, TAU = (i * (STRETCH + 1) * GROUP for i in range(4))
+SINE, COSINE, TAU_X, TAU_S, TAU_C = (i * STRETCH * GROUP for i in range(5))
+
+
+@jit
+def room():
+    """The arrays that `stretch` fills: states and flights."""
+    return np.empty(4 * (STRETCH + 1) * GROUP), np.empty(5 * STRETCH * GROUP)
+
+
+@jit
+def stretch(x, v, w, k, g, impacts, states, flights, how):
+    """Advance the states x, v, w (n,), n <= GROUP, in place by `impacts` <= STRETCH, and fill the
+    arrays of `room`. Returns the impacts missed, as in `impact`.
+    """
+    n = x.size
+    states[X : X + n], states[V : V + n], states[W : W + n] = x, v, w
+    rows = states.reshape(4, STRETCH + 1, GROUP)
+    out = rows[:, 1 : impacts + 1, :n].transpose(2, 1, 0)
+    missed = 0
+    if how is None:
+        if n < lanes.FEW:
+            history(x, v, w, k, g, out, None)
+        else:
+            lanes.steps(x, v, w, k, g, impacts, np.empty(n), out)
+    else:
+        missed = history(x, v, w, k, g, out, how)
+    head, low = transfer(k)
+    for j in range(impacts):
+        if not _derive(states, flights, j * GROUP, n, k, g, head, low):
+            _derive_wide(states, flights, j * GROUP, n, k, g, head, low)
+    return missed
+
+
+@jit
+def _derive(states, flights, row, n, k, g, head, low):
+    """`flight_derivatives` of a row of flights; whether none is too long, or NaN, for that."""
+    wide = 0
+    row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
+    for i in range(row, row + n):
+        b, c, s = rebound(states[V + i], states[W + i], k, head, low)
+        tau = states[TAU + GROUP + i]
+        found = flight_derivatives(states[X + i], b, c, s, g, tau, narrow_quadrant(tau))
+        flights[SINE + i], flights[COSINE + i] = found[0], found[1]
+        flights[TAU_X + i], flights[TAU_S + i], flights[TAU_C + i] = found[2], found[3], found[4]
+        wide += 0 if tau < WIDE else 1
+    return wide == 0
+
+
+@jit
+def _derive_wide(states, flights, row, n, k, g, head, low):
+    for i in range(row, row + n):
+        tau = states[TAU + GROUP + i]
+        if not tau < WIDE:
+            b, c, s = rebound(states[V + i], states[W + i], k, head, low)
+            found = flight_derivatives(states[X + i], b, c, s, g, tau, quadrant(tau))
+            flights[SINE + i], flights[COSINE + i] = found[0], found[1]
+            flights[TAU_X + i], flights[TAU_S + i], flights[TAU_C + i] = found[2:]
+
+
+@jit
+def carried(dx, dv, dw, k, g, head, low, states, flights, at):
+    """The tangent vector (dx, dv, dw) of orbit i carried over impact j; at = j GROUP + i."""
+    return tangent(
+        dx, dv, dw, k, g, head, low, states[X + GROUP + at], states[W + GROUP + at],
+        flights[SINE + at], flights[COSINE + at],
+        flights[TAU_X + at], flights[TAU_S + at], flights[TAU_C + at],
+    )  # fmt: skip

@@ -1,0 +1,129 @@
+"""Jacobian, exponents, one-form and area: the paper's equations (32)-(42)."""
+
+import sympy as sp
+
+from .motion import map_residuals
+from .symbols import Formula, action, b, c, energy, flight, g, k, rebound, tau, v, w, x, zeros
+
+DIRECTION = sp.symbols("dx dv dw", real=True)
+_DIGITS = 40
+
+
+def tangent_map():
+    """The tangent map of one impact and flight on DIRECTION, from f = 0 by implicit functions."""
+    speed, rate = rebound(v, w)
+    position, strain = flight(x, speed, rate, tau)
+    gap = position + strain
+    old = (x, v, w)
+    along = [(a, d) for a, d in zip(old, DIRECTION, strict=True)]
+    dtau = -sum(gap.diff(a) * d for a, d in along) / gap.diff(tau)
+    new = (-strain, speed + g * tau, strain.diff(tau))
+    return [sum(n.diff(a) * d for a, d in along) + n.diff(tau) * dtau for n in new]
+
+
+def jacobian_matrix():
+    """Its matrix, the Jacobian (33)."""
+    rows = map(sp.expand, tangent_map())
+    return sp.Matrix([[row.coeff(d) for d in DIRECTION] for row in rows])
+
+
+def some_flights():
+    """Values of x, v, w, tau, k and g of flights that end in an impact, exact."""
+    for numbers in ((31, -7, 42, 260), (-12, 35, 9, 117), (25, 18, -3, 571)):
+        values = {k: sp.Rational(1, 5), tau: sp.Rational(numbers[3], 100)}
+        pairs = zip((x, v, w), numbers, strict=False)
+        values |= {a: sp.Rational(number, 100) for a, number in pairs}
+        rest = sum(flight(x, *rebound(v, w), tau)).subs(g, 0)
+        yield values | {g: (-2 * rest / tau**2).subs(values)}
+
+
+def jacobian():
+    """(33) from the nine linear equations that differentiating (28) gives."""
+    (x1, v1, w1), lines = map_residuals(-1)
+    lines = sp.Matrix(lines)
+    nine = -lines.jacobian((x1, v1, w1)).LUsolve(lines.jacobian((x, v, w)))
+    speed, rate = rebound(v, w)
+    strain = flight(x, speed, rate, tau)[1]
+    after = {x1: -strain, v1: speed + g * tau, w1: strain.diff(tau)}
+    direct = jacobian_matrix()
+    agree = True
+    for values in some_flights():
+        end = {name: value.subs(values).evalf(_DIGITS) for name, value in after.items()}
+        apart = (nine.subs(values | end) - direct.subs(values)).evalf(_DIGITS)
+        agree &= max(abs(a) for a in apart) < sp.Float("1e-25")
+    return Formula(bool(agree))
+
+
+def exponents():
+    """(32), of a constant Jacobian e^rate: without 1/i the limit is infinite."""
+    i, rate = sp.symbols("i rate", positive=True)
+    growth = i * rate
+    return Formula(sp.limit(growth, i, sp.oo) == rate, sp.limit(growth / i, i, sp.oo) == rate)
+
+
+def determinants():
+    """The Jacobian's determinant is s/s' in (x, xdot, udot), s = xdot + udot, and 1 in (x, y).
+
+    The first telescopes along an orbit, so the three exponents add up to 0; the second makes two
+    of them opposite. So the third is 0.
+    """
+    matrix = jacobian_matrix()
+    slope = sp.Matrix([[energy(x, v, w).diff(a) for a in (x, v, w)]])
+    chart = sp.Matrix([[1, 0, 0], [0, 1, -k]])  # dx and dy, y = v - k w
+    speed, rate = rebound(v, w)
+    after = speed + g * tau + flight(x, speed, rate, tau)[1].diff(tau)
+    good = True
+    for values in some_flights():
+        numbers = matrix.subs(values).evalf(_DIGITS)
+        ratio = ((v + w) / after).subs(values).evalf(_DIGITS)
+        basis = sp.Matrix.hstack(*slope.subs(values).evalf(_DIGITS).nullspace())
+        flat = chart.subs(values).evalf(_DIGITS)
+        area = (flat * numbers * basis).det() / (flat * basis).det()
+        good &= abs(numbers.det() - ratio) < sp.Float("1e-25")
+        good &= abs(area - 1) < sp.Float("1e-25")
+    return Formula(bool(good))
+
+
+def one_form():
+    """(34)-(39): the form on the section, and that the impact keeps it."""
+    velocity, rate, position, strain = sp.symbols("xd ud X U", real=True)
+    lagrangian = velocity**2 / 2 + k * rate**2 / 2 + g * position - k * strain**2 / 2
+    form = lagrangian.diff(velocity), lagrangian.diff(rate)
+    on_section = (form[0] - form[1]).subs({velocity: v, rate: w})  # du = -dx
+    speed, after = rebound(v, w)
+    kept = (speed - k * after) - (v - k * w)
+    return Formula(zeros([form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), kept]))
+
+
+def area():
+    """(40)-(42) although flight times vary (Poincare and Cartan).
+
+    The action's differential is xdot dx + k udot du between the ends plus tau dE, whatever is
+    varied; at fixed energy the form's change is exact, so its differential is kept.
+    """
+    position, strain = flight(x, b, c, tau)
+    speed, rate = position.diff(tau), strain.diff(tau)
+    whole = energy(x, b, c)
+    conditions = [action(x, b, c, tau).diff(tau) - speed**2 - k * rate**2]
+    conditions.append(action(x, b, c, 0))
+    start = {x: b - k * c, b: 0, c: 0, tau: 0}
+    for variable in (x, b, c, tau):
+        end = speed * position.diff(variable) + k * rate * strain.diff(variable)
+        change = action(x, b, c, tau).diff(variable) - (end - start[variable])
+        conditions.append(change - tau * whole.diff(variable))
+    return Formula(zeros(conditions))
+
+
+def reversible():
+    """The reversor (x, v, w) -> (x, -b, -c) undoes a flight, so P^-1 = R P R."""
+    speed, rate = rebound(v, w)
+    position, strain = flight(x, speed, rate, tau)
+    end = -strain, speed + g * tau, strain.diff(tau)
+    reflected = tuple(-a for a in rebound(end[1], end[2]))
+    back, back_strain = flight(end[0], *rebound(*reflected), tau)
+    gap = position + strain
+    # back at x, and there with the velocities of R
+    place = -back_strain - x
+    velocity = rebound(*reflected)[0] + g * tau + speed
+    closes = (back - x) + gap  # X(t) returns as U does where the gap is 0
+    return Formula(None, zeros([place, velocity, closes]))

@@ -1,0 +1,140 @@
+"""The model: equations of motion, inertia, stiffness, scaling, impulse. Paper, section 2."""
+
+import sympy as sp
+
+from .symbols import E0, EV0, GRAVITY, Formula, M, R, T, energy, g, k, rebound, v, w, x, zero, zeros
+
+
+def equations_of_motion():
+    """(10) between impacts, from the Lagrangian (1)-(3)."""
+    position, strain = sp.Function("X")(T), sp.Function("U")(T)
+    kinetic = M * position.diff(T) ** 2 / 2 + E0 * strain.diff(T) ** 2 / 2
+    potential = -M * GRAVITY * position + EV0 * strain**2 / 2
+    found = sp.calculus.euler.euler_equations(kinetic - potential, [position, strain], [T])
+    printed = [M * position.diff(T, 2) - M * GRAVITY, E0 * strain.diff(T, 2) + EV0 * strain]
+    return Formula(zeros(e.lhs - e.rhs + p for e, p in zip(found, printed, strict=True)))
+
+
+def euler_tensor():
+    """(4): T = integral of rho (X3 udot)^2/2 has a component, not the trace. Value: solid k."""
+    r, theta, phi = sp.symbols("r theta phi", positive=True)
+
+    def over_ball(f, power):
+        ranges = ((r, 0, R), (theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
+        return sp.integrate(r**power * f * r**2 * sp.sin(theta), *ranges)
+
+    printed, corrected, solid = True, True, None
+    for power in (0, 1, 2, 7):
+        component = over_ball((r * sp.cos(theta)) ** 2, power)
+        trace, mass = over_ball(r**2, power), over_ball(1, power)
+        printed &= zero(component - trace)
+        corrected &= zero(component - trace / 3)
+        solid = sp.simplify(component / (mass * R**2)) if solid is None else solid
+    return Formula(printed, corrected, float(solid))
+
+
+def shell():
+    """(5): k = 1 for a shell as printed; a third, which is the value, by the component."""
+    theta, phi = sp.symbols("theta phi", positive=True)
+    ranges = ((theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
+    mass = sp.integrate(R**2 * sp.sin(theta), *ranges)
+    component = sp.integrate((R * sp.cos(theta)) ** 2 * R**2 * sp.sin(theta), *ranges)
+    found = sp.simplify(component / (mass * R**2))
+    return Formula(found == 1, found == sp.Rational(1, 3), float(found))
+
+
+def uncoupled():
+    """Without Poisson's ratio, and only so, a force along an axis strains that axis alone."""
+    young, nu = sp.symbols("Y nu", positive=True)
+    lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
+    moduli = sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0))
+    alone = moduli.subs(nu, 0) == young * sp.eye(3) and not zero(moduli[0, 1])
+    alike = sorted(moduli.eigenvals().values()) == [1, 2]  # the two deviatoric modes
+    return Formula(bool(alone and alike))
+
+
+def softness():
+    """Young's modulus in units of rho g R, the value, that g = 0.04 and k = 1/5 ask for."""
+    density, young = sp.symbols("rho Y", positive=True)
+    volume = 4 * sp.pi * R**3 / 3
+    omega2 = young * volume / (k * density * volume * R**2)  # (16) with (5)
+    needed = sp.solve(GRAVITY / (omega2 * R) - sp.Rational(1, 25), young)[0]
+    ratio = sp.simplify(needed.subs(k, sp.Rational(1, 5)) / (density * GRAVITY * R))
+    return Formula(None, bool(ratio.is_number), float(ratio))
+
+
+def impulse():
+    """(13) from (11) and (12)."""
+    before_x, before_u, p = sp.symbols("xm um p", real=True)
+    inertia = k * M * R**2
+    after = before_x - p / M, before_u - R * p / inertia
+    kept = M * (after[0] ** 2 - before_x**2) + inertia * (after[1] ** 2 - before_u**2)
+    nontrivial = [s for s in sp.solve(kept, p) if s != 0]
+    printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
+    return Formula(len(nontrivial) == 1 and zero(nontrivial[0] - printed))
+
+
+def impulse_without_stiffness():
+    """(13) has the stiffness EV0 neither in it nor in what it follows from."""
+    before_x, before_u = sp.symbols("xm um", real=True)
+    printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
+    return Formula(EV0 not in printed.free_symbols and impulse().printed)
+
+
+def jump_conditions():
+    """(14) and (25): energy kept, contact speed reversed, an involution."""
+    after = rebound(v, w)
+    printed = (
+        (1 - k) / (1 + k) * v - 2 * k / (1 + k) * w,
+        -2 / (1 + k) * v - (1 - k) / (1 + k) * w,
+    )
+    again = rebound(*after)
+    conditions = [one - other for one, other in zip(after, printed, strict=True)]
+    conditions += [energy(x, *after) - energy(x, v, w), sum(after) + v + w]
+    return Formula(zeros([*conditions, again[0] - v, again[1] - w]))
+
+
+_MASS, _LENGTH, _TIME = sp.symbols("mass length time", positive=True)
+_FORCE, _IMPULSE = _MASS * _LENGTH / _TIME**2, _MASS * _LENGTH / _TIME
+
+
+def impulsive_forces():
+    """(9), by dimensions: p is an impulse, so p without a delta is no force."""
+    delta = 1 / _TIME
+    multiplier = sp.cancel(_FORCE / delta)  # of the first line's last member, -p delta
+    # the slopes of phi_2 = x + R u and the forces conjugate to x and u
+    pairs = (1, _FORCE), (_LENGTH, _FORCE * _LENGTH)
+    printed = all(sp.cancel(multiplier * slope / force) == 1 for slope, force in pairs)
+    corrected = all(sp.cancel(multiplier * slope * delta / force) == 1 for slope, force in pairs)
+    return Formula(printed, corrected)
+
+
+def scaled_impulse():
+    """(24), by dimensions and from (10) with the delta of the scaled time."""
+    rate, p = sp.symbols("omega p", positive=True)
+    omega = 1 / _TIME
+    scaled = p * rate / (M * R * rate**2)  # delta(t) = omega delta(omega t)
+    found = []
+    for power in (2, 1):
+        pure = sp.cancel(_IMPULSE / (_MASS * omega**power * _LENGTH)) == 1
+        found.append(pure and zero(scaled - p / (M * rate**power * R)))
+    return Formula(*found)
+
+
+def scaling():
+    """(15)-(20): two numbers are left; and the unit of length is free, so that one of them is."""
+    rate, position, strain, unit = sp.symbols("omega X U L", positive=True)
+    dx, du = sp.symbols("dX dU", real=True)
+    inertia = k * M * R**2
+    lagrangian = (
+        M * (R * rate * dx) ** 2 / 2
+        + inertia * (rate * du) ** 2 / 2
+        + M * GRAVITY * R * position
+        - rate**2 * inertia * strain**2 / 2
+    )
+    scaled = dx**2 / 2 + k * du**2 / 2 + g * position - k * strain**2 / 2
+    scaled = scaled.subs(g, GRAVITY / (rate**2 * R))
+    big = {x: unit * x, v: unit * v, w: unit * w, g: unit * g}
+    whole = energy(x, v, w)
+    free = whole.subs(big, simultaneous=True) - unit**2 * whole
+    return Formula(zero(lagrangian / (M * rate**2 * R**2) - scaled) and zero(free))

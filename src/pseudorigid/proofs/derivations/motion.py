@@ -1,0 +1,111 @@
+"""Flight, map, energy and bounds: the paper's equations (26)-(31)."""
+
+import sympy as sp
+
+from .symbols import E as LEVEL
+from .symbols import Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero, zeros
+
+
+def flights():
+    """(26) and (27)."""
+    position, strain = flight(x, b, c, T)
+    start = [position, position.diff(T), strain, strain.diff(T)]
+    conditions = [position.diff(T, 2) - g, strain.diff(T, 2) + strain]
+    conditions += [a.subs(T, 0) - a0 for a, a0 in zip(start, (x, b, -x, c), strict=True)]
+    speed = position.diff(T).subs({T: tau, b: rebound(v, w)[0]})
+    printed = (speed - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g - tau
+    return Formula(zeros([*conditions, printed]))
+
+
+def map_residuals(sign):
+    """(28) as residuals of (x, v, w) -> (x1, v1, w1), with this sign in its first line."""
+    x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)
+    first = (1 - k) / (1 + k) * v + sign * 2 * k / (1 + k) * w
+    angle = (v1 - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g
+    other = 2 / (1 + k) * v + (1 - k) / (1 + k) * w
+    return (x1, v1, w1), (
+        g * (x1 - x) - v1**2 / 2 + first**2 / 2,
+        x1 - x * sp.cos(angle) - other * sp.sin(angle),
+        w1 - x * sp.sin(angle) + other * sp.cos(angle),
+    )
+
+
+def impact_map():
+    """(28): one sign."""
+    speed, rate = rebound(v, w)
+    position, strain = flight(x, speed, rate, tau)
+    found = []
+    for sign in (1, -1):
+        (x1, v1, w1), lines = map_residuals(sign)
+        after = {v1: speed + g * tau, w1: strain.diff(tau)}
+        # the first line is about the centre, the others about the strain, u = -x at an impact
+        places = (position, -strain, -strain)
+        pairs = zip(lines, places, strict=True)
+        found.append(zeros(line.subs(x1, place).subs(after) for line, place in pairs))
+    return Formula(*found)
+
+
+def conserved_energy():
+    """(29): kept by the flight, and an ellipsoid."""
+    position, strain = flight(x, b, c, tau)
+    whole = position.diff(tau) ** 2 / 2 + k * strain.diff(tau) ** 2 / 2
+    whole += -g * position + k * strain**2 / 2
+    hessian = sp.hessian(energy(x, v, w), (x, v, w))
+    convex = all(value.is_positive for value in hessian.eigenvals())
+    return Formula(zero(whole - energy(x, b, c)) and convex)
+
+
+def _largest():
+    """The largest x of an energy surface."""
+    return g / k + sp.sqrt(2 * LEVEL / k + g**2 / k**2)
+
+
+def bound():
+    """(31) follows from (30) where g < k, and not where g > k; value: at k = 0.2, g = 0.04."""
+    potential = k * x**2 / 2 - g * x
+    limit = k / 2 - g
+    largest = _largest()
+    follows = zero(potential.subs(x, 1) - limit) and zero(potential.subs(x, largest) - LEVEL)
+    more = sp.symbols("more", positive=True)
+    at_limit = largest.subs(LEVEL, limit)
+    below = sp.simplify(at_limit.subs(k, g + more)) == 1
+    above = sp.simplify(at_limit.subs(g, k + more)) == 1
+    value = float(limit.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
+    return Formula(follows and below and above, follows and below, value)
+
+
+def bound_in_flight():
+    """(6) in flight as well: the amplitude of u is at most the largest x at an impact."""
+    square = sp.solve(energy(x, b, c) - LEVEL, c)[0] ** 2 + x**2
+    strain = flight(x, b, c, T)[1]
+    largest = _largest()
+    conditions = [
+        square - (2 * (LEVEL + g * x) - b**2) / k,
+        2 * (LEVEL + g * largest) / k - largest**2,
+        strain**2 + strain.diff(T) ** 2 - (x**2 + c**2),
+    ]
+    return Formula(zeros(conditions) and bool(sp.diff(2 * (LEVEL + g * x) / k, x) > 0))
+
+
+def smooth():
+    """The energy up to which no flight can touch the floor; value: at k = 0.2, g = 0.04.
+
+    A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
+    """
+    smallest = g / k - sp.sqrt(2 * LEVEL / k + g**2 / k**2)
+    found = sp.solve(smallest + g, LEVEL)
+    threshold = g**2 * (1 + k / 2)
+    value = float(threshold.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
+    return Formula(None, len(found) == 1 and zero(found[0] - threshold), value)
+
+
+def contact_speed():
+    """(8) and (22): f' >= 0 where the gap closes, and f' = 0 is possible: a grazing impact.
+
+    The gap x + u is below zero before, so its slope at zero is not negative; on the rim v + w = 0
+    there are states of every energy above the lowest, so that equality occurs.
+    """
+    speed = sp.solve(energy(x, v, -v) - LEVEL, v)
+    inside = {k: sp.Rational(1, 5), g: sp.Rational(1, 25), x: 0, LEVEL: sp.Rational(1, 100)}
+    grazing = any(s.subs(inside).is_real and s.subs(inside) != 0 for s in speed)
+    return Formula(not grazing, grazing)

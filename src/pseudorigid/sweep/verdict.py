@@ -1,0 +1,137 @@
+"""Whether orbits are regular: each is followed until that is safe, and no longer.
+
+All are followed for FIRST impacts; those still undecided for twice as many, and so on, at most to
+the end. At each of these lengths L, with the tangent vector's length exp(G):
+
+    growth   the mean of G over the last quarter less that over the second one. On a regular orbit
+             a tangent vector grows like the number of impacts, and growth is ln(7/3) = 0.85 on
+             average; on a chaotic one it is the exponent times L/2.
+    settled  the difference between the winding numbers of the first and the second half: weighted
+             Birkhoff averages, which converge on quasi-periodic orbits faster than any power of
+             1/L that the smoothness of weight and orbit admits (Das et al. 2017).
+
+An orbit is regular where growth is below half of THRESHOLD and the winding number has settled to
+SETTLED; chaotic where growth is above twice THRESHOLD and G above SURE. What is undecided at the
+end is regular where growth is below THRESHOLD. One that grazes exactly, where the map has no
+derivative, is neither.
+"""
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
+
+FIRST = 500
+THRESHOLD = 3.0
+SETTLED = 1e-7  # turns an impact
+SURE = 15.0
+
+
+def levels(impacts):
+    """The lengths at which orbits are judged, the last one `impacts`."""
+    found = [FIRST]
+    while found[-1] < impacts:
+        found.append(2 * found[-1])
+    return [*found[:-1], impacts]
+
+
+@dataclass
+class Verdicts:
+    """What was found of each orbit, arrays (n,).
+
+    regular; strict and lenient, the same with half and twice the threshold; winding: turns around
+    the centre an impact; growth: what is compared with the threshold; exponent: the growth of a
+    tangent vector an impact, from a quarter of the first length to the whole of it, the impacts
+    that all orbits have in common; followed: how many impacts.
+    """
+
+    regular: np.ndarray
+    strict: np.ndarray
+    lenient: np.ndarray
+    winding: np.ndarray
+    growth: np.ndarray
+    exponent: np.ndarray
+    followed: np.ndarray
+
+    def __getitem__(self, part):
+        """The verdicts on some of the orbits."""
+        return Verdicts(*(getattr(self, field.name)[part] for field in fields(self)))
+
+
+def judge(k, states, centre, expected, impacts):
+    """Follow orbits for at most `impacts` and judge them.
+
+    Args:
+        k: Euler inertia; lengths are in units of g R.
+        states: (x, v, w), each (n,), before an impact.
+        centre: (n,), the x around which the turns are counted, at y = 0.
+        expected: (n,), the turn of an impact that is expected.
+        impacts: at least 4.
+
+    Returns:
+        Verdicts.
+    """
+    lengths = levels(impacts)
+    turning, growing = _windows(lengths)
+    orbits = np.zeros((KEPT, len(centre)))
+    orbits[:VECTOR] = states
+    orbits[VECTOR + 1], orbits[VECTOR + 2] = k * orbits[2], -orbits[1]  # along the energy surface
+    orbits[CENTRE], orbits[EXPECTED] = centre, expected
+    turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
+    found = Verdicts(
+        *(np.zeros(len(centre), bool) for _ in range(3)),
+        *(np.full(len(centre), math.nan) for _ in range(3)),
+        np.zeros(len(centre), np.int64),
+    )
+    which = np.arange(len(centre))  # those that are still followed
+    start = 0
+    for level, length in enumerate(lengths):
+        follow(orbits, k, start, length, turning, growing, turned, growth)
+        start = length
+        winding = turned[3 * level : 3 * level + 3] / _weights(turning[3 * level : 3 * level + 3])
+        grown = (growth[2 * level + 1] - growth[2 * level]) / growing[2 * level, 1]
+        if level == 0:
+            found.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
+        strict = grown < 0.5 * THRESHOLD
+        if length < impacts:
+            regular = strict & (np.abs(winding[1] - winding[2]) < SETTLED)
+            chaotic = (grown > 2.0 * THRESHOLD) & (orbits[SIZE] > SURE)
+            decided = regular | chaotic | np.isnan(grown)
+            strict = lenient = regular
+        else:
+            regular, lenient = grown < THRESHOLD, grown < 2.0 * THRESHOLD
+            decided = np.ones(which.size, bool)
+        found.winding[which], found.growth[which] = winding[0], grown
+        found.followed[which] = length
+        for name, verdict in (("regular", regular), ("strict", strict), ("lenient", lenient)):
+            getattr(found, name)[which[decided]] = verdict[decided]
+        which = which[~decided]
+        orbits, turned, growth = (a[:, ~decided] for a in (orbits, turned, growth))
+    return found
+
+
+def _windows(lengths):
+    """(first impact, length) of the windows over which `follow` takes sums.
+
+    Of turns: the whole of each length and its two halves. Of growth: its second and last quarter,
+    and at the end the impacts between which the exponent is taken.
+    """
+    turning, growing = [], []
+    for length in lengths:
+        half, quarter = length // 2, length // 4
+        turning += [(0, length), (0, half), (length - half, half)]
+        growing += [(quarter, quarter), (length - quarter, quarter)]
+    growing += [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]
+    return np.array(turning), np.array(growing)
+
+
+def _weights(windows):
+    """The sums of the weights of `follow` over windows of turns, (n, 1)."""
+    sums = np.empty((len(windows), 1))
+    for row, (_, length) in enumerate(windows):
+        time = (np.arange(length) + 0.5) / length
+        bump = time * (1.0 - time)
+        sums[row] = np.sum(bump * bump * bump)
+    return sums
