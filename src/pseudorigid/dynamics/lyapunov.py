@@ -105,7 +105,11 @@ def _advance(frames, n, k, g, head, low, states, flights, row):
         q, b0, b1, b2 = _unit(*_without(a0, a1, a2, b0, b1, b2))
         c0, c1, c2 = _without(a0, a1, a2, c0, c1, c2)
         r, c0, c1, c2 = _unit(*_without(b0, b1, b2, c0, c1, c2))
-        p, q, r = frames[_GROWN + i] * p, frames[_GROWN + GROUP + i] * q, frames[_GROWN + 2 * GROUP + i] * r
+        p, q, r = (
+            frames[_GROWN + i] * p,
+            frames[_GROWN + GROUP + i] * q,
+            frames[_GROWN + 2 * GROUP + i] * r,
+        )
         frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i] = a0, a1, a2
         frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
         frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
