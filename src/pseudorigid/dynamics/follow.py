@@ -24,9 +24,9 @@ _A6 = float.fromhex("-0x1.0c52a4b5af878p-4")
 _A7 = float.fromhex("0x1.a769bd3353c1cp-5")
 _A8 = float.fromhex("-0x1.be20c62f176ddp-6")
 
-# What is kept of an orbit between calls of `follow`: its state x, v, w; a tangent vector and the logarithm
-# of what it was divided by to stay small; the logarithm of its whole length; the place of the
-# centre, at y = 0 of the chart, and the turn around it that is expected of an impact.
+# What is kept of an orbit between calls of `follow`: its state x, v, w; a tangent vector and the
+# logarithm of what it was divided by to stay small; the logarithm of its whole length; the place of
+# the centre, at y = 0 of the chart, and the turn around it that is expected of an impact.
 VECTOR, GROWN, SIZE, CENTRE, EXPECTED, KEPT = 3, 6, 7, 8, 9, 10
 # Rows of GROUP numbers while orbits are followed, the first ones as above: the last place around
 # the centre and the last turn.

@@ -75,7 +75,7 @@ def _batch(k, energies, starts, impacts):
     thetas = [fixed_point.half_time(k, e) for e in energies]
     traces = [fixed_point.trace(k, theta) for theta in thetas]
     rotations = [fixed_point.rotation(trace) for trace in traces]
-    states = np.concatenate([_even(k, e, starts) for e in energies], axis=1)
+    states = np.concatenate([even(k, e, starts) for e in energies], axis=1)
     centre = np.repeat([fixed_point.place(k, theta) for theta in thetas], starts)
     expected = np.repeat([0.5 if math.isnan(r) else r for r in rotations], starts)
     verdicts = judge(k, states, centre, expected, impacts)
@@ -169,7 +169,7 @@ def _spiral(e, k, x, v, w):
         w[i] = (s - y) / (1.0 + k)
 
 
-def _even(k, e, count):
+def even(k, e, count):
     """`count` states, evenly over the half y >= 0 of the section's area: x, v, w (count,).
 
     Radius by equal areas, angle by the golden section.

@@ -24,7 +24,7 @@ import numpy as np
 from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
 
 FIRST = 500
-THRESHOLD = 3.0
+THRESHOLD = 2.2
 SETTLED = 1e-7  # turns an impact
 SURE = 15.0
 
@@ -74,7 +74,9 @@ def judge(k, states, centre, expected, impacts):
         Verdicts.
     """
     lengths = levels(impacts)
-    turning, growing = _windows(lengths)
+    turning, growing = windows(lengths)
+    ends = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # of the impacts that all have
+    growing = np.concatenate([growing, ends])
     orbits = np.zeros((KEPT, len(centre)))
     orbits[:VECTOR] = states
     orbits[VECTOR + 1], orbits[VECTOR + 2] = k * orbits[2], -orbits[1]  # along the energy surface
@@ -90,8 +92,8 @@ def judge(k, states, centre, expected, impacts):
     for level, length in enumerate(lengths):
         follow(orbits, k, start, length, turning, growing, turned, growth)
         start = length
-        winding = turned[3 * level : 3 * level + 3] / _weights(turning[3 * level : 3 * level + 3])
-        grown = (growth[2 * level + 1] - growth[2 * level]) / growing[2 * level, 1]
+        turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
+        (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
         if level == 0:
             found.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
         strict = grown < 0.5 * THRESHOLD
@@ -108,30 +110,32 @@ def judge(k, states, centre, expected, impacts):
         for name, verdict in (("regular", regular), ("strict", strict), ("lenient", lenient)):
             getattr(found, name)[which[decided]] = verdict[decided]
         which = which[~decided]
+        if not which.size:
+            break
         orbits, turned, growth = (a[:, ~decided] for a in (orbits, turned, growth))
     return found
 
 
-def _windows(lengths):
-    """(first impact, length) of the windows over which `follow` takes sums.
-
-    Of turns: the whole of each length and its two halves. Of growth: its second and last quarter,
-    and at the end the impacts between which the exponent is taken.
+def windows(lengths):
+    """The windows over which `follow` takes sums: (turning, growing), pairs of first impact and
+    length. Of turns each of the lengths and its two halves, of growth its second and last quarter.
     """
     turning, growing = [], []
     for length in lengths:
         half, quarter = length // 2, length // 4
         turning += [(0, length), (0, half), (length - half, half)]
         growing += [(quarter, quarter), (length - quarter, quarter)]
-    growing += [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]
     return np.array(turning), np.array(growing)
 
 
-def _weights(windows):
-    """The sums of the weights of `follow` over windows of turns, (n, 1)."""
-    sums = np.empty((len(windows), 1))
-    for row, (_, length) in enumerate(windows):
+def means(turning, growing, turned, growth):
+    """Winding numbers (m, 3, n), of each length and of its two halves, and growth (m, n), from the
+    sums of `follow` over `windows`.
+    """
+    weights = np.empty((len(turning), 1))
+    for row, (_, length) in enumerate(turning):
         time = (np.arange(length) + 0.5) / length
         bump = time * (1.0 - time)
-        sums[row] = np.sum(bump * bump * bump)
-    return sums
+        weights[row] = np.sum(bump * bump * bump)
+    late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]
+    return (turned / weights).reshape(-1, 3, turned.shape[1]), late - early

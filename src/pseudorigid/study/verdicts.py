@@ -1,0 +1,217 @@
+"""How often a verdict on an orbit, regular or chaotic, is wrong, and what it costs.
+
+Cells are drawn over the whole plane of the atlas. The truth on an orbit is the growth of a tangent
+vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps before. Compared are:
+
+    growth, below 3   over a fixed number of impacts: the sweeps' verdict before `sweep.verdict`
+    growth            the same with the best threshold
+    SALI              the smaller alignment index of two tangent vectors (Skokos 2001); in two
+                      dimensions GALI_2 is the same up to a factor
+    winding number    how far apart its two halves are, weighted Birkhoff averages (Das et al. 2017)
+    as soon as safe   `sweep.verdict`, with at most that many impacts
+
+The best thresholds are those with the fewest wrong verdicts on the first set of cells; the second
+set is unseen.
+"""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import xarray as xr
+
+from ..dynamics.ensemble import threads
+from ..sweep import fixed_point
+from ..sweep.cell import even
+from ..sweep.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
+from ..sweep.verdict import THRESHOLD, judge, means, windows
+
+LONG = 400_000
+LENGTHS = (250, 500, 1000, 2000, 4000, 8000)
+METHODS = {
+    "growth, below 3": "growth",
+    "growth": "growth",
+    "SALI": "alignment",
+    "winding number": "unsettled",
+    "as soon as safe": "safe",
+}
+SETS = ("cells on which thresholds were chosen", "unseen cells")
+K, ENERGY = (0.012, 0.332), (0.1, 40.0)
+
+
+def verdicts(cells=36, orbits=128):
+    """Errors and costs of the methods.
+
+    Args:
+        cells: how many in each set, at random over the plane.
+        orbits: of each cell, evenly over its section as in a sweep.
+
+    Returns:
+        Dataset. On (set, method, length): wrong, the share of wrong verdicts; missed, chaotic
+        orbits called regular, and alarms, regular ones called chaotic, as shares of all; cost,
+        impacts of an orbit. On (method, length): threshold. On (set, cell): k, energy, regular,
+        the true share of regular orbits; exponent and exponent_error as `sweep.cell` has them;
+        exponent_long, from all LONG impacts of the orbits that are chaotic.
+    """
+    places = [place for number in range(len(SETS)) for place in _places(cells, number)]
+    with ThreadPoolExecutor(threads()) as pool:
+        found = list(pool.map(lambda place: _cell(*place, orbits), places))
+    sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
+    shape = len(SETS), len(METHODS), len(LENGTHS)
+    missed, alarms, cost = (np.empty(shape) for _ in range(3))
+    threshold = np.full(shape[1:], np.nan)
+    for m, key in enumerate(METHODS.values()):
+        for j, length in enumerate(LENGTHS):
+            if m == 0:
+                threshold[m, j] = 3.0
+            elif key != "safe":
+                threshold[m, j] = _best(sets[0][key][j], sets[0]["truth"])
+            for i, orbit in enumerate(sets):
+                regular = orbit[key][j] < threshold[m, j] if key != "safe" else orbit[key][j]
+                missed[i, m, j] = np.mean(regular & ~orbit["truth"])
+                alarms[i, m, j] = np.mean(~regular & orbit["truth"])
+                cost[i, m, j] = np.mean(orbit["followed"][j]) if key == "safe" else length
+    dims = "set", "method", "length"
+    numbers = [[_exponents(one) for one in found[i * cells : (i + 1) * cells]] for i in range(2)]
+    numbers = np.moveaxis(np.array(numbers), -1, 0)
+    names = np.array(list(METHODS), dtype=object)
+    return xr.Dataset(
+        {
+            "wrong": _about(dims, missed + alarms, "share of wrong verdicts"),
+            "missed": _about(dims, missed, "chaotic orbits called regular, share of all"),
+            "alarms": _about(dims, alarms, "regular orbits called chaotic, share of all"),
+            "cost": _about(dims, cost, "mean number of impacts of an orbit"),
+            "threshold": _about(dims[1:], threshold, "regular is what lies below"),
+            "name": ("method", names, {"long_name": "how an orbit is judged"}),
+            "cells": ("set", np.array(SETS, dtype=object), {"long_name": "set of cells"}),
+        }
+        | {
+            name: _about(("set", "cell"), values, text)
+            for (name, text), values in zip(_CELL.items(), numbers, strict=True)
+        },
+        coords={"length": _about("length", np.array(LENGTHS), "largest number of impacts")},
+        attrs={"orbits": orbits, "impacts_of_the_truth": LONG},
+    )
+
+
+_CELL = {
+    "k": "Euler inertia",
+    "energy": "energy over g^2",
+    "regular": "true share of regular orbits",
+    "exponent": "exponent of the sea from the impacts that all orbits share",
+    "exponent_error": "its standard error",
+    "exponent_long": "exponent of the sea from all impacts of the long runs",
+}
+
+
+def _about(dims, values, text):
+    return dims, values, {"long_name": text, "units": "1"}
+
+
+def _places(count, number):
+    """(k, e) of the cells of a set: energies evenly in their logarithm, to six digits."""
+    random = np.random.default_rng([7, number])
+    found = []
+    for _ in range(count):
+        k = random.uniform(*K)
+        # evenly in the logarithm, by halving: a power would depend on the machine
+        low, high = ENERGY
+        for half in random.random(40) < 0.5:
+            middle = math.sqrt(low * high)
+            low, high = (low, middle) if half else (middle, high)
+        found.append((float(f"{k:.6g}"), float(f"{low:.6g}")))
+    return found
+
+
+def _cell(k, e, count):
+    """What each method has to say about the orbits of a cell, and the truth."""
+    theta = fixed_point.half_time(k, e)
+    rotation = fixed_point.rotation(fixed_point.trace(k, theta))
+    centre = np.full(count, fixed_point.place(k, theta))
+    expected = np.full(count, 0.5 if math.isnan(rotation) else rotation)
+    states = np.stack(even(k, e, count))
+    about = k, states, centre, expected
+    found = {"k": k, "energy": e} | _watched(*about)
+    found["alignment"] = _alignment(*about)
+    safe = [judge(*about, length) for length in LENGTHS]
+    found["safe"] = np.array([one.regular for one in safe])
+    found["followed"] = np.array([one.followed for one in safe])
+    found["exponent"] = safe[-1].exponent
+    return found
+
+
+def _orbits(k, states, centre, expected):
+    orbits = np.zeros((KEPT, centre.size))
+    orbits[:VECTOR], orbits[CENTRE], orbits[EXPECTED] = states, centre, expected
+    orbits[VECTOR + 1], orbits[VECTOR + 2] = k * orbits[2], -orbits[1]
+    return orbits
+
+
+def _watched(k, states, centre, expected):
+    """Growth and how unsettled the winding number is after each of LENGTHS, and the truth."""
+    turning, growing = windows((*LENGTHS, LONG))
+    turning = turning[: 3 * len(LENGTHS)]
+    orbits = _orbits(k, states, centre, expected)
+    turned = np.zeros((len(turning), centre.size))
+    growth = np.zeros((len(growing), centre.size))
+    follow(orbits, k, 0, LONG, turning, growing, turned, growth)
+    winding, growth = means(turning, growing, turned, growth)
+    return {
+        "growth": growth[:-1],
+        "unsettled": np.array([np.abs(a - b) for _, a, b in winding]),
+        "truth": growth[-1] < THRESHOLD,
+        "exponent_long": orbits[SIZE] / LONG,
+    }
+
+
+def _alignment(k, states, centre, expected):
+    """SALI of two tangent vectors of the energy surface after each of LENGTHS."""
+    one, other = (_orbits(k, states, centre, expected) for _ in range(2))
+    x, v, w = states
+    length = np.sqrt(v * v + (k * w) * (k * w))
+    # the second one up the slope of the kinetic energy, x with it
+    other[VECTOR], other[VECTOR + 1] = 1.0, (1.0 - k * x) * v / (length * length)
+    other[VECTOR + 2] = (1.0 - k * x) * w * k / (length * length)
+    nothing, sums = np.zeros((0, 2), np.int64), np.zeros((0, centre.size))
+    found, start = [], 0
+    for stop in LENGTHS:
+        for orbits in (one, other):
+            follow(orbits, k, start, stop, nothing, nothing, sums, sums)
+        a, b = (orbits[VECTOR:CENTRE][:3] for orbits in (one, other))
+        a, b = (c / np.sqrt((c[0] * c[0] + c[1] * c[1]) + c[2] * c[2]) for c in (a, b))
+        gaps = [np.sqrt(np.sum((a + sign * b) ** 2, axis=0)) for sign in (1.0, -1.0)]
+        found.append(-np.minimum(*gaps))  # small where vectors point apart: regular
+        start = stop
+    return np.array(found)
+
+
+def _joined(cells):
+    return {
+        key: np.concatenate([cell[key] for cell in cells], axis=-1)
+        for key in ("growth", "unsettled", "alignment", "safe", "followed", "truth")
+    }
+
+
+def _best(values, truth):
+    """The threshold below which to call orbits regular, with the fewest wrong verdicts."""
+    order = np.argsort(values, kind="stable")
+    values, truth = values[order], truth[order]
+    below = np.concatenate([[0], np.cumsum(~truth)])  # chaotic ones called regular
+    above = np.sum(truth) - np.concatenate([[0], np.cumsum(truth)])
+    at = int(np.argmin(below + above))
+    return float(values[min(at, values.size - 1)])
+
+
+def _exponents(cell):
+    """k, energy and so on of a cell, in the order of _CELL."""
+    sea = ~cell["truth"] & ~np.isnan(cell["exponent"])
+    own, long = cell["exponent"][sea], cell["exponent_long"][sea]
+    some = own.size > 1
+    return (
+        cell["k"],
+        cell["energy"],
+        np.mean(cell["truth"]),
+        np.mean(own) if some else math.nan,
+        np.std(own, ddof=1) / math.sqrt(own.size) if some else math.nan,
+        np.mean(long) if some else math.nan,
+    )
