@@ -21,6 +21,7 @@ WORDS = {
     "report": ("report", "one HTML page with the figures, captions, numbers and run times"),
     "sweep": ("sweep", "grids over k and E/g^2, into results/sweep/"),
     "atlas": ("sweep", "their pictures, into more_figures/atlas/"),
+    "claims": ("claims", "every statement of the paper, checked: CLAIMS.md"),
     "prove": ("prove", "the theorems, each checked from its certificate"),
     "study": ("study", "speed and accuracy against other methods, into more_figures/study/"),
     "benchmark": ("benchmark", "one table of ratios of speed, measured now"),

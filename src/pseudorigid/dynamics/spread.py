@@ -16,7 +16,7 @@ from .variables import variables
 _CHUNK = 4000
 
 
-def spread(ball, energy, between, orbits, impacts, blocks, regular, regular_impacts, cells, visits):
+def spread(ball, energy, between, orbits, length, blocks, regular, regular_impacts, cells, visits):
     """Exponents of many orbits, block by block, and what part of the sea each of them enters.
 
     Parameters
@@ -25,8 +25,8 @@ def spread(ball, energy, between, orbits, impacts, blocks, regular, regular_impa
     energy : float
     between : (float, float)
         The orbits start evenly over this part of y = 0, in section radii from the centre.
-    orbits, impacts : int
-        How many orbits, and how long each is.
+    orbits, length : int
+        How many orbits, and how many impacts each has.
     blocks : int
         Into how many equal blocks an orbit is divided.
     regular : sequence of float
@@ -51,16 +51,16 @@ def spread(ball, energy, between, orbits, impacts, blocks, regular, regular_impa
     Raises
     ------
     ValueError
-        impacts that are no multiple of blocks, or a start beyond the section.
+        A length that is no multiple of blocks, or a start beyond the section.
 
     References
     ----------
     Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks.
     """
-    if impacts % blocks:
-        raise ValueError(f"blocks = {blocks} is not allowed: impacts = {impacts} is no multiple")
+    if length % blocks:
+        raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
     start, *states = sea_states(ball, energy, between, orbits)
-    so_far = lyapunov_spectrum(ball, states, impacts, blocks)["exponent"].values
+    so_far = lyapunov_spectrum(ball, states, length, blocks)["exponent"].values
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
@@ -68,7 +68,7 @@ def spread(ball, energy, between, orbits, impacts, blocks, regular, regular_impa
     data |= _one("start", ("orbit",), start, "start along y = 0, in section radii")
     data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
     data |= _entered(ball, energy, states, cells, visits)
-    return xr.Dataset(data, attrs={"block_impacts": impacts // blocks})
+    return xr.Dataset(data, attrs={"block_impacts": length // blocks})
 
 
 def _one(name, dims, values, long_name):

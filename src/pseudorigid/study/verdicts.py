@@ -20,10 +20,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import xarray as xr
 
+from ..dynamics import fixed_point
 from ..dynamics.ensemble import threads
-from ..sweep import fixed_point
+from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
 from ..sweep.cell import even
-from ..sweep.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
 from ..sweep.verdict import THRESHOLD, judge, means, windows
 
 LONG = 400_000

@@ -154,6 +154,12 @@ class Window(Block):
     xdot: Range
 
 
+Between = listed(
+    real("a fraction with -1 < start < 1", gt=-1, lt=1),
+    "two fractions of the section's radius",
+    2,
+    2,
+)
 Start = one_or(
     Point,
     real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",

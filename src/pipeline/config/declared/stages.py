@@ -41,6 +41,42 @@ STAGES = {
         ("period", "type", "branches", "point", "window", "length", "resolution"),
         ("periodic",),
     ),
+    "spread": Stage(
+        f"{_DYNAMICS}.spread",
+        "spread",
+        ("between", "orbits", "length", "blocks", "regular", "regular_impacts", "cells", "visits"),
+        follows=False,
+    ),
+    "clusters": Stage(
+        f"{_DYNAMICS}.clusters",
+        "clusters",
+        ("between", "orbits", "impacts", "cuts", "lags", "resamples", "seed"),
+        follows=False,
+    ),
+    "rotation": Stage(
+        f"{_DYNAMICS}.rotation",
+        "rotation",
+        ("energies", "starts", "impacts", "detail", "detail_impacts"),
+        follows=False,
+    ),
+    "jumps": Stage(
+        f"{_DYNAMICS}.jumps",
+        "jumps",
+        ("energies", "sides"),
+        follows=False,
+    ),
+    "flux": Stage(
+        f"{_DYNAMICS}.flux",
+        "flux",
+        ("period", "distance", "grid", "between", "orbits", "impacts"),
+        follows=False,
+    ),
+    "last_curve": Stage(
+        f"{_DYNAMICS}.last_curve",
+        "last_curve",
+        ("nobles", "convergents", "between", "impacts", "drawn"),
+        follows=False,
+    ),
     "horseshoe": Stage(
         "pseudorigid.proofs.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
     ),

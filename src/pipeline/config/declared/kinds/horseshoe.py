@@ -13,11 +13,11 @@ Side = Annotated[Literal["outer", "inner"], Field(description="outer or inner")]
 class Horseshoe(OfManifolds):
     """the sets of a proved horseshoe along a connection of the orbit
 
-    The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its
-    {{ s.connection }} connection, at energy {{ s.energy }} for k = {{ s.ball.k }},
-    g = {{ s.ball.g }}; dots, far larger than the sets. Above, over the manifolds: at the saddles
-    (red) and along the connection. Below: the middle set as a square, and across it the image of
-    the set before it.
+    The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its {{
+    s.connection }} connection, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g
+    }}; dots, far larger than the sets. Above, over the manifolds: at the saddles (red) and along
+    the connection. Below: the middle set as a square, and across it the image of the set before
+    it.
 
     What to see: the image crosses the square from side to side, its heavy ends lie beyond, and it
     touches neither top nor bottom. Each set covers the next in that way.

@@ -9,8 +9,8 @@ from ..scene import Scene
 class Twist(Scene):
     """the fixed point's twist coefficient against the energy
 
-    The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for
-    k = {{ s.ball.k }}, g = {{ s.ball.g }}: doubles rounded from enclosures.
+    The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for k
+    = {{ s.ball.k }}, g = {{ s.ball.g }}: doubles rounded from enclosures.
 
     What to see: where it is not zero, Moser's theorem gives invariant curves around the point. It
     vanishes once, at the ring, where the proof encloses the energy to ten digits and more; just

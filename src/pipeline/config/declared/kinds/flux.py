@@ -1,0 +1,37 @@
+"""Lobes and the flux through them."""
+
+from ..fields import Between, Period, real, whole
+from ..scene import Scene
+
+
+class Flux(Scene):
+    """crossings and lobes of both branches
+
+    Regions within the inner and the outer branches of the hyperbolic orbit of period {{ s.period
+    }}, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}, and their lobes.
+
+    What to see: the outer lobes are wide; the inner branches differ by less than a line's width,
+    and are drawn by their distance.
+    """
+
+    stages = ("flux",)
+    telling = "lobes"
+
+    period: Period
+    distance: real("a number above 0, in section radii", gt=0, le=1)
+    grid: whole(10, 10_000)
+    between: Between
+    orbits: whole(2, 100_000)
+    impacts: whole(100, 10_000_000)
+
+    @classmethod
+    def faults(cls, block):
+        """Connections are sought of even periods."""
+        yield from super().faults(block)
+        if block["period"] % 2:
+            yield ("period",), block["period"], "an even number"
+
+    @staticmethod
+    def numbers(block, flux):
+        """Of which orbit."""
+        return {"lobes": f"of period {block['period']}"}

@@ -1,0 +1,27 @@
+"""The curves where the map jumps."""
+
+from ..fields import Energy, listed, whole
+from .portrait import Portrait
+
+
+class Jumps(Portrait):
+    """the curves where the map and its inverse jump
+
+    The section at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }} in the chart
+    (x, y): orbits, symmetry lines, the rim of grazing impacts, and the curves where the map and
+    its inverse jump; below, at energies next to that where these curves are born.
+
+    What to see: the curves lie in the sea, and shrink to a point of the rim at E = g^2 (1 + k/2).
+    """
+
+    stages = ("jumps", "orbits")
+    telling = "jump curve"
+    studied = None
+
+    energies: listed(Energy, "a list of energies", 1, 20)
+    sides: whole(4, 1_000_000)
+
+    @staticmethod
+    def numbers(block, jumps, orbits):
+        """At how many energies."""
+        return {"jump curve": f"at {1 + len(block['energies'])} energies"}

@@ -1,0 +1,29 @@
+"""Rotation number and exponent against the start."""
+
+from ..fields import Between, Energy, listed, whole
+from ..scene import Scene
+
+
+class Rotation(Scene):
+    """rotation number and exponent against the start
+
+    Rotation number around the fixed point, and exponent, of {{ s.starts }} starts along y = 0,
+    from the fixed point to the rim, at energy {{ s.energy }} and at {{ s.energies|join(", ") }}.
+
+    What to see: plateaus where islands lock the rotation number, so that curves leave gaps
+    between them; it is not monotone at every energy.
+    """
+
+    stages = ("rotation",)
+    telling = "starts"
+
+    energies: listed(Energy, "a list of energies", 1, 20)
+    starts: whole(2, 100_000)
+    impacts: whole(100, 10_000_000)
+    detail: Between
+    detail_impacts: whole(100, 10_000_000)
+
+    @staticmethod
+    def numbers(block, rotation):
+        """How many starts."""
+        return {"starts": f"{block['starts']}"}

@@ -1,0 +1,46 @@
+"""Exponents of many orbits, at many lengths."""
+
+from ..fields import Between, listed, real, whole
+from ..scene import OfOrbits, each
+
+
+class Spread(OfOrbits):
+    """Lyapunov exponents of many orbits at many lengths
+
+    Lyapunov exponents of {{ s.orbits }} chaotic orbits of {{ s.length }} impacts, at energy {{
+    s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}: range, quartiles and mean over all
+    stretches of a length; the distribution of runs as long as Figure 7's, with its three and the
+    paper's number; exponents of regular orbits beside ln n/n.
+
+    What to see: single runs scatter about the long-run value, and the paper's number is one such.
+    """
+
+    stages = ("spread", "lyapunov")
+    telling = "long-run exponent"
+
+    records: whole(2, 10_000)
+    between: Between
+    orbits: whole(2, 10_000)
+    length: whole(100, 100_000_000)
+    blocks: whole(2, 10_000)
+    regular: listed(real("a fraction with -1 < start < 1", gt=-1, lt=1), "a list of fractions")
+    regular_impacts: whole(2, 10_000_000)
+    cells: whole(2, 1000)
+    visits: whole(2, 100_000_000)
+
+    @classmethod
+    def faults(cls, block):
+        """Records fit the impacts, blocks the length."""
+        yield from super().faults(block)
+        least = min(each(block["impacts"], block["starts"]))
+        if block["records"] > least:
+            yield ("records",), block["records"], f"at most impacts = {least}"
+        if block["length"] % block["blocks"]:
+            yield ("blocks",), block["blocks"], f"a divisor of length = {block['length']}"
+
+    @staticmethod
+    def numbers(block, spread, lyapunov):
+        """The mean over all orbits."""
+        largest = spread["exponent"].values[:, :, 0].mean(axis=0)
+        error = largest.std(ddof=1) / largest.size**0.5
+        return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
