@@ -12,6 +12,7 @@ import yaml
 from conftest import ROOT, fresh_tree
 
 from pipeline import config
+from pipeline.config import places
 from pipeline.records.artifacts import load
 from pseudorigid.figures.axes.limits import of_data
 
@@ -121,7 +122,7 @@ def test_equal_stages_of_variants_are_computed_once():
         first={"scenes": {"fig8": {"impacts": [9] * 6}}},
         second={"scenes": {"fig8": {"impacts": [9] * 6, "sea": []}}},
     )
-    serves = config.served(variants)
+    serves = places.served(variants)
     assert serves["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
     assert serves["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
     assert serves["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"

@@ -11,7 +11,7 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 block = snakemake.params.block
 os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
 with one_line_errors(snakemake), recorded(snakemake):
-    module, function = snakemake.params.function
+    module, function = snakemake.params.given
     compute = getattr(import_module(module), function)
     # A block with a `method` is computed by it, and its data say how many impacts that missed.
     method = block.get("method")

@@ -3,7 +3,8 @@
 import html
 import json
 
-from ..config import KINDS, stages
+from ..config.declared.kinds import KINDS
+from ..config.places import stages
 from ..records.record import record_path
 
 # What the paper prints, in its text and captions: scene -> quantity -> value.

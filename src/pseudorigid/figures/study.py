@@ -42,6 +42,11 @@ COSTS = {
 }
 
 
+def draw(chart, data):
+    """Return the Figure that a function below makes: chart has its name and its arguments."""
+    return globals()[chart["chart"]](data, *chart["arguments"])
+
+
 @style.pinned()
 def work(data, which, cost):
     """Error and failures against cost ("evaluations" or "seconds") over the states of set `which`.

@@ -3,7 +3,7 @@
 Nothing is computed here: both must have their results.
 """
 
-from ... import config
+from ...config import places
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, picture
@@ -18,7 +18,7 @@ def compare(root, variants, names, absent):
         names: the two of them, the paper's own name included.
         absent: for each of the two, scene -> why its figure cannot exist.
     """
-    serves = config.served(variants)
+    serves = places.served(variants)
 
     def data(which, scene, stage):
         return load(root / serves[names[which], scene, stage])
@@ -34,7 +34,7 @@ def compare(root, variants, names, absent):
             if reason:
                 print(f"  cannot exist in {name}: {reason}")
         if not any(missing):
-            for stage in config.stages(blocks[0]):
+            for stage in places.stages(blocks[0]):
                 if stage != "periodic":
                     both = [data(which, scene, stage) for which in (0, 1)]
                     _indented(stage, norms.table(*both, names))
@@ -43,13 +43,13 @@ def compare(root, variants, names, absent):
             image.unlink(missing_ok=True)
             continue
         drawings = [
-            None if missing[i] else root / config.drawn(scene, "png", names[i]) for i in (0, 1)
+            None if missing[i] else root / places.drawn(scene, "png", names[i]) for i in (0, 1)
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
     _periodic(pairs, serves, names, data)
     for scene, blocks in pairs.items():
-        if "lyapunov" in config.stages(blocks[0]):
+        if "lyapunov" in places.stages(blocks[0]):
             both = [data(which, scene, "lyapunov") for which in (0, 1)]
             print(
                 f"\nLyapunov exponents of {scene}: mean over its orbits ± their standard deviation"
@@ -67,7 +67,7 @@ def _differences(one, other):
     """A line for each key of the config that differs."""
     lines = [
         f"{key}: {brief(before)} | {brief(after)}"
-        for key, before, after in differing_keys(config.drawing(one), config.drawing(other))
+        for key, before, after in differing_keys(places.drawing(one), places.drawing(other))
         if key != "axes"  # left out where they are those of the data
     ]
     return lines or ["the same config"]
@@ -82,7 +82,7 @@ def _periodic(pairs, serves, names, data):
     """Print what became of the periodic orbits, once for each pair of artifacts."""
     groups = {}
     for scene, blocks in pairs.items():
-        if "periodic" in config.stages(blocks[0]):
+        if "periodic" in places.stages(blocks[0]):
             files = tuple(serves[name, scene, "periodic"] for name in names)
             groups.setdefault(files, []).append(scene)
     if groups:
