@@ -28,16 +28,14 @@ def make(checked, variant, arguments, named=None, others=()) -> int:
     results = expected.of_variants(variants)
     says = running.only_says(arguments)
     since = running.now()
-    if says:
-        missing = known_absent(variant)
-        drawings = [behind[-1] for scene, behind in wanted.values() if scene not in missing]
-        return running.make(results, [*drawings, *others], arguments)
     before = {path: identity(behind[-1]) for path, (_, behind) in wanted.items()}
-    status, absent = _find_absent(variants, variant, wanted, results, arguments)
+    status, absent = 0, known_absent(variant)
+    if not says:
+        status, absent = _find_absent(variants, variant, wanted, results, arguments)
     if status != running.INTERRUPTED:
         drawings = [behind[-1] for scene, behind in wanted.values() if scene not in absent]
         status = running.make(results, [*drawings, *others], arguments)
-    if status == running.INTERRUPTED:
+    if says or status == running.INTERRUPTED:
         return status
     outdated = Currency(ROOT, results).outdated([behind[-1] for _, behind in wanted.values()])
     good = {path: made for path, made in wanted.items() if made[1][-1] not in outdated}
@@ -63,20 +61,12 @@ def publish(drawings) -> None:
                 shutil.copyfile(ROOT / drawing, part)
 
 
-def _orbits(variants, variant, wanted):
-    """Scene -> (type, dataset) of the periodic orbit that it cannot do without."""
-    serves = places.served(variants)
-    scenes = {scene for scene, _ in wanted.values()}
-    return {
-        scene: (block["type"], serves[variant, scene, "periodic"])
-        for scene, block in variants[variant].items()
-        if scene in scenes and "type" in block
-    }
-
-
 def _find_absent(variants, variant, wanted, results, arguments):
     """(exit status, scene -> why its figure cannot exist), once the periodic orbits are known."""
-    orbits = _orbits(variants, variant, wanted)
+    serves, orbits = places.served(variants), {}  # scene -> type and dataset of its periodic orbit
+    for scene in dict(wanted.values()):
+        if "type" in variants[variant][scene]:
+            orbits[scene] = [variants[variant][scene]["type"], serves[variant, scene, "periodic"]]
     datasets = sorted({path for _, path in orbits.values()})
     status = 0
     if Currency(ROOT, results).outdated(datasets):
@@ -85,7 +75,7 @@ def _find_absent(variants, variant, wanted, results, arguments):
         if status == running.INTERRUPTED:
             return status, {}
     path = places.absent_file(variant)
-    made = Expected({scene: list(orbit) for scene, orbit in orbits.items()}, [], datasets)
+    made = Expected(orbits, [], datasets)
     currency = Currency(ROOT, results | {path: made})
     if currency.outdated(datasets) or not orbits:
         return status, {}
