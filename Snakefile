@@ -16,16 +16,14 @@ wildcard_constraints:
     variant=any_of(VARIANTS),
     scene=any_of(ALL),
     extension="png|svg|pdf",
+    number=r"\d{4}",
 
 
-include: "workflow/rules/compute.smk"
-include: "workflow/rules/figures.smk"
+include: "workflow/rules/results.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/study.smk"
-include: "workflow/rules/sweep.smk"
 
 
 rule all:
     default_target: True
     input:
-        [behind[-1] for _, behind in figures(VARIANTS).values()],
+        [behind[-1] for _, behind in places.figures(VARIANTS).values()],

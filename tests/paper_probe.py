@@ -16,6 +16,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from pipeline import config
+from pipeline.config import places
 from pipeline.records import provenance
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -57,21 +58,21 @@ def run(script, name, inputs, output, **params):
 def paper(names):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
     scenes = config.load(ROOT / "config.yaml")["scenes"]
-    serves = config.served({"paper": scenes})
+    serves = places.served({"paper": scenes})
     for scene in names or scenes:
         block = scenes[scene]
 
         def data(stages, scene=scene):
             return [serves["paper", scene, stage] for stage in stages]
 
-        for stage, parameters in config.stages(block).items():
+        for stage, parameters in places.stages(block).items():
             (output,) = data([stage])
             if not Path(output).exists():
                 run(f"{stage}.py", scene, data(INPUTS.get(stage, [])), output, block=parameters)
         for extension in block["formats"]:
-            if extension in config.SHOWN:
-                output = config.drawn(scene, extension)
-                drawing = config.drawing(block)
+            if extension in places.SHOWN:
+                output = places.drawn(scene, extension)
+                drawing = places.drawing(block)
                 run("draw.py", scene, data(DATA[block["picture"]]), output, scene=drawing)
                 yield Path(output).name, hashlib.sha256(Path(output).read_bytes()).hexdigest()
 

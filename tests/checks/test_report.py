@@ -7,10 +7,11 @@ import shutil
 import subprocess
 
 import pytest
-import yaml
-from conftest import ROOT, fresh_tree
+from project import Tree, fresh_tree, shipped, small
 
+from pipeline import config
 from pipeline.checks import report
+from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
 
 PAGE = "results/report/report.html"
@@ -38,19 +39,20 @@ const found = [];
 """
 
 
-@pytest.fixture(scope="module")
-def reported(tmp_path_factory):
-    """A copy with three small scenes and their report."""
-    tree = fresh_tree(tmp_path_factory.mktemp("report") / "a folder with spaces")
-    path = tree.path / "config.yaml"
-    document = yaml.safe_load(path.read_text())
+def make(folder):
+    """Three small scenes and their report."""
+    document = small(shipped())
     document.pop("variants")
-    kept = ("fig3", "fig6", "fig7")
-    document["scenes"] = {name: document["scenes"][name] for name in kept}
-    path.write_text(yaml.safe_dump(document, sort_keys=False))
-    tree.result = tree.run("report")
-    assert tree.result.returncode == 0, tree.result.stdout
-    return tree
+    document["scenes"] = {name: document["scenes"][name] for name in ("fig3", "fig6", "fig7")}
+    tree = fresh_tree(folder, document)
+    result = tree.run("report")
+    assert result.returncode == 0, result.stdout
+    (folder / "said").write_text(result.stdout)
+
+
+@pytest.fixture(scope="module")
+def reported(shared):
+    return Tree(shared("reported in a folder with spaces", make))
 
 
 def test_every_figure_is_in_the_page_byte_for_byte(reported):
@@ -59,7 +61,7 @@ def test_every_figure_is_in_the_page_byte_for_byte(reported):
     assert [path.name for path in figures] == ["fig3.png", "fig6.png", "fig7.png"]
     for path in figures:
         assert base64.b64encode(path.read_bytes()).decode() in text
-    assert reported.result.stdout.splitlines()[-1].startswith(f"{PAGE}  ")
+    assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
 
 def test_the_page_loads_nothing_from_elsewhere(reported):
@@ -98,9 +100,26 @@ def test_a_page_escapes_what_it_shows():
     assert "<td>&lt;b&gt;</td>" in report.page("t", ("h",), [("<b>",)])
 
 
-def test_every_kind_of_picture_has_a_caption_and_a_telling_number():
-    captions = {path.stem for path in (ROOT / "workflow" / "report").glob("*.rst")}
-    assert set(report.PICTURES) == set(report.TELLING) <= captions
+def test_every_kind_of_picture_has_a_caption_and_a_telling_number(finished):
+    """Of each kind a scene of a finished copy: the telling number is among its numbers."""
+    scenes = config.load(finished.config)["scenes"]
+    rows = report.numbers(
+        scenes, lambda scene, stage: load(finished.path / served(scenes)[scene, stage])
+    )
+    assert {block["picture"] for block in scenes.values()} == set(config.KINDS)
+    for scene, block in scenes.items():
+        kind = config.KINDS[block["picture"]]
+        assert kind.telling in {quantity for quantity, *_ in rows[scene]}
+        assert "What to see:" in kind.caption
+        assert report.label(scene, block["picture"], rows[scene]).startswith(f"{scene}: ")
+
+
+def served(scenes):
+    """(scene, stage) -> dataset of the paper's scenes."""
+    return {
+        (scene, stage): path
+        for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()
+    }
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ from documents import complaints, good
 from project import ROOT, SHIPPED, shipped
 
 from pipeline import config
+from pipeline.config import places
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -59,7 +60,7 @@ def test_equal_stages_are_computed_once():
     document = good()
     scenes = document["scenes"]
     scenes["again"] = scenes["a_closeup"] | {"energy": 0.02}
-    serves = config.served(config.check(document)["variants"])
+    serves = places.served(config.check(document)["variants"])
     assert serves["paper", "a_tangle", "periodic"] == "results/paper/periodic_a_motion.nc"
     assert serves["paper", "a_closeup", "periodic"] == "results/paper/periodic_a_motion.nc"
     assert serves["paper", "a_closeup", "manifolds"] == "results/paper/manifolds_a_closeup.nc"
@@ -69,8 +70,8 @@ def test_equal_stages_are_computed_once():
 def test_drawing_does_not_decide_data():
     block = config.check(good())["scenes"]["exponents"]
     other = block | {"axes": {}, "formats": ["png", "pdf"]}
-    assert config.stages(block) == config.stages(other)
-    assert json.dumps(config.stages(block))
+    assert places.stages(block) == places.stages(other)
+    assert json.dumps(places.stages(block))
 
 
 def test_reading_the_config_imports_nothing_heavy():

@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("flint")
 
-from pipeline import config
 from pipeline.config.declared import study as parts
+from pipeline.config.declared.kinds import KINDS
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.study import figure_errors
 from pseudorigid.study.methods.counted import ENGINES, OURS, SCANS
@@ -50,7 +50,7 @@ def errors():
 
 
 def test_every_kind_names_a_measure_that_there_is():
-    studied = {name: kind.studied for name, kind in config.KINDS.items()}
+    studied = {name: kind.studied for name, kind in KINDS.items()}
     assert set(studied.values()) - {None} <= set(figure_errors.MEASURES)
     assert studied["closeup"] == "closeup"
 

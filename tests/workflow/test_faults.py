@@ -58,7 +58,7 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     module.write_text(f"{text}\n\ndef scene_exponents(*_, **__):\n    return 1 / 0\n")
     result = done.run("paper_figures/fig7.png")
     assert result.returncode == 1
-    log = "results/paper/logs/lyapunov_fig7.log"
+    log = "results/paper/logs/lyapunov_fig7.nc.log"
     said = f"reproduce: fig7: ZeroDivisionError: division by zero (traceback in {log})"
     last_line(result)
     assert said in result.stdout.splitlines()

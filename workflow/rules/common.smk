@@ -5,20 +5,12 @@ import sys
 from pathlib import Path
 
 from pipeline.checks.currency import Currency
-from pipeline.config import (
-    KINDS,
-    PAPER,
-    STAGES,
-    ConfigError,
-    expected,
-    figures,
-    load,
-    places,
-    served,
-    stages,
-)
+from pipeline.config import ConfigError, expected, load, places
 from pipeline.config.declared import study as parts
+from pipeline.config.declared.kinds import KINDS
+from pipeline.config.declared.stages import STAGES
 from pipeline.records.record import record_path
+from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
 
@@ -33,7 +25,7 @@ except ConfigError as error:
     sys.exit(str(error))
 
 VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
-SCENES = VARIANTS[PAPER]
+SCENES = VARIANTS[places.PAPER]
 ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
 EXPECTED = {
     **expected.of_variants(VARIANTS),
@@ -50,20 +42,22 @@ def inputs(result):
     """
 
     def files(wildcards):
-        used = EXPECTED[result.format(**wildcards)].inputs
+        path = result.format(**wildcards)
+        if path not in EXPECTED:
+            raise WorkflowError(f"{path}: nothing in config.yaml asks for it")
+        used = EXPECTED[path].inputs
         return [path if CURRENCY.reason(path) else ancient(path) for path in used]
 
     return files
 
 
-def block(result):
-    """Params function: the part of the config that decides a result, and nothing else."""
-    return lambda wildcards: EXPECTED[result.format(**wildcards)].config
+def made(result, what):
+    """Params function: `what` makes a result, the block of config or the project's files."""
+    return lambda wildcards: getattr(EXPECTED[result.format(**wildcards)], what)
 
 
-def code(result):
-    """Params function: the project's files that make a result."""
-    return lambda wildcards: EXPECTED[result.format(**wildcards)].sources
+# Of the rules that draw scenes: where the caption of their kind is written when a report is made.
+CAPTIONS = {f"draw_{kind}": f"results/report/captions/{kind}.rst" for kind in KINDS}
 
 
 def maker(stage, result):
@@ -71,11 +65,11 @@ def maker(stage, result):
     return lambda wildcards: STAGES[stage].maker(EXPECTED[result.format(**wildcards)].config)
 
 
-def reported(drawing, kind):
+def reported(drawing, rule):
     """A drawing, with the caption of its kind of picture in the report."""
     return report(
         drawing,
-        caption=str(ROOT / captions(kind)),
+        caption=str(ROOT / CAPTIONS[rule]),
         category="Figures",
         labels=figure_labels,
     )
@@ -88,11 +82,6 @@ def figure_labels(wildcards):
     """
     labels = json.loads((ROOT / "results" / "report" / "labels.json").read_text(encoding="utf-8"))
     return {"figure": labels[wildcards.scene]}
-
-
-def captions(kind):
-    """Where the caption of a kind of picture is written when a report is made."""
-    return f"results/report/captions/{kind}.rst"
 
 
 def any_of(names):

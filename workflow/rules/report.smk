@@ -1,11 +1,14 @@
 # What ./reproduce report needs besides the figures, which name their captions themselves.
-REPORTED = [behind for _, behind in figures(VARIANTS).values() if behind[-1].endswith(".png")]
+REPORTED = [
+    behind for _, behind in places.figures(VARIANTS).values() if behind[-1].endswith(".png")
+]
 BEHIND = sorted({file for files in REPORTED for file in files})
 
 
 rule numbers:
     input:
-        results=[*BEHIND, *map(record_path, BEHIND)],
+        results=BEHIND,
+        records=list(map(record_path, BEHIND)),
     output:
         labels="results/report/labels.json",
         numbers=report(
@@ -25,13 +28,7 @@ rule numbers:
     conda:
         "../envs/python.yaml"
     params:
-        scenes=SCENES,
-        artifacts={
-            scene: {stage: served(VARIANTS)[PAPER, scene, stage] for stage in stages(scene_block)}
-            for scene, scene_block in SCENES.items()
-        },
-        results=BEHIND,
-        captions={captions(kind): KINDS[kind].caption() for kind in KINDS},
+        captions={CAPTIONS[f"draw_{kind}"]: KINDS[kind].caption() for kind in KINDS},
     script:
         "../scripts/numbers.py"
 

@@ -1,4 +1,4 @@
-"""Draw a scene from its artifacts; the kind of picture names the module that does it."""
+"""Draw a picture from its artifacts, by the module of figures that the rule names."""
 
 from importlib import import_module
 
@@ -6,8 +6,7 @@ from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
 from pipeline.records.drawings import save_figure
 
-scene = snakemake.params.block
 with one_line_errors(snakemake), recorded(snakemake):
-    picture = import_module(f"pseudorigid.figures.kinds.{scene['picture']}")
+    picture = import_module(f"pseudorigid.figures.{snakemake.params.given}")
     data = [load(path) for path in snakemake.input.data]
-    save_figure(picture.draw(scene, *data), snakemake.output[0])
+    save_figure(picture.draw(snakemake.params.block, *data), snakemake.output[0])

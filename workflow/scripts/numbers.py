@@ -5,17 +5,20 @@ from pathlib import Path
 
 from job import one_line_errors
 from pipeline.checks import report
-from pipeline.records.artifacts import load
+from pipeline.config import load, places
+from pipeline.records import artifacts
 from pipeline.records.files import replacing
 
 with one_line_errors(snakemake):
-    paths = snakemake.params.artifacts
-    rows = report.numbers(snakemake.params.scenes, lambda scene, stage: load(paths[scene][stage]))
+    variants = load("config.yaml")["variants"]
+    scenes, serves = variants[places.PAPER], places.served(variants)
+    rows = report.numbers(
+        scenes, lambda scene, stage: artifacts.load(serves[places.PAPER, scene, stage])
+    )
     labels = {
-        scene: report.label(scene, block["picture"], rows[scene])
-        for scene, block in snakemake.params.scenes.items()
+        scene: report.label(scene, block["picture"], rows[scene]) for scene, block in scenes.items()
     }
-    made, packages = report.provenance(Path(), snakemake.params.results)
+    made, packages = report.provenance(Path(), snakemake.input.results)
     texts = {
         snakemake.output.labels: json.dumps(labels),
         snakemake.output.numbers: report.page(

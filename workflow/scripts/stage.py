@@ -31,7 +31,7 @@ def compute_exactly(compute, fields):
 
 
 with one_line_errors(snakemake), recorded(snakemake):
-    module, function = snakemake.params.maker
+    module, function = snakemake.params.given
     compute = getattr(import_module(module), function)
     # A block with a `method` is computed by it, and its data say how many impacts that missed.
     method = block.get("method", {})

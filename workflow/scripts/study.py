@@ -23,7 +23,7 @@ def edge_rivals():
 
 def errors_of_figures():
     """Of the scenes that the block has, with the figures' own artifacts that they take."""
-    block, taken = snakemake.params.block, snakemake.params.artifacts
+    block, taken = snakemake.params.block, snakemake.params.given
     loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in taken}
     return figure_errors.figure_errors(block["scenes"], block["measures"], loaded)
 

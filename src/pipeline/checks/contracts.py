@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 from pseudorigid.sweep import grid
 
-from .. import config
 from ..config import expected, places
 from ..config.declared import study as parts
 
@@ -38,20 +37,20 @@ class Contract(NamedTuple):
 
 def committed(checked):
     """The contracts of a checked config."""
-    found = [of_scenes(checked, name) for name in config.PUBLISHED if checked["variants"][name]]
+    found = [of_scenes(checked, name) for name in places.PUBLISHED if checked["variants"][name]]
     return [*found, study(checked), atlas(checked)]
 
 
 def of_scenes(checked, variant):
     """The figures of the paper's scenes, or of another published set."""
-    scenes, serves = checked["variants"][variant], config.served(checked["variants"])
-    folder = config.PUBLISHED[variant]
+    scenes, serves = checked["variants"][variant], places.served(checked["variants"])
+    folder = places.PUBLISHED[variant]
     files = {
         Path(path).name: (scene, behind[-1])
-        for path, (scene, behind) in config.figures(checked["variants"], variant).items()
+        for path, (scene, behind) in places.figures(checked["variants"], variant).items()
         if path.startswith(f"{folder}/")
     }
-    paper = variant == config.PAPER
+    paper = variant == places.PAPER
     return Contract(
         what="figures",
         folder=folder,
@@ -59,9 +58,9 @@ def of_scenes(checked, variant):
         command="./reproduce" if paper else f"./reproduce {variant}",
         drawn={name: drawing for name, (_, drawing) in files.items()},
         scenes={name: scene for name, (scene, _) in files.items()},
-        config={scene: config.drawing(block) for scene, block in scenes.items()},
+        config={scene: places.drawing(block) for scene, block in scenes.items()},
         data={
-            scene: {stage: serves[variant, scene, stage] for stage in config.stages(block)}
+            scene: {stage: serves[variant, scene, stage] for stage in places.stages(block)}
             for scene, block in scenes.items()
         },
         expected=expected.of_scenes(checked["variants"], variant),

@@ -43,15 +43,12 @@ class Comparison:
             return None
         sources = {path: self.committed["sources"][path] for path in entry["sources"]}
         here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
-        manifest_and_config = ("in the manifest", "in config.yaml")
+        was, now = "in the manifest", "in config.yaml"
+        before = self.committed["environment"]
         layers = {
-            "config": differing_block(
-                entry["config"], self.contract.config[scene], *manifest_and_config
-            ),
+            "config": differing_block(entry["config"], self.contract.config[scene], was, now),
             "source": differing_files(sources, here),
-            "environment": differing_package(
-                self.committed["environment"], self.versions, "in the manifest"
-            ),
+            "environment": differing_package(before, self.versions, was),
             "data": self._data(scene, entry),
         } | self._drawing_or_file(name, entry["figures"][name])
         return {layer: words for layer, words in layers.items() if words}

@@ -83,10 +83,8 @@ def read(root, folder):
     """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads((root / name).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise ContractError(f"{name}: missing") from None
-    except (OSError, ValueError, RecursionError) as error:
+        manifest = json.loads(_text(root, name))
+    except (ValueError, RecursionError) as error:
         raise ContractError(f"{name}: broken: {error}") from None
     # It covers every entry: none can be lost or changed without a word.
     if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
@@ -98,13 +96,7 @@ def read_sums(root, folder):
     """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
     path = f"{folder}/{SUMS}"
     found = {}
-    try:
-        lines = (root / path).read_text(encoding="utf-8").splitlines()
-    except FileNotFoundError:
-        raise ContractError(f"{path}: missing") from None
-    except (OSError, ValueError) as error:
-        raise ContractError(f"{path}: cannot be read: {error}") from None
-    for number, line in enumerate(lines, 1):
+    for number, line in enumerate(_text(root, path).splitlines(), 1):
         digest, mark, name = line[:64], line[64:66], line[66:]
         if len(digest) < 64 or set(digest) - set("0123456789abcdef") or not name or mark != "  ":
             raise ContractError(f"{path}: line {number} is not a sha256 and a file's name")
@@ -134,6 +126,15 @@ def write(root, folder, manifest):
     with replacing(root / folder / SUMS) as part:
         lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
         part.write_text("".join(lines), encoding="utf-8")
+
+
+def _text(root, name):
+    try:
+        return (root / name).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ContractError(f"{name}: missing") from None
+    except (OSError, ValueError) as error:
+        raise ContractError(f"{name}: cannot be read: {error}") from None
 
 
 def _checksum(manifest):

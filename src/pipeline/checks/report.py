@@ -3,7 +3,8 @@
 import html
 import json
 
-from ..config import KINDS, stages
+from ..config.declared.kinds import KINDS
+from ..config.places import stages
 from ..records.record import record_path
 
 # What the paper prints, in its text and captions: scene -> quantity -> value.
@@ -21,7 +22,6 @@ PRINTED = {
     "fig8": {"orbits": "6", "impacts": "approximately 35,000"},
 }
 PARAMETERS = {f"fig{n}": "0.2, 0.04, 0.01" for n in range(2, 8)} | {"fig8": "0.2, 0.04, 0.001"}
-NOT_PRINTED = "not printed"
 
 
 def numbers(scenes, load):
@@ -29,15 +29,11 @@ def numbers(scenes, load):
     found = {}
     for scene, block in scenes.items():
         data = {stage: load(scene, stage) for stage in stages(block)}
-        ours = {
-            "k, g, energy": ", ".join(
-                map(str, (block["ball"]["k"], block["ball"]["g"], block["energy"]))
-            )
-        }
+        values = block["ball"]["k"], block["ball"]["g"], block["energy"]
+        ours = {"k, g, energy": ", ".join(map(str, values))}
         ours |= KINDS[block["picture"]].numbers(block, **data)
-        printed = {"k, g, energy": PARAMETERS[scene]} if scene in PARAMETERS else {}
-        printed |= PRINTED.get(scene, {})
-        found[scene] = [(key, printed.get(key, NOT_PRINTED), ours[key]) for key in ours]
+        printed = {"k, g, energy": PARAMETERS.get(scene), **PRINTED.get(scene, {})}
+        found[scene] = [(key, printed.get(key) or "not printed", ours[key]) for key in ours]
     return found
 
 

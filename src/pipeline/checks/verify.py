@@ -5,7 +5,7 @@ config and sources did not make; a contract that is broken. A note, and exit 0: 
 differs behind the committed bytes.
 """
 
-from .. import config
+from ..config import places
 from ..records.files import file_hash
 from . import contracts, manifest
 from .currency import MISSING, Currency
@@ -116,7 +116,7 @@ def _surplus(root, contract, listed):
         f"{folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not publish"
         for name in sorted(set(listed) - set(contract.drawn))
     ]
-    there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in config.SHOWN}
+    there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in places.SHOWN}
     return found + [
         f"{folder}/{name}: no scene of config.yaml makes it"
         for name in sorted(there - set(contract.drawn) - set(listed) - set(contract.measured))

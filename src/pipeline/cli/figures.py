@@ -4,11 +4,11 @@ import filecmp
 import json
 import shutil
 
-from .. import config
 from ..checks.currency import Currency
-from ..config import expected
+from ..config import expected, places
 from ..config.expected import Expected
-from ..records.files import replacing
+from ..records.differences import columns
+from ..records.files import identity, replacing
 from ..records.record import begin, finish, record_path
 from ..records.sources import ROOT
 from . import running
@@ -23,25 +23,23 @@ def make(checked, variant, arguments, named=None, others=()) -> int:
     and the rest is made.
     """
     variants = checked["variants"]
-    figures = config.figures(variants, variant)
+    figures = places.figures(variants, variant)
     wanted = {path: figures[path] for path in (figures if named is None else named)}
     results = expected.of_variants(variants)
     says = running.only_says(arguments)
     since = running.now()
-    if says:
-        missing = known_absent(variant)
-        drawings = [behind[-1] for scene, behind in wanted.values() if scene not in missing]
-        return running.make(results, [*drawings, *others], arguments)
-    before = {path: _identity(behind[-1]) for path, (_, behind) in wanted.items()}
-    status, absent = _find_absent(variants, variant, wanted, results, arguments)
+    before = {path: identity(behind[-1]) for path, (_, behind) in wanted.items()}
+    status, absent = 0, known_absent(variant)
+    if not says:
+        status, absent = _find_absent(variants, variant, wanted, results, arguments)
     if status != running.INTERRUPTED:
         drawings = [behind[-1] for scene, behind in wanted.values() if scene not in absent]
         status = running.make(results, [*drawings, *others], arguments)
-    if status == running.INTERRUPTED:
+    if says or status == running.INTERRUPTED:
         return status
     outdated = Currency(ROOT, results).outdated([behind[-1] for _, behind in wanted.values()])
     good = {path: made for path, made in wanted.items() if made[1][-1] not in outdated}
-    if variant in config.PUBLISHED:
+    if variant in places.PUBLISHED:
         publish({path: behind[-1] for path, (_, behind) in good.items() if "results/" not in path})
     for line in running.last_words(since) if status else ():
         say(line.removeprefix("pseudorigid: "))
@@ -49,7 +47,7 @@ def make(checked, variant, arguments, named=None, others=()) -> int:
         _table(wanted, good, absent, before)
         for line in _missed_impacts(variants, variant, {scene for scene, _ in good.values()}):
             print(line)
-    if variant in config.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
+    if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
     return status
 
@@ -63,20 +61,12 @@ def publish(drawings) -> None:
                 shutil.copyfile(ROOT / drawing, part)
 
 
-def _orbits(variants, variant, wanted):
-    """Scene -> (type, dataset) of the periodic orbit that it cannot do without."""
-    serves = config.served(variants)
-    scenes = {scene for scene, _ in wanted.values()}
-    return {
-        scene: (kind, serves[variant, scene, "periodic"])
-        for scene, kind in config.wanted_orbits(variants[variant]).items()
-        if scene in scenes
-    }
-
-
 def _find_absent(variants, variant, wanted, results, arguments):
     """(exit status, scene -> why its figure cannot exist), once the periodic orbits are known."""
-    orbits = _orbits(variants, variant, wanted)
+    serves, orbits = places.served(variants), {}  # scene -> type and dataset of its periodic orbit
+    for scene in dict(wanted.values()):
+        if "type" in variants[variant][scene]:
+            orbits[scene] = [variants[variant][scene]["type"], serves[variant, scene, "periodic"]]
     datasets = sorted({path for _, path in orbits.values()})
     status = 0
     if Currency(ROOT, results).outdated(datasets):
@@ -84,8 +74,8 @@ def _find_absent(variants, variant, wanted, results, arguments):
         status = running.make(results, [*datasets, *drawings], arguments)
         if status == running.INTERRUPTED:
             return status, {}
-    path = config.absent_file(variant)
-    made = Expected({scene: list(orbit) for scene, orbit in orbits.items()}, [], datasets)
+    path = places.absent_file(variant)
+    made = Expected(orbits, [], datasets)
     currency = Currency(ROOT, results | {path: made})
     if currency.outdated(datasets) or not orbits:
         return status, {}
@@ -118,18 +108,9 @@ def _write_absent(path, made, variant) -> None:
 def known_absent(variant) -> dict[str, str]:
     """Scene -> why its figure cannot exist, as the last run of a variant found."""
     try:
-        return json.loads((ROOT / config.absent_file(variant)).read_text(encoding="utf-8"))
+        return json.loads((ROOT / places.absent_file(variant)).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-
-
-def _identity(file):
-    """Changes whenever the file is written anew; None where there is none."""
-    try:
-        status = (ROOT / file).stat()
-    except OSError:
-        return None
-    return status.st_ino, status.st_mtime_ns
 
 
 def _table(wanted, good, absent, before) -> None:
@@ -137,27 +118,24 @@ def _table(wanted, good, absent, before) -> None:
     rows = [("figure", "file", "size", "state")]
     for path, (scene, behind) in wanted.items():
         if path in good:
-            state = "current" if _identity(behind[-1]) == before[path] else "recomputed"
-            rows.append((scene, path, f"{(ROOT / path).stat().st_size / 1000:,.0f} kB", state))
+            state = "current" if identity(behind[-1]) == before[path] else "recomputed"
+            rows.append((scene, path, f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB", state))
         elif scene in absent:
             rows.append((scene, path, "", f"cannot exist: {absent[scene]}"))
         else:
             rows.append((scene, path, "", "not made"))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    print()
-    for scene, path, size, state in rows:
-        print(f"{scene:{widths[0]}}  {path:{widths[1]}}  {size:>{widths[2]}}  {state}")
+    print("", *columns(rows), sep="\n")
 
 
 def _missed_impacts(variants, variant, scenes):
     """Of each of these scenes with a `method`: what it did, one line a scene."""
-    serves = config.served(variants)
+    serves = places.served(variants)
     for scene in variants[variant]:
         block = variants[variant][scene]
         if "method" not in block or scene not in scenes:
             continue
         if "exact" in block["method"]:
-            exact = "orbits" in config.stages(block)
+            exact = "orbits" in places.stages(block)
             how = "orbits of their exact starts" if exact else "no stage with an exact method"
             yield f"{scene}: {how}; other stages as in doubles"
             continue
@@ -165,7 +143,7 @@ def _missed_impacts(variants, variant, scenes):
 
         found = [
             load(ROOT / serves[variant, scene, stage]).attrs
-            for stage, parameters in config.stages(block).items()
+            for stage, parameters in places.stages(block).items()
             if "method" in parameters
         ]
         missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))

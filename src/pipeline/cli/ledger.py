@@ -4,7 +4,6 @@ import re
 
 from pseudorigid.dynamics.ball import Ball
 
-from .. import config
 from ..checks import claims
 from ..checks.claims.render import render
 from ..checks.currency import Currency
@@ -23,7 +22,7 @@ PROOFS = "pseudorigid.proofs.derivations"
 
 def paths(checked) -> dict[str, str]:
     """Name of each dataset that the checks need -> where it is."""
-    serves = config.served(checked["variants"])
+    serves = places.served(checked["variants"])
     found = {}
     for name in claims.needed():
         *variant, scene, stage = ("paper", *name.split("/"))[-3:] if "/" in name else (name, "", "")
@@ -33,7 +32,7 @@ def paths(checked) -> dict[str, str]:
             found[name] = places.sweep_dataset(stage)
         else:
             owner = variant[0]
-            if owner == config.PAPER and scene in checked["variants"]["claims"]:
+            if owner == places.PAPER and scene in checked["variants"]["claims"]:
                 owner = "claims"
             try:
                 found[name] = serves[owner, scene, stage]

@@ -10,7 +10,7 @@ from pseudorigid.dynamics.starts import start_state
 from pseudorigid.dynamics.variables import of_type
 from pseudorigid.proofs.theorems import impacts as proofs
 
-from .. import config
+from ..config import places
 from ..records.artifacts import load
 from ..records.sources import ROOT
 
@@ -21,14 +21,14 @@ def impacts(checked) -> int:
     Of portraits, and of the orbits that motions repeat, every impact; of the figures whose data
     have millions of them as many as config.yaml says.
     """
-    serves = config.served(checked["variants"])
+    serves = places.served(checked["variants"])
     status, worst, sample = 0, 0.0, checked["prove"]["impacts"]
     for scene, block in checked["scenes"].items():
         ball = Ball(**block["ball"])
         exact = [Fraction(str(block["ball"][name])) for name in "kg"]
 
         def data(stage, scene=scene):
-            path = serves[config.PAPER, scene, stage]
+            path = serves[places.PAPER, scene, stage]
             if not (ROOT / path).is_file():
                 raise ValueError(f"{path} is missing: run ./reproduce first")
             return load(ROOT / path)
@@ -44,7 +44,7 @@ def impacts(checked) -> int:
 
 def _states(ball, block, data, sample):
     """(what, (states before, after, tau)) of the impacts behind a scene."""
-    energy, stages = block["energy"], config.stages(block)
+    energy, stages = block["energy"], places.stages(block)
     if "orbits" in stages:
         orbits = data("orbits")
         states = proofs.of_orbits(ball, energy, orbits, block["starts"])

@@ -5,11 +5,11 @@ import sys
 import threading
 import time
 from contextlib import contextmanager
-from pathlib import Path
 
 from pseudorigid.sweep import grid
 
 from ..config import places, unknown
+from ..records.files import identity
 from .folder import UsageError
 
 PAUSE = 1.0  # seconds between two looks at the files
@@ -53,12 +53,12 @@ def shortage(blocks, total) -> str | None:
 @contextmanager
 def progress(blocks, total, out=None):
     """While the body runs, tell how many of `blocks` have been written, as given by `lacking`."""
-    pending = {path: _identity(path) for path in blocks}
+    pending = {path: identity(path) for path in blocks}
     begin = time.monotonic()
     ended = threading.Event()
 
     def tell():
-        written = [path for path in pending if _identity(path) not in (pending[path], None)]
+        written = [path for path in pending if identity(path) not in (pending[path], None)]
         for path in written:
             del pending[path]
         if written:
@@ -92,11 +92,3 @@ def line(total, done, left, seconds) -> str:
 
 def _sums(blocks, paths):
     return sum(blocks[path][0] for path in paths), sum(blocks[path][1] for path in paths)
-
-
-def _identity(path):
-    try:
-        status = Path(path).stat()
-    except OSError:
-        return None
-    return status.st_ino, status.st_mtime_ns

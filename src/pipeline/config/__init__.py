@@ -6,45 +6,7 @@ the key, its value and what is allowed. Importing this package is cheap: it is p
 
 from .checking.document import check
 from .checking.reading import load
-from .checking.variants import PAPER
 from .checking.words import ConfigError, unknown
-from .declared.kinds import KINDS
-from .declared.stages import STAGES
-from .places import (
-    PUBLISHED,
-    SHOWN,
-    absent_file,
-    artifact,
-    drawing,
-    drawing_code,
-    drawn,
-    figures,
-    served,
-    shown,
-    stage_code,
-    stages,
-    wanted_orbits,
-)
+from .places import PAPER, PUBLISHED, figures
 
-__all__ = [
-    "KINDS",
-    "PAPER",
-    "PUBLISHED",
-    "SHOWN",
-    "STAGES",
-    "ConfigError",
-    "absent_file",
-    "artifact",
-    "check",
-    "drawing",
-    "drawing_code",
-    "drawn",
-    "figures",
-    "load",
-    "served",
-    "shown",
-    "stage_code",
-    "stages",
-    "unknown",
-    "wanted_orbits",
-]
+__all__ = ["PAPER", "PUBLISHED", "ConfigError", "check", "figures", "load", "unknown"]

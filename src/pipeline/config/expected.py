@@ -26,13 +26,14 @@ def of_scenes(variants, variant=places.PAPER) -> dict[str, Expected]:
     for scene, block in variants[variant].items():
         for stage, parameters in places.stages(block).items():
             inputs = [serves[variant, scene, name] for name in STAGES[stage].inputs]
-            path = serves[variant, scene, stage]
-            found[path] = Expected(parameters, places.stage_code(stage, parameters), inputs)
+            code = sources.code("stage.py", STAGES[stage].maker(parameters)[0])
+            found[serves[variant, scene, stage]] = Expected(parameters, code, inputs)
         kind = block["picture"]
+        code = sources.code("draw.py", f"pseudorigid.figures.kinds.{kind}")
         inputs = [serves[variant, scene, stage] for stage in KINDS[kind].stages]
         for extension in block["formats"]:
             path = places.drawn(scene, extension, variant)
-            found[path] = Expected(places.drawing(block), places.drawing_code(kind), inputs)
+            found[path] = Expected(places.drawing(block), code, inputs)
     return found
 
 
@@ -51,7 +52,7 @@ def of_study(variants) -> dict[str, Expected]:
         found[parts.data(part)] = Expected(block, parts.code(part), sorted(set(inputs)))
     for chart in parts.CHARTS:
         data = parts.data(parts.CHARTS[chart][0])
-        code = sources.code("chart.py")
+        code = sources.code("draw.py", "pseudorigid.figures.study")
         found[parts.drawn(chart)] = Expected(parts.drawing(chart), code, [data])
     return found
 
@@ -61,10 +62,10 @@ def of_sweeps(sweeps) -> dict[str, Expected]:
     found = {}
     for name, sweep in sweeps.items():
         blocks, data = places.block_files(name, sweep), places.sweep_dataset(name)
-        code = sources.code("sweep_block.py")
+        code, drawn = sources.code("sweep.py"), sources.code("draw.py", "pseudorigid.figures.atlas")
         for i, path in enumerate(blocks):
             found[path] = Expected(grid.block(sweep, i), code)
-        found[data] = Expected(grid.whole(sweep), sources.code("sweep_join.py"), blocks)
+        found[data] = Expected(grid.whole(sweep), code, blocks)
         for path in places.sweep_pictures(name):
-            found[path] = Expected(sweep, sources.code("atlas.py"), [data])
+            found[path] = Expected(sweep, drawn, [data])
     return found

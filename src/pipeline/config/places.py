@@ -4,7 +4,6 @@ import json
 
 from pseudorigid.sweep import grid
 
-from ..records import sources
 from .checking.variants import PAPER
 from .declared.kinds import KINDS
 from .declared.stages import STAGES, behind
@@ -17,7 +16,6 @@ PUBLISHED = {
 }
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
-ATLAS_FORMATS = ("png", "svg")
 
 
 def stages(block: dict) -> dict[str, dict]:
@@ -43,24 +41,9 @@ def served(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
         for scene, block in scenes.items():
             for stage, parameters in stages(block).items():
                 key = stage, json.dumps(parameters, sort_keys=True)
-                path = first.setdefault(key, artifact(stage, scene, variant))
+                path = first.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
                 serves[variant, scene, stage] = path
     return serves
-
-
-def stage_code(stage: str, block: dict) -> list[str]:
-    """The project's files that make the data of a stage for a block of it."""
-    return sources.code("stage.py", STAGES[stage].maker(block)[0])
-
-
-def drawing_code(kind: str) -> list[str]:
-    """The project's files that draw a kind of picture."""
-    return sources.code("draw.py", f"pseudorigid.figures.kinds.{kind}")
-
-
-def artifact(stage: str, scene: str, variant: str = PAPER) -> str:
-    """Where the data of a stage are, from the project's root."""
-    return f"results/{variant}/{stage}_{scene}.nc"
 
 
 def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
@@ -68,30 +51,18 @@ def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
     return f"results/{variant}/figures/{scene}.{extension}"
 
 
-def shown(scene: str, extension: str, variant: str = PAPER) -> str:
-    """Where users look for the figure: in paper_figures/, or in results if it is not published."""
-    if variant in PUBLISHED and extension in SHOWN:
-        return f"{PUBLISHED[variant]}/{scene}.{extension}"
-    return drawn(scene, extension, variant)
-
-
 def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
     """Each figure, where users look for it -> its scene, its data files and last its drawing."""
     serves = served(variants)
-    return {
-        shown(name, extension, variant): (
-            name,
-            [serves[variant, name, stage] for stage in stages(block)]
-            + [drawn(name, extension, variant)],
-        )
-        for name, block in variants[variant].items()
-        for extension in block["formats"]
-    }
-
-
-def wanted_orbits(scenes: dict[str, dict]) -> dict[str, str]:
-    """Scene -> the type of the periodic orbit that it cannot do without."""
-    return {name: block["type"] for name, block in scenes.items() if "type" in block}
+    found = {}
+    for name, block in variants[variant].items():
+        data = [serves[variant, name, stage] for stage in stages(block)]
+        for extension in block["formats"]:
+            made = drawn(name, extension, variant)
+            public = variant in PUBLISHED and extension in SHOWN
+            path = f"{PUBLISHED[variant]}/{name}.{extension}" if public else made
+            found[path] = name, [*data, made]
+    return found
 
 
 def absent_file(variant: str) -> str:
@@ -114,7 +85,7 @@ def sweep_dataset(name) -> str:
 
 def sweep_pictures(name) -> list[str]:
     """Where its pictures are drawn."""
-    return [f"results/sweep/figures/{name}.{extension}" for extension in ATLAS_FORMATS]
+    return [f"results/sweep/figures/{name}.{extension}" for extension in SHOWN]
 
 
 def atlas_published(drawing) -> str:

@@ -58,19 +58,11 @@ def _table(model, names) -> str:
     lines = ["| field | allowed | default |", "|---|---|---|"]
     for name in names:
         field = model.model_fields[name]
-        default = (
-            "required"
-            if field.is_required()
-            else ""
-            if field.default is None
-            else (f"`{field.default}`")
-        )
-        lines.append(f"| `{name}` | {_cell(allowed_at(model, (name,)))} | {default} |")
+        default = "" if field.default is None else f"`{field.default}`"
+        default = "required" if field.is_required() else default
+        allowed = " ".join(allowed_at(model, (name,))[1].split()).replace("|", "\\|")
+        lines.append(f"| `{name}` | {allowed} | {default} |")
     return "\n".join(lines) + "\n"
-
-
-def _cell(text) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
 
 
 def _sentence(text) -> str:

@@ -48,7 +48,26 @@ def load(path):
     path = Path(path)
     if not path.is_file():
         raise ArtifactError(f"{path}: no such artifact")
-    return _read(path)
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            file.set_auto_scale(False)
+            variables = {
+                name: (variable.dimensions, variable[...], _attributes(variable))
+                for name, variable in file.variables.items()
+            }
+            attrs = _attributes(file)
+    except (OSError, RuntimeError, UnicodeDecodeError) as error:
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
+    if "config" not in attrs:
+        raise ArtifactError(f"{path}: not an artifact: no attribute config")
+    try:
+        dataset = xr.Dataset(variables, attrs=attrs)
+    except ValueError as error:
+        raise ArtifactError(f"{path}: not an artifact: {error}") from error
+    _check(dataset, path)
+    return dataset
 
 
 def content_hash(dataset):
@@ -92,31 +111,6 @@ def plain_attributes(source):
 def canonical_json(value):
     """Return `value` as JSON with sorted keys and no spaces: equal values, equal text."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-def _read(path):
-    try:
-        with netCDF4.Dataset(path) as file:
-            file.set_auto_mask(False)
-            file.set_auto_scale(False)
-            variables = {
-                name: (variable.dimensions, variable[...], _attributes(variable))
-                for name, variable in file.variables.items()
-            }
-            attrs = _attributes(file)
-    except (OSError, RuntimeError, UnicodeDecodeError) as error:
-        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
-        raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
-    if "config" not in attrs:
-        raise ArtifactError(f"{path}: not an artifact: no attribute config")
-    try:
-        dataset = xr.Dataset(variables, attrs=attrs)
-        _check(dataset, path)
-    except ArtifactError:
-        raise
-    except ValueError as error:
-        raise ArtifactError(f"{path}: not an artifact: {error}") from error
-    return dataset
 
 
 def _with_sample_dimension(dataset, path):

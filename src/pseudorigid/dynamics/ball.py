@@ -254,8 +254,7 @@ class Ball:
             Two rows of two numbers; the determinant is 1.
         """
         k, g = self.k, self.g
-        s = xdot + udot
-        y = xdot - k * udot
+        s, y = xdot + udot, xdot - k * udot
         # the derivatives of s by x and y, and with them those of the state, a column each
         unit = np.array([0.0, 1.0])
         slope = np.array([(1.0 + k) * (g - k * x), -y]) / (k * s)

@@ -74,11 +74,10 @@ def symmetric_orbits(ball, energy, period):
             trace = float(np.trace(ball.jacobian(*points[:3, 0], impacts=period)) - 1.0)
             limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
             # Where the orbit is too sensitive at its first point, another one serves as the first.
-            for point in points[:3].T:
-                first, gap = _closest(ball, energy, point, period)
-                if gap <= limit:
-                    found.append((trace, _follow(ball, first, period)))
-                    break
+            nearest = (_closest(ball, energy, point, period) for point in points[:3].T)
+            first = next((state for state, gap in nearest if gap <= limit), None)
+            if first is not None:
+                found.append((trace, _follow(ball, first, period)))
     found.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
     points = np.array([p for _, p in found]).reshape(len(found), 4, period)
     names = NAMES | {"tau": "time of flight to the next point"}

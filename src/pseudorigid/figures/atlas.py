@@ -19,6 +19,11 @@ LEFT, RIGHT = 120, 885
 _SIZE = 6.0  # points: text beside lines
 
 
+def draw(sweep, data):
+    """Return the Figure of a sweep: a plane, or a line where k does not vary."""
+    return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
+
+
 @style.pinned()
 def plane(sweep, data):
     """Regular share and the sea's exponent, a coloured cell each, over E/g^2 and k.

@@ -42,12 +42,28 @@ COSTS = {
 }
 
 
+def draw(chart, data):
+    """Return the Figure that a function below makes: chart has its name and its arguments."""
+    return globals()[chart["chart"]](data, *chart["arguments"])
+
+
 @style.pinned()
 def work(data, which, cost):
-    """Error and failures against cost ("evaluations" or "seconds") over the states of set `which`.
+    """Error and failures against cost: a work-precision diagram.
 
-    `data` is the artifact of work.counted or work.measured. Filled: the median error; hollow: the
-    worst of the right roots; below: the share of wrong roots.
+    Filled: the median error; hollow: the worst of the right roots; below: the share of wrong roots.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of work.counted or work.measured.
+    which : int
+        The set of states.
+    cost : {"evaluations", "seconds"}
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     families = dict.fromkeys(data["family"].values.tolist())
     sheet = _sheet(1050 + (math.ceil(len(families) / 2) + 1) * 42)
@@ -83,8 +99,16 @@ def work(data, which, cost):
 def edges(data):
     """Failing share against the distance from grazing, and against the height of a maximum.
 
-    `data` is the artifact of failures.edges. Above x = -g a ball that grazes comes back at once,
-    below it leaves.
+    Above x = -g a ball that grazes comes back at once, below it leaves.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of failures.edges.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     methods = _methods(data)
     sheet = _sheet(975 + math.ceil(len(methods) / 2) * 42)
@@ -116,8 +140,16 @@ def edges(data):
 def energy(data):
     """Energy drift along each method's orbit, and impacts missed against the drift at its end.
 
-    `data` is the artifact of failures.orbits. In the shaded part the energy is kept to 1e-6: a
-    check sees nothing.
+    In the shaded part the energy is kept to 1e-6: a check sees nothing.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of failures.orbits.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     sheet = _sheet(1350)
     top = sheet.high - 70
@@ -146,7 +178,14 @@ def energy(data):
 def separation(data):
     """How far each method's orbit is from the proved one, impact by impact.
 
-    `data` is the artifact of failures.orbits.
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of failures.orbits.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     sheet = _sheet(975)
     top = sheet.high - 70
@@ -164,7 +203,16 @@ def separation(data):
 def figure_errors(data):
     """Error of each figure by each method, in units of what it can hide, and what is spent.
 
-    `data` is the artifact of figure_errors. Hollow: impacts were missed.
+    Hollow: impacts were missed.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of study.figure_errors.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     scenes = data.sizes["scene"]
     sheet = _sheet(75 * (5 + scenes))

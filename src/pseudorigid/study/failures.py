@@ -149,6 +149,12 @@ def missed(methods, impacts=MILLION):
     gives a wrong root the methods are asked too. What they miss elsewhere is not counted: a lower
     bound.
 
+    Parameters
+    ----------
+    methods : sequence
+        As described in `methods`.
+    impacts : int
+
     Returns
     -------
     xarray.Dataset

@@ -37,9 +37,10 @@ from .work import dataset, is_wrong, proved_times
 
 # The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
 METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
-# The scatter between orbits of an exponent after 2e5 impacts, whatever the method.
+# The scatter between orbits of an exponent after 2e5 impacts, whatever the method: an error
+# below that of their mean does not show.
 SCATTER = 0.004
-BRANCH_POINTS = 2000  # of a manifold, evenly by index: shares of misses to a tenth of a per cent
+BRANCH_POINTS = 2000  # of a manifold, evenly by index: what one in a thousand misses shows
 
 
 class Errors(NamedTuple):

@@ -41,7 +41,20 @@ def grazing(count):
 
 
 def grazing_at(exponent, side, count):
-    """States with s = 10**-exponent at x above (side 1) or below (-1) -g, where grazing begins."""
+    """States at a distance from grazing, s = xdot + udot = 0.
+
+    Parameters
+    ----------
+    exponent : int
+        s is 10**-exponent.
+    side : {1, -1}
+        x above or below -g: a ball that grazes comes back at once, or leaves.
+    count : int
+
+    Returns
+    -------
+    ndarray, shape (3, count)
+    """
     random = np.random.default_rng([3, exponent, side + 1])
     return _near_rim(random, np.full(count, float(side)), np.full(count, TEN_TO_MINUS[exponent]))
 
@@ -55,10 +68,20 @@ def _near_rim(random, side, s):
 
 
 def near_miss(height, count):
-    """States whose flight has a local maximum of the gap at this height, at a time of 1 to 6.
+    """States whose flight has a local maximum of the gap at a time of 1 to 6.
 
-    height > 0: the ball touches the floor there, if only just; height < 0: it does not. x, b and c
-    enter the gap linearly, so that a maximum of given time and height is a pair of equations.
+    x, b and c enter the gap linearly, so that a maximum of given time and height is a pair of
+    equations.
+
+    Parameters
+    ----------
+    height : float
+        Of the maximum: above 0 the ball touches the floor there, if only just, below it does not.
+    count : int
+
+    Returns
+    -------
+    ndarray, shape (3, count)
     """
     random = np.random.default_rng([4, int(height > 0)])
     k, g = BALL.k, BALL.g

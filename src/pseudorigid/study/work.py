@@ -39,6 +39,19 @@ def measured(methods, count=200, repetitions=5):
 
     The repetitions are interleaved: all methods once, then all again. The first `solve` of each,
     which may compile something, is not timed.
+
+    Parameters
+    ----------
+    methods : sequence
+        As described in `methods`.
+    count : int
+        States a set.
+    repetitions : int
+
+    Returns
+    -------
+    xarray.Dataset
+        On (method, set).
     """
     sets = _sets(count)
     data = _errors(methods, sets)
@@ -63,7 +76,7 @@ def proved_times(ball, columns):
 def is_wrong(tau, truth):
     """Whether tau is NaN or off by more than a tenth of the flight, or of a time unit.
 
-    Then it is another root, not an inaccurate one: distinct roots are rarely nearer.
+    It then counts as another root, not as an inaccurate one. Arrays (n,) in and out.
     """
     return ~(np.abs(tau - truth) <= 0.1 * np.minimum(truth, 1.0))
 

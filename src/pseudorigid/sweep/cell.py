@@ -1,6 +1,7 @@
 """One cell of a sweep: what share of the section is regular, how chaotic the rest is, and why."""
 
 import math
+from collections import Counter
 
 import numpy as np
 
@@ -138,12 +139,8 @@ def fractions(winding):
 def _largest(turns, periods):
     """(q, p, count) of the fraction p/q that most orbits have, the smallest p and q of several."""
     found = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
-    counts = {pair: 0 for pair in found}
-    for pair in found:
-        counts[pair] += 1
-    if not counts:
-        return 0, 0, 0
-    (period, winds), count = max(counts.items(), key=lambda item: item[1])
+    # the first of those that are equally many
+    (period, winds), count = (Counter(found).most_common(1) or [((0, 0), 0)])[0]
     return period, winds, count
 
 

@@ -31,8 +31,3 @@ def block(sweep, number) -> dict:
 def whole(sweep) -> dict:
     """What decides the data of the sweep: not how it is cut into blocks."""
     return {key: sweep[key] for key in ("k", "energy", "starts", "impacts")}
-
-
-def is_line(sweep) -> bool:
-    """Whether a sweep is drawn against the energy alone."""
-    return len(sweep["k"]) == 1

@@ -3,7 +3,7 @@
 Nothing is computed here: both must have their results.
 """
 
-from ... import config
+from ...config import places
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
@@ -18,10 +18,10 @@ def compare(root, variants, names, absent):
         names: the two of them, the paper's own name included.
         absent: for each of the two, scene -> why its figure cannot exist.
     """
-    serves = config.served(variants)
+    serves = places.served(variants)
 
-    def data(which, scene, stage):
-        return load(root / serves[names[which], scene, stage])
+    def data(scene, stage):
+        return [load(root / serves[name, scene, stage]) for name in names]
 
     pairs = {scene: [variants[name][scene] for name in names] for scene in variants[names[0]]}
     print(f"{names[0]} | {names[1]}")
@@ -29,34 +29,33 @@ def compare(root, variants, names, absent):
         print(f"\n{scene}")
         for line in _differences(*blocks):
             print(f"  {line}")
-        missing = [absent[which].get(scene) for which in (0, 1)]
+        missing = [reasons.get(scene) for reasons in absent]
         for name, reason in zip(names, missing, strict=True):
             if reason:
                 print(f"  cannot exist in {name}: {reason}")
         if not any(missing):
-            for stage in config.stages(blocks[0]):
+            for stage in places.stages(blocks[0]):
                 if stage != "periodic":
-                    both = [data(which, scene, stage) for which in (0, 1)]
-                    _indented(stage, norms.table(*both, names))
-                    if stage == "orbits":
-                        _indented("", orbits.table(*both))
+                    lines = norms.table(*data(scene, stage), names)
+                    lines += orbits.table(*data(scene, stage)) if stage == "orbits" else []
+                    for i, line in enumerate(lines):
+                        print(f"  {'' if i else stage:10}  {line}")
         image = root / picture_path(names, scene)
         if all(missing):
             image.unlink(missing_ok=True)
             continue
         drawings = [
-            None if missing[i] else root / config.drawn(scene, "png", names[i]) for i in (0, 1)
+            None if reason else root / places.drawn(scene, "png", name)
+            for name, reason in zip(names, missing, strict=True)
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
     _periodic(pairs, serves, names, data)
     for scene, blocks in pairs.items():
-        if "lyapunov" in config.stages(blocks[0]):
-            both = [data(which, scene, "lyapunov") for which in (0, 1)]
-            print(
-                f"\nLyapunov exponents of {scene}: mean over its orbits ± their standard deviation"
-            )
-            for line in exponents.table(*both, names):
+        if "lyapunov" in places.stages(blocks[0]):
+            said = "mean over its orbits ± their standard deviation"
+            print(f"\nLyapunov exponents of {scene}: {said}")
+            for line in exponents.table(*data(scene, "lyapunov"), names):
                 print(f"  {line}")
 
 
@@ -69,32 +68,23 @@ def _differences(one, other):
     """A line for each key of the config that differs."""
     lines = [
         f"{key}: {brief(before)} | {brief(after)}"
-        for key, before, after in differing_keys(config.drawing(one), config.drawing(other))
+        for key, before, after in differing_keys(places.drawing(one), places.drawing(other))
         if key != "axes"  # left out where they are those of the data
     ]
     return lines or ["the same config"]
-
-
-def _indented(stage, lines):
-    for i, line in enumerate(lines):
-        print(f"  {stage if i == 0 else '':10}  {line}")
 
 
 def _periodic(pairs, serves, names, data):
     """Print what became of the periodic orbits, once for each pair of artifacts."""
     groups = {}
     for scene, blocks in pairs.items():
-        if "periodic" in config.stages(blocks[0]):
+        if "periodic" in places.stages(blocks[0]):
             files = tuple(serves[name, scene, "periodic"] for name in names)
             groups.setdefault(files, []).append(scene)
     if groups:
-        print(
-            "\nPeriodic orbits, and how far in section radii"
-            " (an orbit further than "
-            f"{cycles.REACH:g} away counts as another)"
-        )
+        far = f"an orbit further than {cycles.REACH:g} away counts as another"
+        print(f"\nPeriodic orbits, and how far in section radii ({far})")
     for scenes in groups.values():
-        both = [data(which, scenes[0], "periodic") for which in (0, 1)]
         print(f"  {', '.join(scenes)}")
-        for line in cycles.table(*both, names):
+        for line in cycles.table(*data(scenes[0], "periodic"), names):
             print(f"    {line}")

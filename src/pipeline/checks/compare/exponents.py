@@ -4,7 +4,7 @@ import numpy as np
 
 from pseudorigid.dynamics.variables import final_exponents
 
-from .norms import columns
+from ...records.differences import columns
 
 
 def table(one, other, names):

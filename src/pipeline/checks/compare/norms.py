@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...records.artifacts import canonical_values
+from ...records.differences import columns
 
 
 def table(one, other, names):
@@ -34,13 +35,6 @@ def table(one, other, names):
         return ["the same data"]
     head = ("variable", f"rms {names[0]}", f"rms {names[1]}", "relative", "largest difference")
     return columns([head, *rows])
-
-
-def columns(rows):
-    """Rows of texts as lines with aligned columns."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    padded = [[f"{text:{w}}" for text, w in zip(row, widths, strict=True)] for row in rows]
-    return ["  ".join(row).rstrip() for row in padded]
 
 
 def _equal(a, b):

@@ -37,7 +37,9 @@ def check(document) -> dict:
     Its `variants` begin with the paper itself and the scenes of MORE: name -> scene -> block.
     """
     lines = mistakes(Document, document, ())
-    given = {key: _mapping(document, key) for key in Document.model_fields}
+    parts = document if isinstance(document, dict) else {}
+    given = {key: parts.get(key) for key in Document.model_fields}
+    given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
     ball = None if mistakes(BallBlock, given["ball"], ()) else given["ball"]
     sets, found = {}, []
     for key in ("scenes", *MORE):
@@ -64,9 +66,3 @@ def check(document) -> dict:
         "sweeps": grids,
         "prove": given["prove"] or Document.model_fields["prove"].default,
     }
-
-
-def _mapping(document, key):
-    """A part of a document whose structure may be wrong."""
-    value = document.get(key) if isinstance(document, dict) else None
-    return value if isinstance(value, dict) else {}

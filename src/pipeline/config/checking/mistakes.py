@@ -47,7 +47,7 @@ def _line(model, error, place) -> str:
     loc = error["loc"]
     where = (*place, *(part for part in loc if part not in TAGS))
     if error["type"] == "extra_forbidden":
-        known = list(_at(model, loc[:-1])[0].model_fields)
+        known = list(allowed_at(model, loc[:-1])[0].model_fields)
         near = difflib.get_close_matches(str(loc[-1]), known, 1, 0.5)
         hint = f"did you mean {near[0]}?" if near else f"allowed here: {', '.join(known)}"
         return f"{dotted(where)}: unknown key: {hint}"
@@ -55,11 +55,11 @@ def _line(model, error, place) -> str:
         return f"{dotted(where)}: missing"
     if loc[-1:] == ("[key]",):
         where, loc = where[:-2], loc[:-1]
-    annotation, allowed = _at(model, error["loc"])
+    annotation, allowed = allowed_at(model, error["loc"])
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
-        if number is not None and not _refused(annotation, number):
+        if number is not None and not mistakes(annotation, number, ()):
             plain = repr(number)
             if "." not in plain:
                 plain = plain.replace("e", ".0e")  # YAML 1.1 takes 1e-3 for text
@@ -67,12 +67,7 @@ def _line(model, error, place) -> str:
     return refusal(where, value, allowed)
 
 
-def allowed_at(model, loc) -> str:
-    """What is allowed at a place of pydantic's below a type, in words."""
-    return _at(model, loc)[1]
-
-
-def _at(annotation, loc):
+def allowed_at(annotation, loc):
     """(type, what is allowed in words) at a place of pydantic's below a type."""
     allowed = "something else"
     while True:
@@ -103,14 +98,6 @@ def _at(annotation, loc):
         else:
             annotation = arguments[0]
         loc = loc[1:]
-
-
-def _refused(annotation, value) -> bool:
-    try:
-        TypeAdapter(annotation).validate_python(value)
-    except ValidationError:
-        return True
-    return False
 
 
 def _number_in(text):

@@ -7,9 +7,10 @@ very end: g is multiplied by L, energies by L^2, and the ball's radius is L; bou
 numbers before.
 """
 
-from fractions import Fraction
+import math
 
 from ..declared.kinds import KINDS
+from ..declared.scene import exact
 from ..declared.variant import Variant
 from .mistakes import mistakes
 from .scenes import checked
@@ -101,7 +102,4 @@ def scaled(block, scale):
 
 def _product(*factors):
     """Of the decimals as written: 3 times 0.01 is 0.03."""
-    product = Fraction(1)
-    for factor in factors:
-        product *= Fraction(str(factor))
-    return float(product)
+    return float(math.prod(map(exact, factors)))

@@ -7,7 +7,7 @@ blocks stay the plain mappings that were written, so that 1 and 1.0 stay what th
 from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model
 from pydantic.types import Strict
 
 LARGEST = 10_000_000  # impacts of a scene, and points of a manifold: above it a number is a slip
@@ -194,14 +194,5 @@ Formats = listed(Format, "a list of png, svg, pdf, none of them twice")
 def axes_of(*names: str) -> Any:
     """The type of `axes:` with these names, each of which may be left out."""
     keys = f"the keys {', '.join(names[:-1])} and {names[-1]}"
-    fields = {name: Axis for name in names}
-    model = type(
-        "Axes",
-        (Block,),
-        {
-            "__doc__": f"a mapping with {keys}, or some of them",
-            "__annotations__": fields,
-            **dict.fromkeys(names),
-        },
-    )
-    return model
+    allowed = f"a mapping with {keys}, or some of them"
+    return create_model("Axes", __base__=Block, __doc__=allowed, **{n: (Axis, None) for n in names})

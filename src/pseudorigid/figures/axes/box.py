@@ -17,8 +17,18 @@ class Box:
     """A figure with a box of equal data scales for scene["axes"] seen by scene["view"].
 
     `points` and `line` draw data into it, as far as they lie inside the box; `figure` is the
-    result. Raises ValueError unless the elevation is between 0 and 90 degrees: the panes behind
-    the data suit a view from above.
+    result.
+
+    Parameters
+    ----------
+    scene : dict
+        `axes`: for x, xdot, udot limits and ticks; `view`: elevation and azimuth in degrees.
+
+    Raises
+    ------
+    ValueError
+        An elevation that is not between 0 and 90 degrees: the panes behind the data suit a view
+        from above.
     """
 
     def __init__(self, scene):
@@ -44,10 +54,10 @@ class Box:
         for piece in pieces(*self.view(x, y, z)):
             self.sheet.draw(*piece, lw=width, color=color)
 
-    def near(self, dataset):
-        """Return for each state of an artifact whether the energy surface faces the eye there.
+    def facing(self, dataset):
+        """Whether the energy surface faces the eye at each state of a dataset with its k and g.
 
-        The surface's normal is (k x - g, xdot, k udot).
+        The surface's normal is (k x - g, xdot, k udot), the gradient of eq. (29).
         """
         k, g = dataset.attrs["k"], dataset.attrs["g"]
         x, xdot, udot = (dataset[name].values for name in style.NAMES)

@@ -1,5 +1,6 @@
-"""Limits of axes: those of the data or of a window where a scene gives none, and whether they show
-anything.
+"""Limits of axes where a scene gives none, of data or a window, and whether they show anything.
+
+Matplotlib's own locators take logarithms of the C library; these are exact.
 """
 
 import math
@@ -22,10 +23,24 @@ def of_window(low, high):
 
 
 def of_data(*values, margin=0.0, room=0.03, most=8):
-    """An axis around all finite `values` (arrays): round limits, at most `most` steps of ticks.
+    """An axis with round limits around data.
 
-    `room` is left between data and limits, as a part of the data's span. `margin` is the part of
-    the axis at either end that stays without a tick: where axes meet, the labels of two would.
+    Parameters
+    ----------
+    *values : array_like
+        Their NaN do not count.
+    margin : float
+        The part of the axis at either end that stays without a tick: where axes meet, the labels
+        of two would too.
+    room : float
+        What is left between data and limits, as a part of the data's span.
+    most : int
+        Steps between ticks at the most.
+
+    Returns
+    -------
+    dict
+        limits and ticks, the doubles nearest to decimals.
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
@@ -45,7 +60,7 @@ def of_data(*values, margin=0.0, room=0.03, most=8):
 
 
 def complete(scene, **axes):
-    """The scene with an axis of each name: its own, or what the function of that name returns."""
+    """The scene with an axis of each name: its own, or what the function of that name makes."""
     own = scene.get("axes", {})
     return scene | {
         "axes": {name: own[name] if name in own else make() for name, make in axes.items()}

@@ -14,7 +14,10 @@ _KEY = 60, 960  # pixels: where a key begins, and how wide it is
 
 
 def log10(values):
-    """The decimal logarithm with the same bits everywhere; NaN where it does not exist."""
+    """The decimal logarithm with the same bits everywhere; NaN where it does not exist.
+
+    Our own logarithm, since numpy's last bit differs between processors, and marks move by it.
+    """
     from ...kernel.arithmetic import log  # compiled: a plane picture does without
 
     values = np.atleast_1d(np.asarray(values, dtype=float))
@@ -57,9 +60,16 @@ def decades(limits, name="", every=1):
 
 
 class Panel:
-    """A frame (left, bottom, right, top), in pixels of the sheet, for two Axis.
+    """A frame with two axes; what lies beyond an axis is drawn at its end.
 
-    What lies beyond an axis is drawn at its end.
+    Parameters
+    ----------
+    sheet : Sheet
+    frame : tuple
+        (left, bottom, right, top) in pixels of the sheet.
+    across, up : Axis
+    grid : bool
+        Whether a line runs across the frame at each tick.
     """
 
     tick, gap, size = 2.5, 2.0, _SIZE  # points: a tick's length, from there to its label, and that

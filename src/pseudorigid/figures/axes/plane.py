@@ -12,11 +12,19 @@ _LEFT, _BOTTOM, _TOP = 180, 135, 75  # pixels around the frame
 
 
 class Plane(Panel):
-    """A figure of a column's width for two axes of the scene, keys of scene["axes"].
+    """A figure of a column's width; what lies beyond an axis is cut off.
 
-    `names` are the axes' names, the second one written above its upper end; `high` is the height of
-    the figure and `right` the margin beside the frame, in pixels. What lies beyond an axis is cut
-    off.
+    Parameters
+    ----------
+    scene : dict
+    axes : pair of str
+        Keys of scene["axes"], which have limits and ticks.
+    names : pair of str
+        The axes' names, the second one written above its upper end.
+    high : int
+        The height of the figure in pixels, a multiple of 75.
+    right : int
+        The margin beside the frame in pixels.
     """
 
     tick, gap, size = 3.0, 2.5, style.PLAIN
@@ -82,9 +90,6 @@ class Plane(Panel):
 
 
 def thousands(ticks):
-    """Return the power of ten to take out of the labels: 0 below ticks of five digits."""
-    largest = max(abs(tick) for tick in ticks)
-    power = 0
-    while largest >= 10 ** (power + 1):
-        power += 1
+    """The power of ten to take out of the labels: 0 below ticks of five digits."""
+    power = len(str(int(max(abs(tick) for tick in ticks)))) - 1
     return power if power >= 4 else 0

@@ -11,8 +11,15 @@ _PI = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
 class Projection:
     """Where a point (x, y, z) of a box falls on a sheet.
 
-    `limits` are the three axes' ends and `view` has `elevation` and `azimuth` in degrees, as seen
-    from the middle of the box. `place` puts the projection so that the box fits a rectangle.
+    In closed form, since matplotlib's 3-D axes multiply matrices, whose last bit depends on the
+    processor. `place` puts the projection so that the box fits a rectangle.
+
+    Parameters
+    ----------
+    limits : array_like, shape (3, 2)
+        The three axes' ends.
+    view : dict
+        elevation and azimuth in degrees, as seen from the middle of the box.
     """
 
     def __init__(self, limits, view):

@@ -8,15 +8,23 @@ _LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
 
 
 def rows(row_size):
-    """Return one slice for each row: `row_size` samples each, one row after the other."""
+    """One slice for each row: `row_size` samples each, one row after the other (CF)."""
     ends = [0, *np.cumsum(row_size, dtype=np.int64).tolist()]
     return [slice(start, end) for start, end in pairwise(ends)]
 
 
 def pieces(*coordinates):
-    """Yield the runs without NaN of a line as tuples of arrays, long ones cut where they join on.
+    """The runs without NaN of a line, long ones cut where they join on.
 
     The cut pieces share a vertex, so that they draw as one line.
+
+    Parameters
+    ----------
+    *coordinates : ndarray, shape (n,)
+
+    Yields
+    ------
+    tuple of ndarray
     """
     gap = np.isnan(coordinates).any(axis=0)
     ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))

@@ -18,9 +18,21 @@ _NOTHING = {
 
 
 def render(figure, extension):
-    """Return `figure` as the bytes of a file: `extension` is png, svg or pdf.
+    """A figure as the bytes of a file.
 
-    Raises ValueError for another one.
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    extension : {"png", "svg", "pdf"}
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    ValueError
+        Another extension.
     """
     if extension not in FORMATS:
         raise ValueError(f"{extension}: a picture is one of {', '.join(FORMATS)}")
@@ -33,7 +45,7 @@ def render(figure, extension):
 
 
 def pixels(figure):
-    """Return the rendered figure as (height, width, 3) bytes, red, green and blue."""
+    """The rendered figure, uint8 of shape (height, width, 3): red, green and blue."""
     with style.pinned():
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
@@ -41,10 +53,19 @@ def pixels(figure):
 
 
 def png(image, dpi):
-    """Encode (height, width, 3) bytes as PNG.
+    """An image as PNG, written here chunk by chunk so that the bytes depend on the image alone.
 
-    The bytes depend on the image alone: rows are left unfiltered (smallest for drawings, whose
-    colours are few) and the compressor is libdeflate, from its own wheel, not the system's zlib.
+    Rows are left unfiltered (smallest for drawings, whose colours are few) and the compressor is
+    libdeflate, from its own wheel, where Pillow takes the zlib that it was built with.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (height, width, 3)
+    dpi : float
+
+    Returns
+    -------
+    bytes
     """
     height, width, _ = image.shape
     rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)

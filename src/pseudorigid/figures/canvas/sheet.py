@@ -19,9 +19,19 @@ _GRID = 256  # of a pixel: the rasteriser's own resolution
 
 
 class Sheet:
-    """An empty white figure of `wide` times `high` pixels, both multiples of 75 (a quarter inch).
+    """An empty white figure.
 
     Coordinates count pixels from the lower left corner; sizes of lines, marks and text are points.
+
+    Parameters
+    ----------
+    wide, high : int
+        In pixels, multiples of 75 (a quarter inch).
+
+    Raises
+    ------
+    ValueError
+        Other sizes.
     """
 
     def __init__(self, wide, high):
@@ -32,7 +42,16 @@ class Sheet:
         self.figure = Figure(figsize=size, dpi=style.DPI, facecolor="white")
 
     def draw(self, across, up, clip=None, **how):
-        """Draw a line or marks; `clip` is (left, bottom, right, top), `how` goes to Line2D."""
+        """Draw a line or marks.
+
+        Parameters
+        ----------
+        across, up : array_like, shape (n,)
+        clip : tuple, optional
+            (left, bottom, right, top) of the rectangle outside which nothing is drawn.
+        **how
+            Of matplotlib's Line2D.
+        """
         inches = self.figure.dpi_scale_trans
         across, up = settle(across), settle(up)
         if how.get("ls") != "none" and len(across) > 2:

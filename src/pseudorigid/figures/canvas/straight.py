@@ -9,10 +9,20 @@ import numpy as np
 
 
 def bends(across, up, tolerance):
-    """Return the indices of the vertices to keep, the ends among them.
+    """The vertices to keep, the ends among them.
 
-    `across` and `up` are whole numbers. A line through the vertices kept passes the others, which
-    lie between its ends, at no more than `tolerance`.
+    A line through those passes the others, which lie between its ends, at no more than `tolerance`.
+
+    Parameters
+    ----------
+    across, up : array_like, shape (n,)
+        Whole numbers: the comparisons are exact.
+    tolerance : int
+
+    Returns
+    -------
+    list of int
+        Indices.
     """
     x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
     keep = [0]

@@ -8,11 +8,23 @@ from ..canvas.ragged import rows
 
 @style.pinned()
 def draw(scene, manifolds):
-    """Return the Figure of the branches inside a window around a saddle.
+    """The branches inside a window around a saddle; stable ones green, unstable ones blue.
 
-    `manifolds` is the artifact of that stage, with the saddle in the attributes point_x and
-    point_xdot. Without axes in the scene they are those of the window. Stable branches are green,
-    unstable ones blue, as in the paper.
+    Parameters
+    ----------
+    scene : dict
+        Its axes, if it gives none, are those of the window.
+    manifolds : xarray.Dataset
+        Of that stage, with the saddle in the attributes point_x and point_xdot.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Nothing lies within the axes.
     """
     scene = complete(
         scene,

@@ -10,9 +10,17 @@ from ..canvas import style
 
 @style.pinned()
 def draw(scene, lyapunov):
-    """Return the Figure of the exponents' histories, one hue an orbit, named at their ends.
+    """The exponents' histories, one hue an orbit, named at their ends.
 
-    `lyapunov` is the artifact of that stage: exponent (impact, orbit, index) and impact.
+    Parameters
+    ----------
+    scene : dict
+    lyapunov : xarray.Dataset
+        Of that stage: exponent (impact, orbit, index) and impact.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     scene = complete(

@@ -9,10 +9,18 @@ _DOT = 2.4  # points
 
 @style.pinned()
 def draw(scene, motion):
-    """Return the Figure of -x(t) and u(t), which touch at the impacts and nowhere else.
+    """-x(t) and u(t), which touch at the impacts and nowhere else.
 
-    `motion` is the artifact of a sampled motion: t, position, strain (sample), each flight sampled
-    from one impact to the next, and impact_t, impact_position (impact), which are marked.
+    Parameters
+    ----------
+    scene : dict
+    motion : xarray.Dataset
+        A sampled motion: t, position, strain (sample), each flight sampled from one impact to the
+        next, and impact_t, impact_position (impact), which are marked.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
     scene = complete(

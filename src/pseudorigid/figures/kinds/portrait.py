@@ -10,12 +10,26 @@ _CURVE, _SEA = 0.8, 0.4  # points
 
 @style.pinned()
 def draw(scene, orbits):
-    """Return the Figure of a scene's orbits in (x, xdot, udot).
+    """A scene's orbits in (x, xdot, udot).
 
-    `orbits` is the artifact of stage orbits: x, xdot, udot (point), row_size (orbit). The orbits
-    with index in scene["sea"] come first, in grey; each other one has a hue of its own. What lies
-    on the far side of the surface is pale and behind the rest. Axes that the scene does not give
-    are those of the orbits. Raises ValueError for a sea that the scene does not have.
+    The orbits with index in scene["sea"] come first, in grey; each other one has a hue of its own.
+    What lies on the far side of the surface is pale and behind the rest.
+
+    Parameters
+    ----------
+    scene : dict
+        Axes that it does not give are those of the orbits.
+    orbits : xarray.Dataset
+        Of that stage: x, xdot, udot (point), row_size (orbit).
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        A sea that the scene does not have, or nothing within the axes.
     """
     scene = complete_box(scene, orbits)
     refuse_empty(scene["axes"], orbits)
@@ -26,11 +40,11 @@ def draw(scene, orbits):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")
     others = [index for index in range(len(spans)) if index not in sea]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(others)}
-    near = box.near(orbits)
+    facing = box.facing(orbits)
     for side in (False, True):
         for index in sorted(sea) + others:
             span = spans[index]
-            keep = near[span] == side
+            keep = facing[span] == side
             state = (orbits[name].values[span][keep] for name in style.NAMES)
             hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
             box.points(*state, hue if side else style.pale(hue), size)

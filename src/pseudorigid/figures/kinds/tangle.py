@@ -15,18 +15,32 @@ _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
 @style.pinned()
 def draw(scene, orbits, manifolds, periodic):
-    """Return the Figure of a hyperbolic orbit's branches over a backdrop of orbits.
+    """A hyperbolic orbit's branches over a backdrop of orbits.
 
-    `orbits` (the backdrop), `manifolds` and `periodic` are artifacts of these stages; the saddles
-    marked are the points of the first orbit of `periodic` whose type is scene["type"]. Stable
-    branches are green, unstable ones blue; what lies on the surface's far side is pale.
+    Stable branches are green, unstable ones blue; what lies on the surface's far side is pale.
+
+    Parameters
+    ----------
+    scene : dict
+    orbits, manifolds, periodic : xarray.Dataset
+        Of these stages; `orbits` are the backdrop, and the saddles marked are the points of the
+        first orbit of `periodic` whose type is scene["type"].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Nothing lies within the axes, or no orbit has that type.
     """
     scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], manifolds)
     box = Box(scene)
-    near = box.near(orbits)
+    facing = box.facing(orbits)
     for side in (False, True):
-        state = (orbits[name].values[near == side] for name in style.NAMES)
+        state = (orbits[name].values[facing == side] for name in style.NAMES)
         box.points(*state, style.BACKDROP if side else style.pale(style.BACKDROP), _BACKDROP)
     _branches(box, manifolds)
     saddle = of_type(periodic, scene["type"])
@@ -37,14 +51,14 @@ def draw(scene, orbits, manifolds, periodic):
 
 
 def _branches(box, manifolds):
-    near = box.near(manifolds)
+    facing = box.facing(manifolds)
     spans = rows(manifolds["row_size"].values)
     for side in (False, True):
         for stable, hue, width in _BRANCHES:
             for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
-                hide = near[span] != side
+                hide = facing[span] != side
                 # Keep the first hidden vertex on each side, so that pale and full parts meet.
-                hide[1:-1] &= (near[span] != side)[2:] & (near[span] != side)[:-2]
+                hide[1:-1] &= (facing[span] != side)[2:] & (facing[span] != side)[:-2]
                 state = [
                     np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
                 ]

@@ -34,7 +34,19 @@ def _jacobian(u, parameters, *_):
 
 
 def spectrum(ball, state, impacts):
-    """The three exponents of one orbit as pynamicalsys computes them, by QR."""
+    """The three Lyapunov exponents of one orbit as pynamicalsys computes them, by QR.
+
+    Parameters
+    ----------
+    ball : Ball
+    state : tuple of float
+    impacts : int
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        An impact.
+    """
     system = DiscreteDynamicalSystem(
         mapping=_mapping, jacobian=_jacobian, system_dimension=3, number_of_parameters=2
     )

@@ -1,0 +1,115 @@
+"""Variants of the config: what they replace, what they keep, and what is refused."""
+
+import pytest
+from documents import complaint
+from project import shipped
+
+from pipeline import config
+
+BASE = shipped()
+
+
+def with_variants(**variants):
+    """The shipped document with these variants instead of its own, parsed and checked."""
+    return config.check(shipped() | {"variants": variants})["variants"]
+
+
+def test_the_paper_comes_first_and_variants_are_complete():
+    variants = with_variants(thin={"ball": {"k": 0.3}})
+    assert list(variants) == ["paper", "thin"]
+    assert variants["thin"]["fig2"]["ball"] == {"k": 0.3, "g": 0.04}
+    assert variants["thin"].keys() == variants["paper"].keys() == BASE["scenes"].keys()
+
+
+def test_mappings_merge_and_lists_are_replaced():
+    change = {"resolution": {"bend": 20}, "starts": [0.1], "impacts": [5]}
+    scene = with_variants(v={"scenes": {"fig5": change}})["v"]["fig5"]
+    assert scene["resolution"] == {"distance": 0.01, "bend": 20}
+    assert scene["starts"] == [0.1]
+    scene = with_variants(v={"scenes": {"fig5": {"ball": {"k": 0.3}}}})["v"]["fig5"]
+    assert scene["ball"] == {"k": 0.3, "g": 0.04}
+
+
+def test_a_scene_s_energy_goes_before_the_variant_s():
+    scenes = with_variants(v={"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}})["v"]
+    assert (scenes["fig2"]["energy"], scenes["fig8"]["energy"]) == (0.002, 0.003)
+
+
+@pytest.mark.parametrize(
+    ("change", "scene", "kept"),
+    [
+        ({"energy": 0.002}, "fig2", False),
+        ({"ball": {"k": 0.3}}, "fig7", False),
+        ({"scale": 2}, "fig8", False),
+        ({"scenes": {"fig3": {"duration": 30}}}, "fig3", False),
+        ({"scenes": {"fig7": {"impacts": 1000}}}, "fig7", False),
+        ({"scenes": {"fig6": {"window": {"x": [-0.1, 0.1]}}}}, "fig6", False),
+        ({"scenes": {"fig2": {"impacts": [9] * 8}}}, "fig2", True),
+        ({"scenes": {"fig6": {"length": 0.5}}}, "fig6", True),
+        ({"energy": 0.01}, "fig2", True),
+    ],
+)
+def test_the_paper_s_axes_are_left_where_they_no_longer_fit(change, scene, kept):
+    assert ("axes" in with_variants(v=change)["v"][scene]) == kept
+
+
+def test_a_variant_s_own_axes_stay():
+    axes = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
+    change = {"energy": 0.002, "scenes": {"fig3": {"axes": axes}}}
+    assert with_variants(v=change)["v"]["fig3"]["axes"] == axes
+
+
+@pytest.mark.parametrize(
+    ("name", "block", "parts"),
+    [
+        ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
+        ("-n", {"energy": 0.002}, ["variants: '-n'", "not begin with -"]),
+        ("a b", {"energy": 0.002}, ["variants: 'a b'"]),
+        ("", {"energy": 0.002}, ["variants: ''"]),
+        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, study"]),
+        ("study", {"energy": 0.002}, ["variants: 'study'"]),
+        ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
+        ("v", {}, ["variants.v: {}"]),
+        ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
+        ("v", {"ball": {"q": 1}}, ["variants.v.ball.q: unknown key", "k, g"]),
+        ("v", {"ball": {"k": 1.5}}, ["variants.v.ball.k: 1.5", "0 < k <= 1"]),
+        ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
+        ("v", {"ball": {"k": 0.01}}, ["variants.v.ball.g: 0.04", "0 < g < k = 0.01"]),
+        ("v", {"energy": 0.06}, ["variants.v.energy: 0.06", "below k/2 - g = 0.06"]),
+        ("v", {"energy": "1e-3"}, ["variants.v.energy: '1e-3'", "write 0.001"]),
+        ("v", {"ball": {"g": 0.095}}, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.005"]),
+        ("v", {"scale": 0}, ["variants.v.scale: 0", "every length"]),
+        ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
+        ("v", {"scenes": {"fig2": 3}}, ["variants.v.scenes.fig2: 3", "a mapping"]),
+        ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
+        ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),
+        ("v", {"scenes": {"fig2": {"starts": [2]}}}, ["variants.v.scenes.fig2.starts[0]: 2"]),
+        ("v", {"scenes": {"fig2": {"sea": [8]}}}, ["variants.v.scenes.fig2.sea: 8"]),
+        ("v", {"scenes": {"fig5": {"resolution": {"bend": 0}}}}, ["fig5.resolution.bend: 0"]),
+        ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
+    ],
+)
+def test_a_bad_variant_is_refused_in_one_line(name, block, parts):
+    line = complaint(shipped() | {"variants": {name: block}})
+    for part in parts:
+        assert part in line
+
+
+def test_equal_stages_of_variants_are_computed_once():
+    variants = with_variants(
+        first={"scenes": {"fig8": {"impacts": [9] * 6}}},
+        second={"scenes": {"fig8": {"impacts": [9] * 6, "sea": []}}},
+    )
+    serves = config.served(variants)
+    assert serves["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
+    assert serves["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
+    assert serves["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
+
+
+def test_a_scale_is_exact():
+    scenes = with_variants(double={"scale": 2}, triple={"scale": 3})
+    for name, block in scenes["double"].items():
+        paper = scenes["paper"][name]
+        assert block["ball"] == {"k": 0.2, "g": 2.0 * paper["ball"]["g"]}
+        assert block["energy"] == 4.0 * paper["energy"]
+    assert scenes["triple"]["fig2"]["energy"] == 0.09  # of the decimals: 9.0 * 0.01 is more

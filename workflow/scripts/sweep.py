@@ -1,0 +1,11 @@
+"""One block of cells of a sweep, or its blocks as one dataset."""
+
+from job import one_line_errors, recorded
+from pipeline.records import artifacts
+from pseudorigid.sweep import blocks
+
+with one_line_errors(snakemake), recorded(snakemake):
+    block = snakemake.params.block
+    parts = [artifacts.load(path) for path in snakemake.input.data]
+    dataset = blocks.join(block, parts) if parts else blocks.compute(block)
+    artifacts.save(dataset, snakemake.output[0], block)
