@@ -64,7 +64,7 @@ def test_what_cannot_be_proved_is_said_in_one_line(six):
         prove_horseshoe(PAPER, of_type(six, "elliptic"), **plan)
     one_line(error)
     with pytest.raises(
-        ValueError, match="the orbit's energy is 0.01, not that of k = 1/5"
+        ValueError, match=r"the orbit's energy is 0.01, not that of k = 1/5"
     ) as error:
         prove_orbit(Surface("1/5", "1/25", "1/50"), hyperbolic)
     one_line(error)
@@ -80,7 +80,7 @@ def test_what_cannot_be_proved_is_said_in_one_line(six):
         prove_horseshoe(PAPER, hyperbolic, **plan | {"side": "left"})
     moved = hyperbolic.copy(deep=True)
     moved["x"] = moved["x"] + 1e-3
-    with pytest.raises(ValueError, match="energy|cannot be proved"):
+    with pytest.raises(ValueError, match=r"energy|cannot be proved"):
         prove_orbit(PAPER, moved)
 
 

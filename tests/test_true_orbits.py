@@ -21,28 +21,33 @@ NAMES = ("x", "xdot", "udot", "tau")
 
 
 def independent(impacts, digits, x="2/5"):
-    """The same orbit with `digits` decimal digits throughout: the kernel says which root it is,
+    """The same orbit from `digits` decimal digits down to 60: the kernel says which root it is,
     Newton's method gives its digits. Rows of x, xdot, udot, tau as mpf.
     """
     rows = []
-    with mpmath.workdps(digits):
-        k, g, energy = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25, mpmath.mpf(1) / 100
-        x = mpmath.mpf(Fraction(x).numerator) / Fraction(x).denominator
-        s = mpmath.sqrt((1 + k) * (2 * energy + 2 * g * x - k * x * x) / k)
-        v, w = k * s / (1 + k), s / (1 + k)
-        for _ in range(impacts):
+    state = None
+    for i in range(impacts):
+        level = digits - (digits - 60) * i // impacts
+        with mpmath.workdps(level):
+            k, g, energy = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25, mpmath.mpf(1) / 100
+            if state is None:
+                x = mpmath.mpf(Fraction(x).numerator) / Fraction(x).denominator
+                s = mpmath.sqrt((1 + k) * (2 * energy + 2 * g * x - k * x * x) / k)
+                state = x, k * s / (1 + k), s / (1 + k)
+            x, v, w = state
             s = v + w
             b, c = v - 2 * k * s / (1 + k), w - 2 * s / (1 + k)
-            t = mpmath.mpf(BALL.time_to_impact(float(x), float(v), float(w)))
+            t = mpmath.mpf(BALL.time_to_impact(*map(float, state)))
             known = 12
-            while known < 2 * digits:
-                cosine, sine = mpmath.cos_sin(t)
-                gap = x + t * (b + g * t / 2) - x * cosine + c * sine
-                t -= gap / (b + g * t + x * sine + c * cosine)
+            while known < level:
                 known *= 2
+                with mpmath.workdps(min(known, level) + 10):
+                    cosine, sine = mpmath.cos_sin(t)
+                    gap = x + t * (b + g * t / 2) - x * cosine + c * sine
+                    t = t - gap / (b + g * t + x * sine + c * cosine)
             cosine, sine = mpmath.cos_sin(t)
-            x, v, w = x * cosine - c * sine, b + g * t, x * sine + c * cosine
-            rows.append((x, v, w, t))
+            state = x * cosine - c * sine, b + g * t, x * sine + c * cosine
+            rows.append((*state, t))
     return rows
 
 
