@@ -1,6 +1,6 @@
 """Periodic orbits by interval Newton on the shooting map, eq. F_i = P(z_i) - z_(i+1).
 
-Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990, chapter 5): let X be a box with
+Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990): let X be a box with
 midpoint c and A an interval matrix that contains DF on X and is regular. If N = c - A^-1 F(c) lies
 in the interior of X, then F has exactly one zero in X, and it is in N.
 """
