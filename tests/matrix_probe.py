@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 from numpy._core._multiarray_umath import __cpu_features__
 
-from pseudorigid.dynamics import lyapunov, orbits, periodic
+from pseudorigid.dynamics import lyapunov, motion, orbits, periodic, variables
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.kernel import arithmetic, impact
@@ -105,7 +105,7 @@ def scanned():
     track = orbits.orbit(ball, state, 1000)
     last = orbits.orbit(ball, state, 100, keep="last")
     spectrum = lyapunov.lyapunov_spectrum(ball, state, 500)
-    parts = [*(track[name] for name in orbits.NAMES), last["x"], spectrum["exponent"]]
+    parts = [*(track[name] for name in variables.NAMES), last["x"], spectrum["exponent"]]
     return digest(*parts, ball.inverse_impact(*state), ball.jacobian(*state), ball.map.missed)
 
 
@@ -132,8 +132,9 @@ def everything():
     """Yield (name, hash) of the tables, and of data and figures of each kind, as saved."""
     from pipeline.records import artifacts
     from pseudorigid.dynamics import manifolds
-    from pseudorigid.figures.canvas.save import save
-    from pseudorigid.figures.kinds import closeup, exponents, motion, portrait, tangle
+    from pseudorigid.figures.canvas.render import render
+    from pseudorigid.figures.kinds import closeup, exponents, portrait, tangle
+    from pseudorigid.figures.kinds import motion as motion_picture
 
     yield "table", table(200_000)
     yield from short()
@@ -145,8 +146,8 @@ def everything():
 
     def keep(stage, dataset):
         """The dataset after a round through its file, whose bytes are hashed."""
-        about = {"stage": stage, "ball": BALL, "energy": ENERGY, "config": {}}
-        path = artifacts.save(dataset, Path(folder.name) / f"{stage}.nc", **about)
+        path = Path(folder.name) / f"{stage}.nc"
+        artifacts.save(dataset, path, {}, stage=stage, k=BALL.k, g=BALL.g, energy=ENERGY)
         loaded = artifacts.load(path)
         hashes[stage] = artifacts.content_hash(loaded)
         hashes[f"{stage}.nc"] = digest(path.read_bytes())
@@ -154,14 +155,12 @@ def everything():
 
     found = keep("periodic", periodic.symmetric_orbits(BALL, ENERGY, 6))
     sea = keep("orbits", orbits.scene_orbits(BALL, ENERGY, STARTS, [300, 300, 300, 600]))
-    elliptic = periodic.of_type(found, "elliptic")
-    hyperbolic = periodic.of_type(found, "hyperbolic")
-    moved = keep("motion", orbits.motion(BALL, elliptic, 20.0))
+    moved = keep("motion", motion.scene_motion(BALL, ENERGY, found, 6, "elliptic", 20.0))
+    saddle = BALL, ENERGY, found, 6, "hyperbolic", RESOLUTION
     branches = {"outer": {"length": 0.5}, "inner": {"length": 0.2}}
-    whole = manifolds.scene_manifolds(BALL, ENERGY, hyperbolic, branches, RESOLUTION)
-    whole = keep("manifolds", whole)
+    whole = keep("manifolds", manifolds.scene_manifolds(*saddle, branches=branches))
     window = {"x": [-0.05, 0.05], "xdot": [-0.05, 0.05]}
-    near = manifolds.window_manifolds(BALL, ENERGY, hyperbolic, 0, window, RESOLUTION, 0.3)
+    near = manifolds.scene_manifolds(*saddle, point=0, window=window, length=0.3)
     near = keep("window", near)
     spread = keep("lyapunov", lyapunov.scene_exponents(BALL, ENERGY, [SEA, 0.62], 2000, 40))
     yield from hashes.items()
@@ -172,15 +171,14 @@ def everything():
     }
     pictures = {
         "portrait": portrait.draw(scene("x", "xdot", "udot"), sea),
-        "motion": motion.draw(scene("t", "displacement"), moved),
+        "motion": motion_picture.draw(scene("t", "displacement"), moved),
         "tangle": tangle.draw(scene("x", "xdot", "udot"), sea, whole, found),
         "closeup": closeup.draw({"axes": zoom}, near),
         "exponents": exponents.draw(scene("impact", "exponent"), spread),
     }
     for name, figure in pictures.items():
         for kind in ("png", "svg", "pdf") if name == "exponents" else ("png",):
-            path = save(figure, Path(folder.name) / f"{name}.{kind}")
-            yield path.name, digest(path.read_bytes())
+            yield f"{name}.{kind}", digest(render(figure, kind))
     # What the switches themselves change, so that a test can tell that they were honoured.
     yield "library", library()
     yield "simd", [name for name, there in __cpu_features__.items() if there]

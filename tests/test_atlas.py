@@ -6,7 +6,8 @@ import xarray as xr
 
 from pseudorigid.figures import atlas
 from pseudorigid.figures.axes import raster
-from pseudorigid.figures.canvas import save, style
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.render import pixels
 from pseudorigid.sweep import cell, fixed_point
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
@@ -32,7 +33,7 @@ def commonest(image, across, up):
 def test_a_cell_has_the_colour_of_its_value():
     share = np.linspace(0, 0.99, 12).reshape(3, 4)
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
-    image = save.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
+    image = pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
     scale = raster.colors("viridis")
     width, height = (atlas.RIGHT - atlas.LEFT) / 4, 500 / 3
     for row in range(3):
@@ -57,7 +58,7 @@ def test_a_resonance_is_drawn_where_the_closed_form_has_it():
     e = fixed_point.resonance(k, 1, 6)
     across = atlas.LEFT + (np.log10(e) + 1.5) / 4 * (atlas.RIGHT - atlas.LEFT)
     up = 825 + (k - 0.05) / 0.3 * 500
-    image = save.pixels(figure)[::-1]
+    image = pixels(figure)[::-1]
     patch = image[int(up) - 3 : int(up) + 4, int(across) - 3 : int(across) + 4].reshape(-1, 3)
     assert patch.sum(axis=1).max() > 700
     away = image[int(up) - 3 : int(up) + 4, int(across) - 40 : int(across) - 33].reshape(-1, 3)
@@ -71,7 +72,7 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
     data = dataset(LINE, regular=np.linspace(0.9, 0.1, n), **dict.fromkeys(names, gap))
     figure = atlas.line(LINE, data)
     assert figure.get_size_inches()[0] == 3.5
-    assert np.array_equal(save.pixels(figure), save.pixels(atlas.line(LINE, data)))
+    assert np.array_equal(pixels(figure), pixels(atlas.line(LINE, data)))
 
 
 def test_no_sea_anywhere_can_be_drawn():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, symmetric_orbits, trace_manifold
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
 

@@ -1,8 +1,13 @@
 """`python -m pipeline`, which ./reproduce hands over to."""
 
+import signal
 import sys
 
-from .cli.launch import main
-
 if __name__ == "__main__":
+    # Until something is there to tidy up, Ctrl-C ends the process without a traceback.
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    from .cli.main import main
+
     sys.exit(main(sys.argv[1:]))

@@ -1,24 +1,24 @@
-# The checked config, and what the rules ask of it.
+# The checked config, and what the rules ask of it: EXPECTED says of each result what makes it.
 import json
 import shlex
 import sys
 from pathlib import Path
 
+from pipeline.checks.currency import Currency
 from pipeline.config import (
+    KINDS,
     PAPER,
     STAGES,
     ConfigError,
-    absent_file,
-    drawing,
+    expected,
     figures,
     load,
+    places,
     served,
     stages,
-    wanted_orbits,
 )
-from pipeline.config import study as parts
-from pipeline.records import sources
-from pipeline.records.provenance import record_path
+from pipeline.config.declared import study as parts
+from pipeline.records.record import record_path
 
 ROOT = Path(workflow.basedir)
 
@@ -34,36 +34,43 @@ except ConfigError as error:
 
 VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
 SCENES = VARIANTS[PAPER]
-SERVED = served(VARIANTS)
-FIGURES = figures(VARIANTS)
+ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
+EXPECTED = {
+    **expected.of_variants(VARIANTS),
+    **expected.of_study(VARIANTS),
+    **expected.of_sweeps(SWEEPS),
+}
+CURRENCY = Currency(ROOT, EXPECTED)
 
 
-def artifacts(*stages):
-    """Input function: the artifacts of some stages that serve the scene, in this order."""
-    return lambda wildcards: [SERVED[wildcards.variant, wildcards.scene, stage] for stage in stages]
+def inputs(result):
+    """Input function: what a result is made from, in this order.
+
+    Records say what is current, not times: what need not be made again counts as ancient.
+    """
+
+    def files(wildcards):
+        used = EXPECTED[result.format(**wildcards)].inputs
+        return [path if CURRENCY.reason(path) else ancient(path) for path in used]
+
+    return files
 
 
-def stage_block(stage):
-    """Params function: what decides the data of a stage, and nothing else."""
-    return lambda wildcards: stages(VARIANTS[wildcards.variant][wildcards.scene])[stage]
+def block(result):
+    """Params function: the part of the config that decides a result, and nothing else."""
+    return lambda wildcards: EXPECTED[result.format(**wildcards)].config
 
 
-def drawn_block(wildcards):
-    """Params function: what decides how a scene is drawn."""
-    return drawing(VARIANTS[wildcards.variant][wildcards.scene])
+def code(result):
+    """Params function: the project's files that make a result."""
+    return lambda wildcards: EXPECTED[result.format(**wildcards)].sources
 
 
-def with_records(figures, published=True):
-    """The files of some figures, those on the way and their records: what was deleted comes back."""
-    files = {file for _, behind in figures.values() for file in behind}
-    return sorted({*(figures if published else ()), *files, *map(record_path, files)})
-
-
-def reported(picture):
+def reported(drawing, kind):
     """A drawing, with the caption of its kind of picture in the report."""
     return report(
-        "results/{variant}/figures/{scene}.{extension}",
-        caption=str(ROOT / "workflow" / "report" / f"{picture}.rst"),
+        drawing,
+        caption=str(ROOT / captions(kind)),
         category="Figures",
         labels=figure_labels,
     )
@@ -78,34 +85,11 @@ def figure_labels(wildcards):
     return {"figure": labels[wildcards.scene]}
 
 
-def scenes_of(*pictures):
-    """A pattern for the names of the scenes of these kinds."""
-    return any_of(name for name, block in SCENES.items() if block["picture"] in pictures)
+def captions(kind):
+    """Where the caption of a kind of picture is written when a report is made."""
+    return f"results/report/captions/{kind}.rst"
 
 
 def any_of(names):
     """A pattern for these names; it matches nothing where there is none."""
     return "|".join(names) or "(?!)"
-
-
-def scenes_with(stage):
-    """A pattern for the names of the scenes that need a stage."""
-    return scenes_of(*(picture for picture, needed in STAGES.items() if stage in needed))
-
-
-def code(script, *modules):
-    """Every file of the project that a script runs, and the lock of the packages behind them."""
-    return [*sources.code(script, *modules), "requirements/lock.txt"]
-
-
-def study_inputs(part):
-    """The figures' own artifacts that a part of the study compares with."""
-    stages = ("periodic", "manifolds") if part == "needs" else ()
-    return sorted({file for (v, _, s), file in SERVED.items() if v == PAPER and s in stages})
-
-
-def study_code(part):
-    """What a part of the study runs, the libraries' rivals where they are measured."""
-    rivals = ("methods.scipy_events", "methods.taylor", "bench") if part in parts.MEASURED else ()
-    modules = [f"pseudorigid.study.{name}" for name in rivals]
-    return [*code("study.py", *modules), "requirements/study.txt"]

@@ -1,11 +1,11 @@
 # What ./reproduce report needs besides the figures, which name their captions themselves.
-REPORTED = {name: made for name, made in FIGURES.items() if made[1][-1].endswith(".png")}
+REPORTED = [behind for _, behind in figures(VARIANTS).values() if behind[-1].endswith(".png")]
+BEHIND = sorted({file for files in REPORTED for file in files})
 
 
 rule numbers:
     input:
-        results=with_records(REPORTED, published=False),
-        code=code("numbers.py"),
+        results=[*BEHIND, *map(record_path, BEHIND)],
     output:
         labels="results/report/labels.json",
         numbers=report(
@@ -27,15 +27,16 @@ rule numbers:
     params:
         scenes=SCENES,
         artifacts={
-            scene: {stage: SERVED[PAPER, scene, stage] for stage in stages(block)}
-            for scene, block in SCENES.items()
+            scene: {stage: served(VARIANTS)[PAPER, scene, stage] for stage in stages(scene_block)}
+            for scene, scene_block in SCENES.items()
         },
-        results=sorted({file for _, behind in REPORTED.values() for file in behind}),
+        results=BEHIND,
+        captions={captions(kind): KINDS[kind].caption() for kind in KINDS},
     script:
         "../scripts/numbers.py"
 
 
 rule report:
     input:
-        sorted(behind[-1] for _, behind in REPORTED.values()),
+        sorted(files[-1] for files in REPORTED),
         rules.numbers.output,

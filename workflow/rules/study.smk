@@ -4,60 +4,39 @@
 
 rule study_data:
     input:
-        figures=lambda wildcards: study_inputs(wildcards.scene),
-        code=lambda wildcards: study_code(wildcards.scene),
+        data=inputs("results/study/{scene}.nc"),
     output:
         "results/study/{scene}.nc",
         record="results/study/provenance/{scene}.nc.json",
     log:
         "results/study/logs/{scene}.log",
     wildcard_constraints:
-        scene="|".join((*parts.FIXED, *parts.MEASURED)),
+        scene=any_of((*parts.FIXED, *parts.MEASURED)),
     conda:
         "../envs/python.yaml"
     threads: workflow.cores
     params:
-        block=lambda wildcards: parts.block(wildcards.scene, SCENES),
+        block=block("results/study/{scene}.nc"),
+        sources=code("results/study/{scene}.nc"),
+        artifacts=lambda wildcards: parts.artifacts(wildcards.scene, SCENES, served(VARIANTS)),
     script:
         "../scripts/study.py"
 
 
 rule study_chart:
     input:
-        data=lambda wildcards: parts.data(parts.CHARTS[wildcards.scene][0]),
-        code=code("chart.py"),
+        data=inputs("results/study/figures/{scene}.png"),
     output:
         "results/study/figures/{scene}.png",
         record="results/study/provenance/{scene}.png.json",
     log:
         "results/study/logs/chart_{scene}.log",
     wildcard_constraints:
-        scene="|".join(parts.CHARTS),
+        scene=any_of(parts.CHARTS),
     conda:
         "../envs/python.yaml"
+    params:
+        block=block("results/study/figures/{scene}.png"),
+        sources=code("results/study/figures/{scene}.png"),
     script:
         "../scripts/chart.py"
-
-
-rule study_publish:
-    input:
-        "results/study/figures/{scene}.png",
-    output:
-        update("study_figures/{scene}.png"),
-    log:
-        "results/study/logs/publish_{scene}.log",
-    wildcard_constraints:
-        scene="|".join(parts.CHARTS),
-    conda:
-        "../envs/python.yaml"
-    shell:
-        "(cp {input:q} {input:q}.part && mv -f {input:q}.part {output:q}) 2> {log:q}"
-
-
-rule study:
-    input:
-        [parts.data(part) for part in (*parts.FIXED, *parts.MEASURED)],
-        [record_path(parts.data(part)) for part in (*parts.FIXED, *parts.MEASURED)],
-        [parts.drawn(chart) for chart in parts.CHARTS],
-        [record_path(parts.drawn(chart)) for chart in parts.CHARTS],
-        [parts.published(chart) for chart in parts.CHARTS],

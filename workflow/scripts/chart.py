@@ -1,11 +1,11 @@
 """Draw one chart of the study."""
 
-from job import one_line_errors, recorded, save_figure
-from pipeline.config.study import CHARTS, drawing
+from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
+from pipeline.records.drawings import save_figure
 from pseudorigid.figures import study
 
-chart = snakemake.wildcards.scene
-with one_line_errors(snakemake), recorded(snakemake, drawing(chart)):
-    _, draw, arguments = CHARTS[chart]
-    save_figure(getattr(study, draw)(load(snakemake.input.data), *arguments), snakemake.output[0])
+chart = snakemake.params.block
+with one_line_errors(snakemake), recorded(snakemake):
+    draw = getattr(study, chart["chart"])
+    save_figure(draw(load(snakemake.input.data[0]), *chart["arguments"]), snakemake.output[0])

@@ -2,11 +2,12 @@
 
 from importlib import import_module
 
-from job import one_line_errors, recorded, save_figure
+from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
+from pipeline.records.drawings import save_figure
 
-scene = snakemake.params.scene
-with one_line_errors(snakemake), recorded(snakemake, scene):
+scene = snakemake.params.block
+with one_line_errors(snakemake), recorded(snakemake):
     picture = import_module(f"pseudorigid.figures.kinds.{scene['picture']}")
     data = [load(path) for path in snakemake.input.data]
     save_figure(picture.draw(scene, *data), snakemake.output[0])

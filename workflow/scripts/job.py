@@ -1,6 +1,5 @@
-"""What the scripts share: one line for a job that cannot be done, and the saving of a stage."""
+"""What the scripts share: one line for a job that cannot be done, and records."""
 
-import os
 import sys
 import traceback
 from contextlib import contextmanager, suppress
@@ -38,54 +37,11 @@ def _subject(wildcards):
 
 
 @contextmanager
-def recorded(snakemake, config):
+def recorded(snakemake):
     """Write the record of what made the output, `config` being the block behind it."""
-    from pipeline.records import provenance
+    from pipeline.records import record
 
-    sources = [path for path in snakemake.input.code if path.endswith(".py")]
-    inputs = set(snakemake.input) - set(snakemake.input.code)
-    record = provenance.begin(config=config, inputs=inputs, sources=sources)
+    inputs, sources = set(snakemake.input), snakemake.params.sources
+    made = record.begin(config=snakemake.params.block, inputs=inputs, sources=sources)
     yield
-    provenance.finish(record, snakemake.output[0], snakemake.output.record)
-
-
-def save_figure(figure, path):
-    """Save a picture in the format of its suffix, whole or not at all."""
-    from pathlib import Path
-
-    from pipeline.records.files import replacing
-    from pseudorigid.figures.canvas.render import render
-
-    data = render(figure, Path(path).suffix[1:])
-    with replacing(path) as part:
-        part.write_bytes(data)
-
-
-def save_stage(snakemake, compute):
-    """Save what `compute(ball, energy, **fields of the stage's block)` returns.
-
-    A block with a `method` is computed by it, and its data say how many impacts that missed.
-    """
-    from pipeline.records import artifacts
-    from pseudorigid.dynamics.ball import Ball
-    from pseudorigid.dynamics.ensemble import ImpactMap
-
-    block = snakemake.params.block
-    os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
-    with one_line_errors(snakemake), recorded(snakemake, block):
-        taken = ("ball", "energy", "method")
-        fields = {key: value for key, value in block.items() if key not in taken}
-        method = block.get("method")
-        how = ImpactMap((method["scan"], method["tolerance"]) if method else None)
-        ball = Ball(**block["ball"], map=how)
-        dataset = compute(ball, block["energy"], **fields)
-        if method:
-            dataset.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
-        artifacts.save(
-            dataset,
-            snakemake.output[0],
-            stage=snakemake.rule,
-            ball=ball,
-            energy=block["energy"],
-            config=block,
-        )
+    record.finish(made, snakemake.output[0], snakemake.output.record)

@@ -33,6 +33,9 @@ with one_line_errors(snakemake):
             ],
         ),
     }
+    # snakemake reads captions when it makes the report, each with its own scene as `s`
+    head = "{% set s = snakemake.params.block %}\n"
+    texts |= {path: head + text for path, text in snakemake.params.captions.items()}
     for path, text in texts.items():
         with replacing(path) as part:
             part.write_text(text, encoding="utf-8")

@@ -3,10 +3,8 @@
 from importlib import import_module
 
 from job import one_line_errors, recorded
-from pipeline import config
-from pipeline.config import study as parts
 from pipeline.records import artifacts
-from pseudorigid.study import fails, needs, states, work
+from pseudorigid.study import failures, figure_errors, states, work
 
 
 def libraries():
@@ -20,30 +18,27 @@ def edge_rivals():
     names = ("certified march", "brentq 0.1, 1e-12", "RK45, 1e-06", "DOP853, 1e-09")
     names += ("DOP853, steps <= 0.1, 1e-12", "LSODA, 1e-09")
     names += ("heyoka any, 1e-15", "heyoka positive, 1e-15")
-    return [m for m in (fails.own.OURS, *libraries()) if m.name in names]
+    return [m for m in (failures.OURS, *libraries()) if m.name in names]
 
 
-def scenes_needs():
-    scenes = parts.looked_at(config.load("config.yaml")["scenes"])
-    loaded = {
-        (stage, scene): artifacts.load(path)
-        for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()
-        if stage in ("periodic", "manifolds")
-    }
-    return needs.needs(scenes, loaded)
+def errors_of_figures():
+    """Of the scenes that the block has, with the figures' own artifacts that they take."""
+    block, taken = snakemake.params.block, snakemake.params.artifacts
+    loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in taken}
+    return figure_errors.figure_errors(block["scenes"], block["measures"], loaded)
 
 
 PARTS = {
     "work": work.counted,
-    "edges": lambda: fails.edges(fails.EDGE_METHODS),
-    "orbits": fails.orbits,
-    "needs": scenes_needs,
-    "work_all": lambda: work.measured([*fails.own.METHODS, *libraries()]),
-    "edges_all": lambda: fails.edges(edge_rivals(), 40),
-    "missed_all": lambda: fails.missed(edge_rivals()),
+    "edges": lambda: failures.edges(failures.EDGE_METHODS),
+    "orbits": failures.orbits,
+    "needs": errors_of_figures,
+    "work_all": lambda: work.measured([*work.METHODS, *libraries()]),
+    "edges_all": lambda: failures.edges(edge_rivals(), 40),
+    "missed_all": lambda: failures.missed(edge_rivals()),
 }
 
-with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
+with one_line_errors(snakemake), recorded(snakemake):
     part = snakemake.wildcards.scene
     dataset = PARTS[part]()
     if part.endswith("_all"):
@@ -51,8 +46,9 @@ with one_line_errors(snakemake), recorded(snakemake, snakemake.params.block):
     artifacts.save(
         dataset,
         snakemake.output[0],
+        {"part": part},
         stage="study",
-        ball=states.BALL,
+        k=states.BALL.k,
+        g=states.BALL.g,
         energy=states.ENERGY,
-        config={"part": part},
     )

@@ -1,10 +1,10 @@
 """The blocks of a sweep as one dataset."""
 
-from job import one_line_errors
-from pipeline.records import blocks as store
-from pseudorigid.sweep import grid
+from job import one_line_errors, recorded
+from pipeline.records import artifacts
+from pseudorigid.sweep import blocks
 
-with one_line_errors(snakemake):
-    sweep = snakemake.params.sweep
-    blocks = ((path, grid.block(sweep, i)) for i, path in enumerate(snakemake.input.blocks))
-    store.join(grid.whole(sweep), blocks, snakemake.output[0], snakemake.output.record)
+with one_line_errors(snakemake), recorded(snakemake):
+    sweep = snakemake.params.block
+    parts = (artifacts.load(path) for path in snakemake.input.data)
+    artifacts.save(blocks.join(sweep, parts), snakemake.output[0], sweep)

@@ -8,13 +8,11 @@ import hashlib
 import json
 from pathlib import Path
 
-from .. import config
-from ..records import provenance, sources
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
-from ..records.files import replacing
+from ..records.files import file_hash, replacing
 from ..records.pictures import describe
+from ..records.record import versions
 
-FOLDER = "paper_figures"
 MANIFEST = "MANIFEST.json"
 SUMS = "SHA256SUMS"
 BLOCK = 1024  # values hashed together, so that a difference can be placed
@@ -23,27 +21,6 @@ _SHORT = 16  # hex digits of the hash of a block or an attribute
 
 class ContractError(Exception):
     """One line about a contract that cannot be read; it names the file."""
-
-
-def published(scenes):
-    """Each figure of the contract -> its scene: the files of the config that users see."""
-    found = {path: scene for path, (scene, _) in config.figures({config.PAPER: scenes}).items()}
-    return {path: scene for path, scene in found.items() if path.startswith(f"{FOLDER}/")}
-
-
-def scene_sources(block):
-    """The project's files behind a scene, from the root: those of its stages and its drawing."""
-    files = set(sources.drawing_code(block["picture"]))
-    return sorted(files.union(*map(sources.stage_code, config.STAGES[block["picture"]])))
-
-
-def scene_data(scenes):
-    """Scene -> stage -> the artifact that it is drawn from."""
-    serves = config.served({config.PAPER: scenes})
-    return {
-        scene: {stage: serves[config.PAPER, scene, stage] for stage in config.stages(block)}
-        for scene, block in scenes.items()
-    }
 
 
 def describe_data(dataset):
@@ -71,25 +48,25 @@ def describe_data(dataset):
 def build(root, contract):
     """The manifest of a tree that has its results and figures; raises ValueError or OSError."""
     artifacts = sorted({path for stages in contract.data.values() for path in stages.values()})
+    sources = {scene: contract.sources(scene) for scene in contract.config}
     return {
-        "environment": provenance.versions(),
+        "environment": versions(),
         "sources": {
-            path: provenance.file_hash(root / path)
-            for path in sorted(set().union(*contract.sources.values()))
+            path: file_hash(root / path) for path in sorted(set().union(*sources.values()))
         },
         "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
         "scenes": {
             scene: {
                 "config": block,
-                "sources": contract.sources[scene],
+                "sources": sources[scene],
                 "data": {stage: Path(path).name for stage, path in contract.data[scene].items()},
                 "figures": {
-                    Path(path).name: {
-                        "drawing": describe(root / path),
-                        "sha256": provenance.file_hash(root / path),
+                    name: {
+                        "drawing": describe(root / contract.folder / name),
+                        "sha256": file_hash(root / contract.folder / name),
                     }
-                    for path in sorted(contract.figures)
-                    if contract.figures[path] == scene
+                    for name in sorted(contract.drawn)
+                    if contract.scenes[name] == scene
                 },
             }
             for scene, block in contract.config.items()
@@ -97,7 +74,12 @@ def build(root, contract):
     }
 
 
-def read(root, folder=FOLDER):
+def there(root, contract):
+    """Whether anything of a contract is committed."""
+    return any((root / contract.folder / name).exists() for name in (MANIFEST, SUMS))
+
+
+def read(root, folder):
     """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
     name = f"{folder}/{MANIFEST}"
     try:
@@ -112,7 +94,7 @@ def read(root, folder=FOLDER):
     return manifest
 
 
-def read_sums(root, folder=FOLDER):
+def read_sums(root, folder):
     """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
     path = f"{folder}/{SUMS}"
     found = {}

@@ -3,9 +3,8 @@
 import html
 import json
 
-import numpy as np
-
-from pseudorigid.dynamics.periodic import of_type
+from ..config import KINDS, stages
+from ..records.record import record_path
 
 # What the paper prints, in its text and captions: scene -> quantity -> value.
 PRINTED = {
@@ -25,68 +24,8 @@ PARAMETERS = {f"fig{n}": "0.2, 0.04, 0.01" for n in range(2, 8)} | {"fig8": "0.2
 NOT_PRINTED = "not printed"
 
 
-def portrait(block, orbits):
-    """quantity -> our value, from the artifacts of a portrait; likewise for the other pictures."""
-    return {"orbits": f"{orbits.sizes['orbit']}", "impacts": f"{orbits.sizes['point']:,}"}
-
-
-def motion(block, periodic, motion):
-    """One orbit in time."""
-    t = motion["t"].values
-    return _orbit(periodic, block) | {
-        "time": f"{t[0]:g} to {t[-1]:g}",
-        "time of one period": f"{float(of_type(periodic, block['type'])['total_time']):.6f}",
-    }
-
-
-def tangle(block, orbits, periodic, manifolds):
-    """A saddle's branches."""
-    return _orbit(periodic, block) | {
-        "branches": f"{manifolds.sizes['branch']}",
-        "points of the lines": f"{manifolds.sizes['vertex']:,}",
-    }
-
-
-def closeup(block, periodic, manifolds):
-    """A saddle's surroundings."""
-    return _orbit(periodic, block) | {
-        "x of the point": f"{manifolds.attrs['point_x']:.7f}",
-        "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
-    }
-
-
-def exponents(block, lyapunov):
-    """The last values of the largest exponent."""
-    last = np.sort(lyapunov["exponent"].values[-1, :, 0])
-    spread = f", standard deviation {np.std(last, ddof=1):.4f}" if last.size > 1 else ""
-    return {
-        "largest exponent": ", ".join(f"{value:.4f}" for value in last),
-        "their mean": f"{np.mean(last):.4f}{spread}",
-        "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
-    }
-
-
-PICTURES = {
-    "portrait": portrait,
-    "motion": motion,
-    "tangle": tangle,
-    "closeup": closeup,
-    "exponents": exponents,
-}
-# The quantity that stands for a kind of picture in the report's list.
-TELLING = {
-    "portrait": "impacts",
-    "motion": "orbit",
-    "tangle": "orbit",
-    "closeup": "x of the point",
-    "exponents": "largest exponent",
-}
-
-
 def numbers(scenes, load):
     """Scene -> rows (quantity, the paper's value, ours); `load(scene, stage)` reads an artifact."""
-    from ..config import stages
-
     found = {}
     for scene, block in scenes.items():
         data = {stage: load(scene, stage) for stage in stages(block)}
@@ -95,7 +34,7 @@ def numbers(scenes, load):
                 map(str, (block["ball"]["k"], block["ball"]["g"], block["energy"]))
             )
         }
-        ours |= PICTURES[block["picture"]](block, **data)
+        ours |= KINDS[block["picture"]].numbers(block, **data)
         printed = {"k, g, energy": PARAMETERS[scene]} if scene in PARAMETERS else {}
         printed |= PRINTED.get(scene, {})
         found[scene] = [(key, printed.get(key, NOT_PRINTED), ours[key]) for key in ours]
@@ -104,15 +43,13 @@ def numbers(scenes, load):
 
 def label(scene, picture, rows):
     """A figure's line in the list: its most telling number here and in the paper."""
-    quantity = TELLING[picture]
+    quantity = KINDS[picture].telling
     paper, ours = {key: values for key, *values in rows}[quantity]
     return f"{scene}: {quantity} {ours} (the paper: {paper})"
 
 
 def provenance(root, paths):
     """(rows (file, sha256, commit), {packages: files}) from the records of results."""
-    from ..records.provenance import record_path
-
     rows, packages = [], {}
     for path in paths:
         record = json.loads((root / record_path(path)).read_text(encoding="utf-8"))
@@ -143,12 +80,3 @@ def page(title, head, rows, notes=()):
         f"<style>{style}</style></head><body><h1>{title}</h1>\n<table>\n{body}\n</table>"
         f"{below}</body></html>\n"
     )
-
-
-def _orbit(periodic, block):
-    orbit = of_type(periodic, block["type"])
-    if block["type"] == "elliptic":
-        about = {"rotation number": f"{float(orbit['rotation_number']):.6f}"}
-    else:
-        about = {"multiplier": f"{float(orbit['multiplier']):.6f}"}
-    return {"orbit": f"{block['type']}, period {block['period']}"} | about

@@ -1,168 +1,91 @@
-"""./reproduce verify and accept: whether this tree has the committed figures, and if not, why.
+"""Whether this tree has the committed bytes, and if not, what differs; nothing is computed again.
 
-Nothing is computed again. Both print to stdout and return an exit status.
+Red, and exit 1: bytes that differ, of a published file or its data; results that this tree's
+config and sources did not make; a contract that is broken. A note, and exit 0: whatever else
+differs behind the committed bytes.
 """
 
-import argparse
-from pathlib import Path
-
 from .. import config
-from ..records.provenance import file_hash
-from . import contract as contracts
-from . import manifest
-from .audit import audit
-from .layers import Comparison
+from ..records.files import file_hash
+from . import contracts, manifest
+from .currency import MISSING, Currency
+from .difference import UPSTREAM, Comparison
 
-_UPSTREAM = {"config", "source", "environment"}
+NEW = "new: ./reproduce accept adds it to the contract"
 
 
-def verify(root, arguments, start="."):
-    """Compare the tree at `root` with the contract; 0 when every figure is identical.
+def verify(root, checked, against=None, strict=False):
+    """Print what differs between the tree at `root` and its contracts; 0 where nothing is red.
 
-    A relative folder in the arguments is seen from `start`.
+    `checked` is the checked config, `against` a folder with another tree or its results, or None;
+    `strict` makes notes red.
     """
-    parser = argparse.ArgumentParser(
-        prog="reproduce verify",
-        description="Say for each figure whether it is the committed one, or the first layer that "
-        "differs: config, source, environment, data, drawing or file.",
-    )
-    parser.add_argument(
-        "--against",
-        type=Path,
-        metavar="FOLDER",
-        help="another tree or its results: how many ulp lie between its data and these",
-    )
-    against = parser.parse_args(arguments).against
-    if against is not None:
-        against = Path(start) / against
-        if not against.is_dir():
-            print(f"reproduce verify: no folder {against}")
-            return 1
     status = 0
-    for contract in _contracts(root):
-        status |= _verify(root, contract, against)
+    for contract in contracts.committed(checked):
+        if not contract.on_request or manifest.there(root, contract):
+            red, notes = _verify(root, contract, against)
+            status |= bool(red or (strict and notes))
     return status
 
 
-def _contracts(root):
-    """What verify looks at: the study's charts only where their contract is committed."""
-    scenes = config.load(root / "config.yaml")["scenes"]
-    yield contracts.paper(scenes)
-    study = contracts.study(scenes)
-    if any((root / study.folder / name).exists() for name in (manifest.MANIFEST, manifest.SUMS)):
-        yield study
-
-
 def _verify(root, contract, against):
-    findings = []
+    """(red findings, notes), having printed a line or more for each published file and each."""
     try:
         committed = manifest.read(root, contract.folder)
-        verdicts = _by_layers(Comparison(root, contract, committed, against), contract.figures)
-        findings += _surplus(root, contract, manifest.figures(committed))
+        findings = _surplus(root, contract, manifest.figures(committed))
     except manifest.ContractError as error:
-        committed = None
-        findings.append(f"{error}: the layers cannot be compared")
-        verdicts = {}
+        committed, findings = None, [f"{error}: the layers cannot be compared"]
     findings += _sums(root, contract, committed)
-    width = max(len(name) for name in contract.names)
-    for path in contract.figures:
-        name = Path(path).name
-        print(f"{name:{width}}  {verdicts.get(path) or _by_sums(root, path)}")
-    problems, missing = audit(root, contract.makers)
-    findings += _grouped(problems, verdicts.values())
-    identical = sum(verdict == "identical" for verdict in verdicts.values())
-    print()
-    for finding in findings:
-        print(finding)
-    _say_what_is_missing(contract, missing)
-    print(f"{identical} of {len(contract.figures)} {contract.what} identical", end="")
-    print(f"; {len(findings)} other finding{'s' * (len(findings) > 1)}" if findings else "")
-    return 0 if identical == len(contract.figures) and not findings else 1
+    stale = Currency(root, contract.expected).outdated()
+    comparison = committed and Comparison(root, contract, committed, against)
+    width = max(map(len, contract.drawn), default=0)
+    different, behind = [], []
+    for name in contract.drawn:
+        lines, notes = _verdict(root, contract, name, comparison, stale)
+        different += [name] if lines else []
+        behind += [(name, words) for words in notes]
+        first, *more = lines or ["new" if notes == [NEW] else "identical"]
+        print(f"{name:{width}}  {first}")
+        for line in more:
+            print(f"{'':{width}}  {line}")
+    made = [(path, f"{why}: run {contract.command}") for path, why in stale.items()]
+    findings += _grouped((path, why) for path, why in made if stale[path] != MISSING)
+    notes = [f"note: {line}" for line in _grouped(behind)]
+    print("", *findings, *notes, sep="\n")
+    _say_what_is_missing(contract, [path for path, why in stale.items() if why == MISSING])
+    new = sum(words == NEW for _, words in behind)
+    identical = len(contract.drawn) - len(different) - new
+    print(f"{identical} of {len(contract.drawn)} {contract.what} identical", end="")
+    print(_counted(len(findings), "other finding") + _counted(len(notes), "note"))
+    return different + findings, notes
 
 
-def accept(root, arguments):
-    """Renew the contract from complete and current results; 1, and nothing done, without them.
-
-    That of the study is renewed if its results are there, and otherwise stays as it is.
-    """
-    parser = argparse.ArgumentParser(
-        prog="reproduce accept",
-        description="Make the figures, and the study's charts where they were made, as they are "
-        "now the committed ones, and say what changed.",
-    )
-    parser.parse_args(arguments)
-    scenes = config.load(root / "config.yaml")["scenes"]
-    paper, study = contracts.paper(scenes), contracts.study(scenes)
-    problem = _not_ready(root, paper)
-    if problem:
-        print(f"reproduce accept: {problem}: run ./reproduce first")
-        return 1
-    _accept(root, paper)
-    if any((root / path).exists() for path in study.makers):
-        problem = _not_ready(root, study)
-        if problem:
-            print(f"{study.folder} stays as it is: {problem}: run ./reproduce study first")
-        else:
-            _accept(root, study)
-    return 0
+def _verdict(root, contract, name, comparison, stale):
+    """(lines on what is wrong with a published file, notes on what differs behind it)."""
+    if comparison is None:
+        return _by_sums(root, contract, name), []
+    layers = comparison.layers(name)
+    if layers is None:
+        return [], [NEW]
+    words = [f"{layer}: {text}" for layer, text in layers.items()]
+    # Another config shows in the bytes, or does not matter, once its own results are here.
+    current = contract.on_request or contract.drawn[name] not in stale
+    harmless = UPSTREAM if current else UPSTREAM - {"config"}
+    return ([], words) if set(layers) <= harmless else (words, [])
 
 
-def _accept(root, contract):
-    folder, files = contract.folder, contract.figures
+def _by_sums(root, contract, name):
+    """What is wrong with a published file where there is no manifest to ask."""
     try:
-        committed = manifest.read(root, folder)
-        sums = manifest.read_sums(root, folder)
-    except manifest.ContractError as error:
-        committed = sums = None
-        changes = [f"a new contract ({error})"]
-    else:
-        comparison = Comparison(root, contract, committed)
-        changes = []
-        for path, scene in files.items():
-            name = Path(path).name
-            layers = list(comparison.findings(scene, name))
-            changes += [f"{name}  {layer}: {words}" for layer, words in layers]
-            if layers and {layer for layer, _ in layers} <= _UPSTREAM:
-                changes.append(f"{name}  the file is the same")
-        changes += _surplus(root, contract, manifest.figures(committed))
-    fresh = manifest.build(root, contract)
-    if fresh == committed and sums == manifest.sums(fresh):
-        print("nothing changed" if folder == manifest.FOLDER else f"{folder}: nothing changed")
-        return
-    manifest.write(root, folder, fresh)
-    for change in changes or [f"other changes behind the same {contract.what}"]:
-        print(change)
-    renewed = f"{folder}/{manifest.SUMS} and {folder}/{manifest.MANIFEST} renewed"
-    print(f"{renewed}: {len(files)} {contract.what}")
-
-
-def _by_layers(comparison, files):
-    """Each figure -> `identical`, or the first layer that differs and how."""
-    verdicts = {}
-    for path, scene in files.items():
-        layers = list(comparison.findings(scene, Path(path).name))
-        if not layers:
-            verdicts[path] = "identical"
-            continue
-        layer, words = layers[0]
-        verdicts[path] = f"{layer}: {words}"
-        if {layer for layer, _ in layers} <= _UPSTREAM and comparison.file_hash(path):
-            verdicts[path] += " (the file is as committed)"
-    return verdicts
-
-
-def _by_sums(root, path):
-    """The verdict where there is no manifest to ask."""
-    try:
-        wanted = manifest.read_sums(root, Path(path).parent).get(Path(path).name)
+        wanted = manifest.read_sums(root, contract.folder).get(name)
     except manifest.ContractError:
         wanted = None
-    digest = file_hash(root / path)
+    digest = file_hash(root / contract.folder / name)
     if digest is None:
-        return "file: missing"
+        return ["file: missing"]
     if wanted is None:
-        return "file: nothing to compare it with"
-    return "file: as in SHA256SUMS" if digest == wanted else "file: differs from SHA256SUMS"
+        return ["file: nothing to compare it with"]
+    return [f"file: {'as in' if digest == wanted else 'differs from'} SHA256SUMS"]
 
 
 def _sums(root, contract, committed):
@@ -171,40 +94,41 @@ def _sums(root, contract, committed):
         sums = manifest.read_sums(root, contract.folder)
     except manifest.ContractError as error:
         return [str(error)]
-    path = f"{contract.folder}/{manifest.SUMS}"
-    found = [f"{path}: no line for {name}" for name in sorted(contract.names - set(sums))]
+    if committed is None:
+        return []
+    path, listed = f"{contract.folder}/{manifest.SUMS}", manifest.figures(committed)
+    found = [f"{path}: no line for {name}" for name in sorted(set(listed) - set(sums))]
     found += [
-        f"{path}: a line for {name}, which config.yaml does not publish"
-        for name in sorted(set(sums) - contract.names)
+        f"{path}: a line for {name}, which the manifest has not"
+        for name in sorted(set(sums) - set(listed))
     ]
-    if committed is not None:
-        for name, entry in manifest.figures(committed).items():
-            if sums.get(name, entry["sha256"]) != entry["sha256"]:
-                found.append(f"{path}: not the hash of {name} that MANIFEST.json has")
-    return found
+    return found + [
+        f"{path}: not the hash of {name} that MANIFEST.json has"
+        for name, entry in listed.items()
+        if sums.get(name, entry["sha256"]) != entry["sha256"]
+    ]
 
 
 def _surplus(root, contract, listed):
     """Files that are there or in the manifest but that nothing makes."""
-    folder, names = contract.folder, contract.names
+    folder = contract.folder
     found = [
         f"{folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not publish"
-        for name in sorted(set(listed) - names)
+        for name in sorted(set(listed) - set(contract.drawn))
     ]
     there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in config.SHOWN}
     return found + [
         f"{folder}/{name}: no scene of config.yaml makes it"
-        for name in sorted(there - names - set(listed) - set(contract.measured))
+        for name in sorted(there - set(contract.drawn) - set(listed) - set(contract.measured))
     ]
 
 
-def _grouped(problems, verdicts):
-    """One line for each kind of problem, without the results that a figure's verdict names."""
+def _grouped(pairs):
+    """One line for each kind of words, with all that they are said of."""
     kinds = {}
-    for path, problem in problems.items():
-        if not any(f"{path}:" in verdict for verdict in verdicts):
-            kinds.setdefault(problem, []).append(path)
-    return [f"{_listed(paths)}: {problem}" for problem, paths in kinds.items()]
+    for what, words in pairs:
+        kinds.setdefault(words, []).append(what)
+    return [f"{_listed(what)}: {words}" for words, what in kinds.items()]
 
 
 def _listed(paths):
@@ -212,23 +136,13 @@ def _listed(paths):
     return ", ".join(paths[:4] if more else paths) + more
 
 
+def _counted(number, what):
+    return f"; {number} {what}{'s' * (number > 1)}" if number else ""
+
+
 def _say_what_is_missing(contract, missing):
-    if set(missing) == set(contract.makers):
-        how = contract.command.format("").strip()
-        print(f"no results here: only the committed files were checked ({how} makes the rest)")
+    if missing and set(missing) == set(contract.expected):
+        how = f"{contract.command} makes the rest"
+        print(f"no results here: only the committed files were checked ({how})")
     elif missing:
         print(f"not checked, since not there: {_listed(missing)}")
-
-
-def _not_ready(root, contract):
-    """Why the results cannot be accepted, or None."""
-    problems, missing = audit(root, contract.makers)
-    if missing:
-        return f"{missing[0]} is missing"
-    for path, problem in problems.items():
-        return f"{path}: {problem}"
-    for path in contract.figures:
-        drawing = contract.drawn[Path(path).name]
-        if file_hash(root / path) != file_hash(root / drawing):
-            return f"{path} is not {drawing}"
-    return None

@@ -4,7 +4,8 @@ import os
 import subprocess
 import sys
 
-from .runner import ROOT
+from ..records.sources import ROOT
+from .folder import say
 
 
 def add_packages(name: str) -> int:
@@ -13,7 +14,7 @@ def add_packages(name: str) -> int:
     stamp = ROOT / ".venv" / f"{name}-stamp"  # goes with .venv when that is made anew
     if stamp.is_file() and stamp.read_bytes() == wanted:
         return 0
-    print(f"reproduce: installing requirements/{name}.txt into .venv (once)", file=sys.stderr)
+    say(f"installing requirements/{name}.txt into .venv (once)")
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / f"{name}.txt")]
     status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})

@@ -16,32 +16,27 @@ import xarray as xr
 from .files import replacing
 
 CONVENTIONS = "CF-1.11"
-REQUIRED = ("stage", "k", "g", "energy", "config")
 
 
 class ArtifactError(ValueError):
     """A dataset that cannot be saved, or a file that is no artifact; the message names it."""
 
 
-def save(dataset, path, *, stage, ball, energy, config, **extra_attrs):
-    """Save `dataset` to `path` as netCDF-4, whole or not at all, and return the path.
+def save(dataset, path, config, **attributes):
+    """Save `dataset` to `path` as netCDF-4, whole or not at all.
 
-    `ball` has `k` and `g`; `config` is the block of configuration behind the data, stored as
-    canonical JSON; `extra_attrs` become global attributes beside the dataset's own. Every variable
-    needs `long_name` and, strings apart, units "1". NaN is stored as it is: no variable has a
-    fill value. Raises ArtifactError.
+    `config` is the block of configuration behind the data, stored as canonical JSON;
+    `attributes` become global ones beside the dataset's own. Every variable needs `long_name` and,
+    strings apart, units "1". NaN is stored as it is: no variable has a fill value. Raises
+    ArtifactError.
     """
-    path = Path(path)
-    dataset = dataset.copy()
-    dataset.attrs |= extra_attrs
-    dataset.attrs |= {"stage": stage, "k": float(ball.k), "g": float(ball.g)}
-    dataset.attrs |= {"energy": float(energy), "config": canonical_json(config)}
-    dataset.attrs["Conventions"] = CONVENTIONS
+    dataset = dataset.assign_attrs(
+        attributes, config=canonical_json(config), Conventions=CONVENTIONS
+    )
     dataset = _with_sample_dimension(dataset, path)
     _check(dataset, path)
     with replacing(path) as part:
         _write(dataset, part)
-    return path
 
 
 def load(path):
@@ -53,10 +48,7 @@ def load(path):
     path = Path(path)
     if not path.is_file():
         raise ArtifactError(f"{path}: no such artifact")
-    try:
-        return _read(path)
-    except ArtifactError as error:
-        raise ArtifactError(f"{error}; delete it and run ./reproduce again") from error.__cause__
+    return _read(path)
 
 
 def content_hash(dataset):
@@ -115,9 +107,8 @@ def _read(path):
     except (OSError, RuntimeError, UnicodeDecodeError) as error:
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
         raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
-    missing = [name for name in REQUIRED if name not in attrs]
-    if missing:
-        raise ArtifactError(f"{path}: not an artifact: no attribute {', '.join(missing)}")
+    if "config" not in attrs:
+        raise ArtifactError(f"{path}: not an artifact: no attribute config")
     try:
         dataset = xr.Dataset(variables, attrs=attrs)
         _check(dataset, path)

@@ -21,18 +21,29 @@ def whole_number(name, value):
 class Ball:
     """A pseudo-rigid ball, dimensionless: lengths in R, times in 1/omega.
 
-    Args:
-        k: Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
-        g: gravity, eq. (20), g > 0.
-        map: how the next impact is found; the certified march unless another ImpactMap is given.
-
     A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on
     the section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast,
     and return numbers for scalars and arrays of the broadcast shape otherwise; each element has
     the bits of the scalar call. Input that is NaN or infinite gives NaN.
 
-    Raises:
-        ValueError: k or g outside its range, or a state with xdot + udot < 0.
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
+    g : float
+        Gravity, eq. (20), g > 0.
+    map : ImpactMap, optional
+        How the next impact is found: by default the certified march.
+
+    Raises
+    ------
+    ValueError
+        k or g outside its range; from methods, a state with xdot + udot < 0.
+
+    References
+    ----------
+    Equations are those of Kanso and Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid
+    foundation".
     """
 
     k: float
@@ -40,32 +51,41 @@ class Ball:
     map: ImpactMap = field(default_factory=ImpactMap, compare=False, repr=False)
 
     def __post_init__(self):
-        for name in ("k", "g"):
+        for name, most, allowed in (("k", 1.0, "0 < k <= 1"), ("g", math.inf, "g > 0, finite")):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
                 raise ValueError(f"{name} = {value!r} is not a number")
+            if not (0.0 < value <= most and value < math.inf):
+                raise ValueError(f"{name} = {float(value)!r} is not allowed: {allowed}")
             object.__setattr__(self, name, float(value))
-        if not 0.0 < self.k <= 1.0:
-            raise ValueError(f"k = {self.k!r} is not allowed: 0 < k <= 1")
-        if not 0.0 < self.g < math.inf:
-            raise ValueError(f"g = {self.g!r} is not allowed: g > 0, finite")
 
     def energy(self, x, xdot, udot):
         """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
         x, xdot, udot = _floats(x, xdot, udot)
-        return _plain(
-            0.5 * xdot * xdot + 0.5 * self.k * udot * udot - self.g * x + 0.5 * self.k * x * x
-        )
+        kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
+        return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
     def energy_bounds(self):
         """(lowest, highest) energy: at rest on the floor, -g^2/(2k), and k/2 - g, eq. (31)."""
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     def section(self, energy):
-        """(centre, radius) of the section along y = 0: x from centre - radius to centre + radius.
+        """The section along y = 0: x from centre - radius to centre + radius.
 
         The energy surface's half is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
-        Raises ValueError below the lowest energy.
+
+        Parameters
+        ----------
+        energy : float
+
+        Returns
+        -------
+        centre, radius : float
+
+        Raises
+        ------
+        ValueError
+            An energy below the lowest.
         """
         square = (2.0 * energy + self.g * self.g / self.k) / self.k
         if not 0.0 <= square < math.inf:
@@ -74,31 +94,50 @@ class Ball:
         return self.g / self.k, math.sqrt(square)
 
     def state(self, x, xdot, energy, branch=1):
-        """The state (x, xdot, udot) with this energy, eq. (29).
+        """The state with this energy, eq. (29).
 
-        Of two, that with the larger udot, or with branch=-1 the other.
+        Parameters
+        ----------
+        x, xdot, energy : float or array
+        branch : {1, -1}
+            Of two states, that with the larger udot, or the other.
 
-        Raises ValueError where the energy surface has no such point with xdot + udot >= 0.
+        Returns
+        -------
+        x, xdot, udot : float or array
+
+        Raises
+        ------
+        ValueError
+            The energy surface has no such point with xdot + udot >= 0.
         """
         if branch not in (1, -1):
             raise ValueError(f"branch = {branch!r} is not allowed: 1 or -1")
         x, xdot, energy = _floats(x, xdot, energy)
         square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
         if not np.all(square >= 0.0):
-            raise ValueError(
-                "no state with this x, xdot and energy: the kinetic energy is too small"
-            )
+            raise ValueError("no state with this x, xdot and energy: too little kinetic energy")
         udot = branch * np.sqrt(square)
         if not np.all(xdot + udot >= 0.0):
-            raise ValueError(
-                "no state with this x, xdot and energy on the section xdot + udot >= 0"
-            )
+            raise ValueError("no state with this x, xdot and energy on the section, eq. (22)")
         return _plain(x), _plain(xdot), _plain(udot)
 
     def state_xy(self, x, y, energy):
-        """The state (x, xdot, udot) at the point (x, y = xdot - k udot) of the canonical chart.
+        """The state at a point of the canonical chart, in which the map keeps areas.
 
-        Raises ValueError outside the section's disk.
+        Parameters
+        ----------
+        x, y, energy : float or array
+            y = xdot - k udot.
+
+        Returns
+        -------
+        x, xdot, udot : float or array
+
+        Raises
+        ------
+        ValueError
+            A point outside the section's disk.
         """
         x, y, energy = _floats(x, y, energy)
         k = self.k
@@ -110,7 +149,18 @@ class Ball:
         return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
 
     def start(self, fraction, energy):
-        """The state on y = 0 at this fraction, -1 to 1, of the section's radius."""
+        """The state on y = 0 at a fraction of the section's radius.
+
+        Parameters
+        ----------
+        fraction : float or array
+            From -1 to 1.
+        energy : float
+
+        Returns
+        -------
+        x, xdot, udot : float or array
+        """
         centre, radius = self.section(energy)
         (f,) = _floats(fraction)
         if not np.all(np.abs(f) <= 1.0):
@@ -120,9 +170,7 @@ class Ball:
         return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
     def reflect(self, x, xdot, udot):
-        """The reversor R, (x, y) -> (x, -y): the velocities after the impact, eq. (25),
-        reversed.
-        """
+        """The reversor R, (x, y) -> (x, -y): velocities after the impact, eq. (25), reversed."""
         x, xdot, udot = self.on_section(x, xdot, udot)
         b, c, _ = rebound(xdot, udot, self.k, *transfer(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
@@ -136,75 +184,111 @@ class Ball:
         return self.impact(x, xdot, udot)[3]
 
     def impact(self, x, xdot, udot):
-        """The impact map, eq. (28): the state just before the next impact, and the flight time.
+        """The impact map, eq. (28).
 
-        Returns (x, xdot, udot, tau). At a double root, where the ball just touches the floor, tau
-        is only defined to the square root of a rounding.
+        At a double root, where the ball just touches the floor, tau is only defined to the square
+        root of a rounding.
+
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        x, xdot, udot, tau : float or array
+            The state just before the next impact, and the flight time.
         """
-        return self._each("steps", x, xdot, udot)
+        return self._once(self.map.steps, x, xdot, udot)
 
     def inverse_impact(self, x, xdot, udot):
-        """The state just before the previous impact, and the flight time since: F^-1 = R F R.
+        """The impact map's inverse, F^-1 = R F R.
 
-        Returns (x, xdot, udot, tau).
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        x, xdot, udot, tau : float or array
+            The state just before the previous impact, and the flight time since.
         """
-        return self._each("steps_back", x, xdot, udot)
+        return self._once(self.map.steps_back, x, xdot, udot)
 
     def jacobian(self, x, xdot, udot, impacts=1):
         """The analytic Jacobian of the map with respect to (x, xdot, udot), eq. (33).
 
-        Returns an array of shape (..., 3, 3). With `impacts` that of the map's iterate, by the
-        chain rule.
+        Not finite where the next impact is grazing, xdot + udot = 0 there: the map is not
+        differentiable.
 
-        Row i, column j: the derivative of the i-th new variable by the j-th old one. Not finite
-        where the next impact is grazing, xdot + udot = 0 there: the map is not differentiable.
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+        impacts : int
+            Of the map's iterate, by the chain rule.
+
+        Returns
+        -------
+        ndarray, shape (..., 3, 3)
+            Row i, column j: the derivative of the i-th new variable by the j-th old one.
         """
         impacts = whole_number("impacts", impacts)
-        state = self.on_section(x, xdot, udot)
-        x, xdot, udot = (a.flatten() for a in state)
-        out = np.empty((x.size, 3, 3))
-        self.map.jacobians(x, xdot, udot, self.k, self.g, impacts, out)
-        return out.reshape(*state[0].shape, 3, 3)
-
-    def _each(self, loop, x, xdot, udot):
-        state = self.on_section(x, xdot, udot)
-        shape = state[0].shape
-        x, xdot, udot = (a.flatten() for a in state)
-        tau = np.empty(x.size)
-        getattr(self.map, loop)(x, xdot, udot, self.k, self.g, 1, tau)
-        return tuple(_plain(a.reshape(shape)) for a in (x, xdot, udot, tau))
+        columns, shape = self.columns(x, xdot, udot)
+        out = np.empty((columns[0].size, 3, 3))
+        self.map.jacobians(*columns, self.k, self.g, impacts, out)
+        return out.reshape(*shape, 3, 3)
 
     def chart_jacobian(self, x, xdot, udot, impacts=1):
-        """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy, of one state, scalars.
+        """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy.
 
-        Returns two rows of two numbers; the determinant is 1. Not finite on the rim.
+        Not finite on the rim.
+
+        Parameters
+        ----------
+        x, xdot, udot : float
+            One state.
+        impacts : int
+
+        Returns
+        -------
+        tuple
+            Two rows of two numbers; the determinant is 1.
         """
         k, g = self.k, self.g
         s = xdot + udot
         y = xdot - k * udot
-        s_x, s_y = (1.0 + k) * (g - k * x) / (k * s), -y / (k * s)
-        along = (
-            (1.0, k * s_x / (1.0 + k), s_x / (1.0 + k)),
-            (0.0, (1.0 + k * s_y) / (1.0 + k), (s_y - 1.0) / (1.0 + k)),
-        )
+        # the derivatives of s by x and y, and with them those of the state, a column each
+        unit = np.array([0.0, 1.0])
+        slope = np.array([(1.0 + k) * (g - k * x), -y]) / (k * s)
+        along = np.stack((1.0 - unit, (k * slope + unit) / (1.0 + k), (slope - unit) / (1.0 + k)))
         j = self.jacobian(x, xdot, udot, impacts)
-        columns = []
-        for vector in along:
-            dx, dv, dw = (
-                (j[row, 0] * vector[0] + j[row, 1] * vector[1]) + j[row, 2] * vector[2]
-                for row in range(3)
-            )
-            columns.append((float(dx), float(dv - k * dw)))
-        return tuple(zip(*columns, strict=True))
+        dx, dv, dw = (j[:, :, None] * along).sum(axis=1)
+        return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
     def on_section(self, x, xdot, udot):
         """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
         x, xdot, udot = _floats(x, xdot, udot)
-        with np.errstate(invalid="ignore"):  # inf - inf
-            off = np.any(xdot + udot < 0.0)
-        if off:
+        if np.any(xdot < -udot):  # a sum would warn of inf - inf
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
+
+    def columns(self, x, xdot, udot):
+        """States for a loop that advances them in place.
+
+        Returns
+        -------
+        columns : list
+            Copies of the three arrays, (n,).
+        shape : tuple
+            What they were before.
+        """
+        state = self.on_section(x, xdot, udot)
+        return [a.flatten() for a in state], state[0].shape
+
+    def _once(self, loop, x, xdot, udot):
+        columns, shape = self.columns(x, xdot, udot)
+        tau = np.empty(columns[0].size)
+        loop(*columns, self.k, self.g, 1, tau)
+        return tuple(_plain(a.reshape(shape)) for a in (*columns, tau))
 
 
 def _floats(*values):
@@ -213,5 +297,4 @@ def _floats(*values):
 
 def _plain(array):
     """A 0-dimensional result as a Python float."""
-    array = np.asarray(array)
-    return float(array) if array.ndim == 0 else array
+    return float(array) if np.ndim(array) == 0 else array

@@ -14,6 +14,7 @@ from ..kernel import impact as kernel
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
 from .ball import whole_number
+from .starts import start_state, start_variables
 from .variables import orbit_dims
 
 
@@ -54,11 +55,30 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
 
 
 def scene_exponents(ball, energy, starts, impacts, records):
-    """`lyapunov_spectrum` of a scene: starts are fractions of the section's radius on y = 0."""
-    states = ball.start(np.asarray(starts, dtype=float), energy)
-    spectrum = lyapunov_spectrum(ball, states, impacts, records)
-    attributes = {"long_name": "start along y = 0, in section radii from the centre", "units": "1"}
-    return spectrum.assign(start=("orbit", np.asarray(starts, dtype=float), attributes))
+    """`lyapunov_spectrum` of a scene.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    starts : list
+        Where its orbits start, each as in `starts.start_state`.
+    impacts : int or list of int
+        How many impacts of each; where they differ `exponent` is NaN at the records of others.
+    records : int
+        How many records of each orbit.
+    """
+    states = np.array([start_state(ball, energy, start) for start in starts])
+    if isinstance(impacts, list) and len(set(impacts)) > 1:
+        each = [
+            lyapunov_spectrum(ball, state[:, None], count, records)
+            for state, count in zip(states, impacts, strict=True)
+        ]
+        spectrum = xr.concat(each, "orbit", join="outer").transpose("impact", "orbit", "index")
+    else:
+        count = impacts[0] if isinstance(impacts, list) else impacts
+        spectrum = lyapunov_spectrum(ball, tuple(states.T), count, records)
+    return spectrum.assign(start_variables(starts, states))
 
 
 @jit

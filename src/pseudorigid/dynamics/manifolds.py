@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos
-from .variables import variables
+from .variables import of_type, variables
 
 # End of the first segment in section radii: it misses the branch by about its square.
 START = 1e-6
@@ -43,7 +43,7 @@ def trace_manifold(
     Args:
         ball: a Ball.
         energy: the energy of the orbit.
-        orbit: Dataset of one orbit, x, xdot, udot on `point`, as from periodic.of_type. An inverse
+        orbit: Dataset of one orbit, x, xdot, udot on `point`, as from variables.of_type. An inverse
             hyperbolic one is traced under P^2n.
         saddle: index of the point.
         stable: the stable branch instead of the unstable one.
@@ -111,50 +111,61 @@ def _check(ball, energy, points, saddle, side, length, distance, bend, window):
         refuse("window", window, "(x_low, x_high, xdot_low, xdot_high)")
 
 
-def scene_manifolds(ball, energy, orbit, branches, resolution):
-    """Both manifolds of every point of an orbit: `branches` gives {side: {"length": L}}.
+def scene_manifolds(
+    ball,
+    energy,
+    periodic,
+    period,
+    type,
+    resolution,
+    branches=None,
+    point=None,
+    window=None,
+    length=None,
+):
+    """Both manifolds of every point of an orbit: whole branches, or what a window shows of them.
 
-    Returns:
-        Dataset of x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0
-        or 1), saddle and side.
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    periodic : xarray.Dataset
+        Orbits of this period, as from `symmetric_orbits`.
+    period, type
+        Of the orbit.
+    resolution : mapping
+        `distance` and `bend` of `trace_manifold`.
+    branches : mapping, optional
+        {side: {"length": L}}, in section radii: whole branches.
+    point, window, length : optional
+        Instead: the index of a point, a window {"x": [a, b], "xdot": [a, b]} relative to it, and
+        how far the branches are followed, in section radii.
+
+    Returns
+    -------
+    xarray.Dataset
+        x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0 or 1),
+        saddle and side. With a window the attributes window_x, window_xdot, point_x, point_xdot.
     """
+    orbit = of_type(periodic, type, period)
+    if window is None:
+        how = {side: {"length": branches[side]["length"]} for side in sorted(branches)}
+        about = {}
+    else:
+        radius = ball.section(energy)[1]
+        centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}
+        edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
+        box = (*edges["x"], *edges["xdot"])
+        how = {side: {"length": length, "window": box} for side in ("inner", "outer")}
+        about = {f"window_{name}": edges[name] for name in centre}
+        about |= {f"point_{name}": centre[name] for name in centre}
     requests = [
-        (saddle, side, stable, {"length": branches[side]["length"]})
-        for side in sorted(branches)
+        (saddle, side, stable, how[side])
+        for side in how
         for stable in (False, True)
-        for saddle in range(orbit.sizes["point"])
+        for saddle in range(period)
     ]
-    return _collect(ball, energy, orbit, requests, resolution)
-
-
-def window_manifolds(ball, energy, orbit, point, window, resolution, length):
-    """What a window around one point of an orbit shows of the manifolds of all its points.
-
-    Args:
-        point: the index of the point.
-        window: {"x": [a, b], "xdot": [a, b]} relative to the point, in section radii.
-        length: how far the branches are followed, in section radii.
-
-    Returns:
-        The Dataset of `scene_manifolds`; attributes window_x, window_xdot, point_x and point_xdot.
-    """
-    radius = ball.section(energy)[1]
-    centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}
-    edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
-    box = (*edges["x"], *edges["xdot"])
-    requests = [
-        (saddle, side, stable, {"length": length, "window": box})
-        for side in ("inner", "outer")
-        for stable in (False, True)
-        for saddle in range(orbit.sizes["point"])
-    ]
-    found = _collect(ball, energy, orbit, requests, resolution)
-    return found.assign_attrs(
-        window_x=edges["x"],
-        window_xdot=edges["xdot"],
-        point_x=centre["x"],
-        point_xdot=centre["xdot"],
-    )
+    return _collect(ball, energy, orbit, requests, resolution).assign_attrs(about)
 
 
 def _collect(ball, energy, orbit, requests, resolution):

@@ -5,21 +5,14 @@ import itertools
 import numpy as np
 import xarray as xr
 
-from ..kernel import impact as kernel
-from ..kernel.arithmetic import sincos
-from ..kernel.compiled import jit
-from .variables import variables
+from ..kernel.arithmetic import sincos_each
+from ..kernel.law import rebound, transfer
+from .variables import of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
 SAMPLES = 200
-
-
-@jit
-def _flight_samples(x, b, c, g, t, position, strain):
-    for i in range(t.size):
-        sine, cosine = sincos(t[i])
-        position[i] = x + t[i] * (b + 0.5 * g * t[i])
-        strain[i] = c * sine - x * cosine
+# More flights than this are no picture: 2 million samples.
+MOST_FLIGHTS = 10_000
 
 
 def _flights(ball, orbit):
@@ -35,6 +28,11 @@ def _flights(ball, orbit):
         state = after
 
 
+def scene_motion(ball, energy, periodic, period, type, duration):
+    """`motion` of a scene: along the orbit of this period and type among those found."""
+    return motion(ball, of_type(periodic, type, period), duration)
+
+
 def motion(ball, orbit, duration):
     """x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
 
@@ -42,16 +40,22 @@ def motion(ball, orbit, duration):
     follows the first one impact by impact.
 
     Args:
-        orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from periodic.of_type.
+        orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from variables.of_type.
         duration: the length of time.
 
     Returns:
         Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
         where position = -strain exactly; impact_t and impact_position on `impact`.
     """
+    mean = float(orbit["tau"].mean())
+    if not duration <= MOST_FLIGHTS * mean:
+        raise ValueError(
+            f"duration = {duration!r} is not allowed: at most {MOST_FLIGHTS:,} flights, whose mean "
+            f"along this orbit is {mean:.3g}"
+        )
     flights = _flights(ball, orbit)
     following = next(flights)
-    head, low = kernel.transfer(ball.k)
+    head, low = transfer(ball.k)
     columns = [[], [], []]
     impacts = [[], []]
     time = 0.0
@@ -59,12 +63,12 @@ def motion(ball, orbit, duration):
         (x, xdot, udot, tau), following = following, next(flights)
         impacts[0].append(time)
         impacts[1].append(x)
-        b, c, _ = kernel.rebound(xdot, udot, ball.k, head, low)
+        b, c, _ = rebound(xdot, udot, ball.k, head, low)
         t = tau * (np.arange(SAMPLES + 1) / SAMPLES)
         t = np.append(t[time + t < duration], duration - time) if time + tau > duration else t
-        position = np.empty(t.size)
-        strain = np.empty(t.size)
-        _flight_samples(x, b, c, ball.g, t, position, strain)
+        sine, cosine = sincos_each(t)
+        position = x + t * (b + 0.5 * ball.g * t)
+        strain = c * sine - x * cosine
         position[0], strain[0] = x, -x
         if time + tau <= duration:
             end = following[0]

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 
 from .ball import whole_number
+from .starts import start_state, start_variables
 from .variables import orbit_dims, variables
 
 
@@ -28,10 +29,8 @@ def orbit(ball, state, impacts, keep="all"):
     if keep not in ("all", "last"):
         raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
     impacts = whole_number("impacts", impacts)
-    state = ball.on_section(*state)
-    shape = state[0].shape
+    columns, shape = ball.columns(*state)
     dims = orbit_dims(shape)
-    columns = [a.flatten() for a in state]
     if keep == "last":
         tau = np.empty(columns[0].size)
         ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
@@ -48,30 +47,34 @@ def orbit(ball, state, impacts, keep="all"):
 def scene_orbits(ball, energy, starts, impacts):
     """The orbits of a scene, one after the other in a contiguous ragged array (CF).
 
-    Args:
-        energy: the energy of all of them.
-        starts: fractions of the section's radius along y = 0.
-        impacts: how many impacts of each.
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        The energy of all of them.
+    starts : list
+        Where they start, each as in `starts.start_state`.
+    impacts : int or list of int
+        How many impacts of each.
 
-    Returns:
-        Dataset of x, xdot, udot, tau on `point`; start and row_size on `orbit`.
+    Returns
+    -------
+    xarray.Dataset
+        x, xdot, udot, tau on `point`; start and row_size on `orbit`.
     """
+    impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
+    states = [start_state(ball, energy, start) for start in starts]
     pieces = []
-    for start, count in zip(starts, impacts, strict=True):
+    for state, count in zip(states, impacts, strict=True):
         out = np.empty((1, count, 4))
-        ball.map.history(*(np.array([a]) for a in ball.start(start, energy)), ball.k, ball.g, out)
+        ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
         pieces.append(out[0].T)
-    return ragged_orbits(pieces, starts, impacts)
+    return ragged_orbits(pieces, starts, states, impacts)
 
 
-def ragged_orbits(pieces, starts, impacts):
+def ragged_orbits(pieces, starts, states, impacts):
     """The Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot, tau."""
-    data = variables("point", np.concatenate(pieces, axis=1))
-    data["start"] = (
-        "orbit",
-        np.asarray(starts, dtype=float),
-        {"long_name": "start along y = 0, in section radii from the centre", "units": "1"},
-    )
+    data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data["row_size"] = (
         "orbit",
         np.asarray(impacts, dtype=np.int64),

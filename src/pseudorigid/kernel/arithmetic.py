@@ -197,6 +197,16 @@ def sincos(t):
 
 
 @jit
+def sincos_each(t):
+    """`sincos` of each element of the array t (n,), as two arrays."""
+    sine = np.empty(t.size)
+    cosine = np.empty(t.size)
+    for i in range(t.size):
+        sine[i], cosine[i] = sincos(t[i])
+    return sine, cosine
+
+
+@jit
 def log(a):
     """Natural logarithm of a double, within 0.8 ulp; -inf at 0, NaN below, inf at inf."""
     if not a > 0.0:

@@ -62,7 +62,7 @@ def run(repetitions=REPETITIONS):
     some = _along(chaotic, 500)
     scan = own.scan_method(0.1, 1e-12)
     dop = scipy_events.ivp_method("DOP853", 1e-9)
-    hey = taylor.Taylor(1e-15, "positive")
+    hey = taylor.taylor_method(1e-15, "positive")
     calls = {
         "three sincos": (lambda: _three_sincos(1.0, IMPACTS), IMPACTS),
         "orbit": (lambda: _orbit(chaotic, IMPACTS), IMPACTS),

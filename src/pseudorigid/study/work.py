@@ -11,15 +11,27 @@ import xarray as xr
 
 from ..proofs import judge
 from . import states
-from .methods import counted as own
+from .methods.counted import METHODS
 
 SETS = ("uniform", "near-grazing")
+EACH = ("method", "set")  # dims
 SPENT = 0.02  # seconds that one timing lasts at least, so that the clock's grain does not show
 
 
 def counted(count=2000):
-    """Dataset (method, set) of the compiled methods over `count` states a set; see `_errors`."""
-    return _errors(own.METHODS, _sets(count))
+    """Median and worst error, share of wrong roots and evaluations of the compiled methods.
+
+    Parameters
+    ----------
+    count : int
+        States a set.
+
+    Returns
+    -------
+    xarray.Dataset
+        On (method, set).
+    """
+    return _errors(METHODS, _sets(count))
 
 
 def measured(methods, count=200, repetitions=5):
@@ -30,82 +42,86 @@ def measured(methods, count=200, repetitions=5):
     """
     sets = _sets(count)
     data = _errors(methods, sets)
-    seconds = np.empty((repetitions, len(methods), len(sets)))
-    for repetition in range(repetitions):
-        for j, (columns, _) in enumerate(sets):
-            for i, method in enumerate(methods):
-                seconds[repetition, i, j] = _seconds(method, columns)
-    quartiles = np.quantile(seconds, (0.25, 0.5, 0.75), axis=0)
-    for name, values in zip(("seconds_low", "seconds", "seconds_high"), quartiles, strict=True):
-        attributes = {"long_name": f"{name.replace('_', ', ')} quartile", "units": "1"}
-        if name == "seconds":
-            attributes["long_name"] = "median of seconds a flight"
-        data[name] = (("method", "set"), values, attributes)
-    return data
+    seconds = [
+        [[_seconds(method, columns) for columns, _ in sets] for method in methods]
+        for _ in range(repetitions)
+    ]
+    low, middle, high = np.quantile(seconds, (0.25, 0.5, 0.75), axis=0)
+    variables = {
+        "seconds_low": (EACH, low, "lower quartile of seconds a flight"),
+        "seconds": (EACH, middle, "median of seconds a flight"),
+        "seconds_high": (EACH, high, "upper quartile of seconds a flight"),
+    }
+    return data.assign(described(variables))
 
 
-def _sets(count):
-    found = []
-    for columns in (states.uniform(count), states.grazing(count)):
-        truth = np.array(judge.flight_times(states.BALL, *columns))
-        found.append((columns, truth))
-    return found
-
-
-def _seconds(method, columns):
-    turns = 0
-    start = time.perf_counter()
-    while True:
-        method.solve(states.BALL, *columns)
-        turns += 1
-        spent = time.perf_counter() - start
-        if spent > SPENT:
-            return spent / (turns * columns[0].size)
+def proved_times(ball, columns):
+    """The proved flight times (n,) of states (3, n)."""
+    return np.array(judge.flight_times(ball, *columns))
 
 
 def is_wrong(tau, truth):
-    """Whether tau is off by more than a tenth of the flight or of a time unit, or NaN."""
+    """Whether tau is NaN or off by more than a tenth of the flight, or of a time unit.
+
+    Then it is another root, not an inaccurate one: distinct roots are rarely nearer.
+    """
     return ~(np.abs(tau - truth) <= 0.1 * np.minimum(truth, 1.0))
 
 
+def described(variables):
+    """Dataset variables from name -> (dims, values, long name)."""
+    found = {}
+    for name, (dims, values, text) in variables.items():
+        array = np.asarray(values)
+        words = array.dtype.kind == "U"
+        attributes = {"long_name": text} | ({} if words else {"units": "1"})
+        found[name] = dims, array.astype(object) if words else array, attributes
+    return found
+
+
+def dataset(methods, variables, **attrs):
+    """A Dataset of such variables, with the names and families of methods on `method`."""
+    named = {
+        "name": ("method", [m.name for m in methods], "method and its settings"),
+        "family": ("method", [m.family for m in methods], "methods that differ in one setting"),
+    }
+    return xr.Dataset(described(named | variables), attrs=attrs)
+
+
+def _sets(count):
+    """(states, proved flight times) of each set."""
+    return [
+        (columns, proved_times(states.BALL, columns))
+        for columns in (states.uniform(count), states.grazing(count))
+    ]
+
+
+def _seconds(method, columns):
+    turns, spent = 0, 0.0
+    start = time.perf_counter()
+    while spent <= SPENT:
+        method.solve(states.BALL, *columns)
+        turns += 1
+        spent = time.perf_counter() - start
+    return spent / (turns * columns[0].size)
+
+
 def _errors(methods, sets):
-    shape = len(methods), len(sets)
-    median, worst, wrong, evaluations = (np.full(shape, np.nan) for _ in range(4))
-    for j, (columns, truth) in enumerate(sets):
-        for i, method in enumerate(methods):
-            tau, count = method.solve(states.BALL, *columns)
-            error = np.abs(tau - truth) / truth
-            bad = is_wrong(tau, truth)
-            wrong[i, j] = bad.mean()
-            evaluations[i, j] = count.mean()
-            median[i, j] = np.median(np.where(np.isnan(error), np.inf, error))
-            worst[i, j] = error[~bad].max(initial=0.0)
-    names = {
-        "median": (median, "median relative error of tau"),
-        "worst": (worst, "worst relative error of tau among the right roots"),
-        "wrong": (wrong, "share of wrong roots"),
-        "evaluations": (evaluations, "mean number of evaluations a flight"),
+    values = np.array([[_accuracy(method, *each) for each in sets] for method in methods])
+    median, worst, wrong, evaluations = np.moveaxis(values, -1, 0)
+    variables = {
+        "state_set": ("set", SETS, "set of states"),
+        "median": (EACH, median, "median relative error of tau"),
+        "worst": (EACH, worst, "worst relative error of tau among the right roots"),
+        "wrong": (EACH, wrong, "share of wrong roots"),
+        "evaluations": (EACH, evaluations, "mean number of evaluations a flight"),
     }
-    data = {
-        name: (("method", "set"), values, {"long_name": text, "units": "1"})
-        for name, (values, text) in names.items()
-    }
-    data |= named(methods)
-    data["state_set"] = ("set", np.array(SETS, dtype=object), {"long_name": "set of states"})
-    return xr.Dataset(data, attrs={"states": sets[0][1].size})
+    return dataset(methods, variables, states=sets[0][1].size)
 
 
-def named(methods):
-    """The names and families of methods as variables on `method`."""
-    return {
-        "name": (
-            "method",
-            np.array([method.name for method in methods], dtype=object),
-            {"long_name": "method and its settings"},
-        ),
-        "family": (
-            "method",
-            np.array([method.family for method in methods], dtype=object),
-            {"long_name": "methods that differ in one setting"},
-        ),
-    }
+def _accuracy(method, columns, truth):
+    """Median and worst error, share of wrong roots, evaluations; no answer is infinitely wrong."""
+    tau, count = method.solve(states.BALL, *columns)
+    error, wrong = np.abs(tau - truth) / truth, is_wrong(tau, truth)
+    median = np.median(np.where(np.isnan(error), np.inf, error))
+    return median, error[~wrong].max(initial=0.0), wrong.mean(), count.mean()

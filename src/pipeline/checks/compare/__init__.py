@@ -5,7 +5,7 @@ Nothing is computed here: both must have their results.
 
 from ... import config
 from ...records.artifacts import load
-from ..audit import brief, differing_keys
+from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, picture
 
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from pseudorigid.dynamics.variables import final_exponents
+
 from .norms import columns
 
 
@@ -9,7 +11,7 @@ def table(one, other, names):
     """Lines: mean and standard deviation over the orbits of each exponent's last value."""
     rows = [("exponent", *names)]
     for index in range(one.sizes["index"]):
-        texts = [spread(data["exponent"].values[-1, :, index]) for data in (one, other)]
+        texts = [spread(final_exponents(data)[:, index]) for data in (one, other)]
         rows.append((f"lambda {index + 1}", *texts))
     counts = [
         f"{data.sizes['orbit']} of {int(data['impact'].values[-1]):,}" for data in (one, other)

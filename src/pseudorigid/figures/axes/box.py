@@ -5,6 +5,7 @@ import numpy as np
 from ..canvas import style
 from ..canvas.ragged import pieces
 from ..canvas.sheet import POINT, Sheet
+from .limits import inside
 from .projection import Projection
 
 _WIDE = 1500  # pixels: drawn at five inches, read at a column's width
@@ -33,13 +34,13 @@ class Box:
 
     def points(self, x, y, z, color, size):
         """Draw small opaque dots of `size` points across, in the order given."""
-        inside = self._inside(x, y, z)
-        across, up = self.view(x[inside], y[inside], z[inside])
+        there = inside(self.spans, (x, y, z))
+        across, up = self.view(x[there], y[there], z[there])
         self.sheet.draw(across, up, ls="none", marker="o", ms=size, mew=0, color=color)
 
     def line(self, x, y, z, color, width):
         """Draw a line of `width` points, broken where a coordinate is NaN."""
-        x = np.where(self._inside(x, y, z), x, np.nan)
+        x = np.where(inside(self.spans, (x, y, z)), x, np.nan)
         for piece in pieces(*self.view(x, y, z)):
             self.sheet.draw(*piece, lw=width, color=color)
 
@@ -72,13 +73,6 @@ class Box:
         bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner, inner_high)
         return Sheet(_WIDE, high)
-
-    def _inside(self, *state):
-        checks = [
-            (low <= value) & (value <= high)
-            for value, (low, high) in zip(state, self.spans, strict=True)
-        ]
-        return checks[0] & checks[1] & checks[2]
 
     def _edge(self, start, along, color, width):
         """Draw the box's line through `start` in the direction of one axis."""

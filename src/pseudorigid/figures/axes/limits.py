@@ -3,8 +3,12 @@ anything.
 """
 
 import math
+from fractions import Fraction
+from functools import partial
 
 import numpy as np
+
+from ..canvas import style
 
 
 def of_window(low, high):
@@ -29,14 +33,15 @@ def of_data(*values, margin=0.0, room=0.03, most=8):
     if not high - low > 1e-9 * size:  # one value, as far as a label can tell
         low, high = low - (size or 1.0), high + (size or 1.0)
     low, high = low - room * (high - low), high + room * (high - low)
-    digit, power = _step((high - low) / most)
-    # limits in fifths of a step
-    fine = 2 * digit, power - 1
-    low, high = _below(low, fine), -_below(-high, fine)
-    limits = [_decimal(low, fine), _decimal(high, fine)]
+    step = _step((high - low) / most)
+    fine = step / 5  # limits are whole numbers of it
+    low, high = _written(low) // fine, -(-_written(high) // fine)
     first, last = low + margin * (high - low), high - margin * (high - low)
     ticks = range(-int(-first // 5), int(last // 5) + 1)
-    return {"limits": limits, "ticks": [_decimal(tick, (digit, power)) for tick in ticks]}
+    return {
+        "limits": [float(low * fine), float(high * fine)],
+        "ticks": [float(tick * step) for tick in ticks],
+    }
 
 
 def complete(scene, **axes):
@@ -47,50 +52,33 @@ def complete(scene, **axes):
     }
 
 
-def complete_box(scene, names, *datasets):
-    """The scene with these axes, its own or around the data, for a box, whose corners meet."""
-    return complete(
-        scene,
-        **{
-            name: lambda name=name: of_data(
-                *(d[name].values for d in datasets), margin=0.08, most=6
-            )
-            for name in names
-        },
-    )
+def complete_box(scene, *datasets):
+    """The scene with the axes of a box, whose corners meet: its own or around the data."""
+    data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
+    axes = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
+    return complete(scene, **axes)
+
+
+def inside(limits, values):
+    """Where every one of `values`, arrays of one shape, is within its limits (low, high)."""
+    pairs = zip(limits, values, strict=True)
+    return np.logical_and.reduce([(low <= part) & (part <= high) for (low, high), part in pairs])
 
 
 def _step(least):
-    """(digit, power): the smallest of 1, 2, 5 times a power of ten that is at least `least`."""
-    power = int(f"{least:e}".partition("e")[2])
-    for digit, more in ((1, 0), (2, 0), (5, 0), (1, 1)):
-        if _decimal(1, (digit, power + more)) >= least:
-            return digit, power + more
-    return 2, power + 1
+    """The smallest of 1, 2, 5 times a power of ten that is at least `least`, exactly."""
+    power = Fraction(10) ** int(f"{least:e}".partition("e")[2])
+    return next(digit * power for digit in (1, 2, 5, 10, 20) if float(digit * power) >= least)
 
 
-def _below(value, unit):
-    """The largest whole number of units up to `value`."""
-    count = math.floor(value / _decimal(1, unit))
-    while _decimal(count + 1, unit) <= value:
-        count += 1
-    while _decimal(count, unit) > value:
-        count -= 1
-    return count
-
-
-def _decimal(count, unit):
-    """`count` units of digit * 10**power, the double that is nearest."""
-    return float(f"{count * unit[0]}e{unit[1]}")
+def _written(value):
+    """The decimal that a double is written as: 0.3 is three tenths, not a little less."""
+    return Fraction(repr(value))
 
 
 def refuse_empty(axes, data):
     """Raise ValueError, one line, where no row of `data` lies within the limits of `axes`."""
-    inside = True
-    for name, axis in axes.items():
-        low, high = axis["limits"]
-        values = data[name].values
-        inside = inside & (values >= low) & (values <= high)
-    if not np.any(inside):
+    limits = [axis["limits"] for axis in axes.values()]
+    if not np.any(inside(limits, [data[name].values for name in axes])):
         said = ", ".join(f"{name} {axis['limits']}" for name, axis in axes.items())
         raise ValueError(f"nothing lies within the limits of axes: {said}")

@@ -1,92 +1,101 @@
 """A frame with linear or decade axes, several of which may share a sheet."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...kernel.arithmetic import log
-from ...kernel.compiled import jit
 from ..canvas import style
 from ..canvas.ragged import pieces
 from ..canvas.sheet import POINT
 
-_TICK, _GAP = 2.5, 2.0  # points: a tick's length, and from there to its label
 _SIZE = 7.0  # points: text in a chart
-_EDGE = 6.0  # pixels that marks may lie beyond the frame
-
-
-@jit
-def _log10(values, out):
-    for i in range(values.size):
-        out[i] = log(values[i]) / log(10.0)
+_KEY = 60, 960  # pixels: where a key begins, and how wide it is
 
 
 def log10(values):
     """The decimal logarithm with the same bits everywhere; NaN where it does not exist."""
+    from ...kernel.arithmetic import log  # compiled: a plane picture does without
+
     values = np.atleast_1d(np.asarray(values, dtype=float))
-    out = np.empty(values.shape)
-    _log10(values.ravel(), out.reshape(-1))
-    return np.where(values > 0.0, out, np.nan)
+    logs = np.reshape([log(value) for value in values.flat], values.shape)
+    return np.where(values > 0.0, logs / log(10.0), np.nan)
 
 
 @dataclass(frozen=True)
 class Axis:
     """Limits and ticks of one axis; with `decades` both are exponents of ten."""
 
-    limits: tuple
-    ticks: tuple
+    limits: Sequence
+    ticks: Sequence
     name: str = ""
     decades: bool = False
-    labels: tuple | None = None  # in place of the numbers
+    labels: Sequence | None = None  # in place of the numbers
 
     def fraction(self, values):
         """Where values lie between the limits, 0 to 1."""
-        values = log10(values) if self.decades else np.atleast_1d(np.asarray(values, dtype=float))
+        return self.between(log10(values) if self.decades else values)
+
+    def between(self, values):
+        """The same of values in the units of the limits."""
         low, high = self.limits
-        return (values - low) / (high - low)
+        return (np.atleast_1d(np.asarray(values, dtype=float)) - low) / (high - low)
 
     def texts(self):
         """The ticks' labels."""
         if self.labels is not None:
             return self.labels
         if self.decades:
-            return tuple(rf"$10^{{{tick}}}$" for tick in self.ticks)
-        return tuple(style.number(tick) for tick in self.ticks)
+            return [rf"$10^{{{tick}}}$" for tick in self.ticks]
+        return [style.number(tick) for tick in self.ticks]
+
+
+def decades(limits, name="", every=1):
+    """An axis of decades with ticks at the multiples of `every`."""
+    low, high = limits
+    return Axis(limits, range(-(-low // every) * every, high + 1, every), name, True)
 
 
 class Panel:
-    """A frame (left, bottom, right, top), in pixels of the sheet, for two Axis."""
+    """A frame (left, bottom, right, top), in pixels of the sheet, for two Axis.
+
+    What lies beyond an axis is drawn at its end.
+    """
+
+    tick, gap, size = 2.5, 2.0, _SIZE  # points: a tick's length, from there to its label, and that
+    baseline = "center"  # of labels at the left
+    corners = "butt"
+    kept = (0.0, 1.0)  # fractions of an axis that points are moved into
 
     def __init__(self, sheet, frame, across, up, grid=True):
         self.sheet, self.frame, self.across, self.up = sheet, frame, across, up
         left, bottom, right, top = frame
-        for tick, text in zip(across.ticks, across.texts(), strict=True):
-            x = self._between(left, right, across, tick)
+        tick, reach = self.tick * POINT, (self.tick + self.gap) * POINT
+        marks = left + across.between(across.ticks) * (right - left)
+        for x, text in zip(marks.tolist(), across.texts(), strict=True):
             if grid:
                 self._ink([x, x], [bottom, top], color=style.GRID, zorder=0.5)
-            self._ink([x, x], [bottom, bottom - _TICK * POINT])
-            self.sheet.text(
-                x, bottom - (_TICK + _GAP) * POINT, text, ha="center", va="top", size=_SIZE
-            )
-        for tick, text in zip(up.ticks, up.texts(), strict=True):
-            y = self._between(bottom, top, up, tick)
+            self._ink([x, x], [bottom, bottom - tick])
+            self._text(self._label(x, text), bottom - reach, text, "center", "top")
+        marks = bottom + up.between(up.ticks) * (top - bottom)
+        for y, text in zip(marks.tolist(), up.texts(), strict=True):
             if grid:
                 self._ink([left, right], [y, y], color=style.GRID, zorder=0.5)
-            self._ink([left, left - _TICK * POINT], [y, y])
-            x = left - (_TICK + _GAP) * POINT
-            self.sheet.text(x, y, text, ha="right", va="center", size=_SIZE)
+            self._ink([left, left - tick], [y, y])
+            self._text(left - reach, y, text, "right", self.baseline)
         if across.name:
-            y = bottom - (_TICK + _GAP + 1.5 * _SIZE) * POINT
-            self.sheet.text((left + right) / 2, y, across.name, ha="center", va="top", size=_SIZE)
+            y = bottom - (self.tick + self.gap + 1.5 * self.size) * POINT
+            self._text((left + right) / 2, y, across.name, "center", "top")
         if up.name:
-            self.sheet.text(left, top + 4 * POINT, up.name, ha="left", va="bottom", size=_SIZE)
-        self._ink([left, right, right, left, left], [bottom, bottom, top, top, bottom], zorder=3)
+            self._text(left, top + 4 * POINT, up.name, "left", "bottom")
+        outline = [left, right, right, left, left], [bottom, bottom, top, top, bottom]
+        self._ink(*outline, solid_capstyle=self.corners, zorder=3)
 
     def place(self, x, y):
-        """The pixels of points of the panel; what lies beyond an axis is moved onto its end."""
+        """The pixels of points of the panel, arrays."""
         left, bottom, right, top = self.frame
-        x = np.clip(self.across.fraction(x), 0.0, 1.0)
-        y = np.clip(self.up.fraction(y), 0.0, 1.0)
+        x = np.clip(self.across.fraction(x), *self.kept)
+        y = np.clip(self.up.fraction(y), *self.kept)
         return left + x * (right - left), bottom + y * (top - bottom)
 
     def line(self, x, y, **how):
@@ -96,32 +105,41 @@ class Panel:
 
     def dots(self, x, y, color, size=3.2, hollow=False, marker="o"):
         """Draw marks of `size` points, filled or hollow."""
-        how = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
-        across, up = self.place(x, y)
-        self.sheet.draw(across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **how)
+        _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
-    def note(self, x, y, text, ha="left", va="center", shift=(0.0, 0.0)):
+    def note(self, x, y, text, shift=(0.0, 0.0)):
         """Write `text` beside a point, `shift` points away."""
         across, up = self.place(x, y)
         across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha=ha, va=va, size=6.0)
+        self.sheet.text(across, up, text, ha="left", va="center", size=6.0)
 
-    def _between(self, start, end, axis, tick):
-        low, high = axis.limits
-        return start + (tick - low) / (high - low) * (end - start)
+    def _label(self, x, text):
+        """Where the middle of a label below the frame is."""
+        return x
 
     def _ink(self, across, up, **how):
         self.sheet.draw(across, up, **({"color": style.FRAME, "lw": 0.6} | how))
 
+    def _text(self, across, up, text, ha, va):
+        self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
 
-def key(sheet, entries, left, top, width, columns):
-    """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left."""
+
+def key(sheet, entries, top, columns):
+    """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left.
+
+    Without a marker it is a line, full or (hollow) dashed.
+    """
+    left, width = _KEY
     for i, (text, color, marker, hollow) in enumerate(entries):
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * _SIZE * POINT
         if marker:
-            how = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
-            sheet.draw([x + 6], [y], ls="none", marker=marker, ms=3.2, color=color, **how)
+            _mark(sheet, [x + 6], [y], color, 3.2, hollow, marker)
         else:
             sheet.draw([x - 8, x + 20], [y, y], lw=0.9, color=color, ls="--" if hollow else "-")
         sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=_SIZE)
+
+
+def _mark(sheet, across, up, color, size, hollow, marker):
+    how = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
+    sheet.draw(across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **how)

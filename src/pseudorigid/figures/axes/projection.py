@@ -1,6 +1,7 @@
 """A box of equal data scales seen from afar: orthographic projection in closed form."""
 
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 
@@ -25,8 +26,7 @@ class Projection:
 
     def corners(self):
         """Return the box's eight corners as an (8, 3) array, z fastest."""
-        (x0, x1), (y0, y1), (z0, z1) = self.limits
-        return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+        return np.array(list(product(*self.limits)))
 
     def place(self, left, bottom, width, height):
         """Scale and shift so that the box fits the rectangle and touches it, in the middle."""

@@ -18,9 +18,7 @@ def pieces(*coordinates):
 
     The cut pieces share a vertex, so that they draw as one line.
     """
-    gap = np.isnan(coordinates[0])
-    for coordinate in coordinates[1:]:
-        gap = gap | np.isnan(coordinate)
+    gap = np.isnan(coordinates).any(axis=0)
     ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))
     for start, stop in ends.reshape(-1, 2).tolist():
         for first in range(start, max(stop - 1, start + 1), _LONGEST):

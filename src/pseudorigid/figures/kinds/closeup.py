@@ -14,23 +14,28 @@ def draw(scene, manifolds):
     point_xdot. Without axes in the scene they are those of the window. Stable branches are green,
     unstable ones blue, as in the paper.
     """
-    names = (style.NAMES["x"], style.NAMES["xdot"])
     scene = complete(
         scene,
         x=lambda: of_window(*map(float, manifolds.attrs["window_x"])),
         xdot=lambda: of_window(*map(float, manifolds.attrs["window_xdot"])),
     )
     refuse_empty(scene["axes"], manifolds)
-    plane = Plane(scene, ("x", "xdot"), names, high=900, right=75)
+    picture = plane(scene)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
     hues = {0: style.UNSTABLE, 1: style.STABLE}
     for branch, span in enumerate(rows(manifolds["row_size"].values)):
         hue = hues[int(manifolds["stable"].values[branch])]
-        plane.line(x[span], xdot[span], color=hue, lw=0.5)
+        picture.line(x[span], xdot[span], color=hue, lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
-    plane.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
-    plane.legend(
+    picture.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
+    picture.legend(
         ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )
-    return plane.figure
+    return picture.figure
+
+
+def plane(scene):
+    """The empty picture of a scene with its axes."""
+    names = (style.NAMES["x"], style.NAMES["xdot"])
+    return Plane(scene, ("x", "xdot"), names, high=900, right=75)

@@ -20,15 +20,20 @@ def draw(scene, motion):
         t=lambda: of_data([0.0, scene["duration"]], room=0.0),
         displacement=lambda: of_data(-x, u),
     )
-    plane = Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
+    picture = plane(scene)
     mass = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
-    plane.line(t, -x, **mass)
-    plane.line(t, u, **strain)
-    plane.dots(motion["impact_t"].values, -motion["impact_position"].values, style.BLACK, _DOT)
-    plane.legend(
+    picture.line(t, -x, **mass)
+    picture.line(t, u, **strain)
+    picture.dots(motion["impact_t"].values, -motion["impact_position"].values, style.BLACK, _DOT)
+    picture.legend(
         ("$-x(t)$", 26, mass),
         ("$u(t)$", 18, strain),
         ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
     )
-    return plane.figure
+    return picture.figure
+
+
+def plane(scene):
+    """The empty picture of a scene with its axes."""
+    return Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))

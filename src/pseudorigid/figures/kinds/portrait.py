@@ -17,7 +17,7 @@ def draw(scene, orbits):
     on the far side of the surface is pale and behind the rest. Axes that the scene does not give
     are those of the orbits. Raises ValueError for a sea that the scene does not have.
     """
-    scene = complete_box(scene, style.NAMES, orbits)
+    scene = complete_box(scene, orbits)
     refuse_empty(scene["axes"], orbits)
     box = Box(scene)
     spans = rows(orbits["row_size"].values)

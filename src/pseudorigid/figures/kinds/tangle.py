@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...dynamics.variables import of_type
 from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
@@ -20,7 +21,7 @@ def draw(scene, orbits, manifolds, periodic):
     marked are the points of the first orbit of `periodic` whose type is scene["type"]. Stable
     branches are green, unstable ones blue; what lies on the surface's far side is pale.
     """
-    scene = complete_box(scene, style.NAMES, orbits, manifolds)
+    scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], manifolds)
     box = Box(scene)
     near = box.near(orbits)
@@ -28,7 +29,10 @@ def draw(scene, orbits, manifolds, periodic):
         state = (orbits[name].values[near == side] for name in style.NAMES)
         box.points(*state, style.BACKDROP if side else style.pale(style.BACKDROP), _BACKDROP)
     _branches(box, manifolds)
-    _saddles(box, periodic, scene["type"])
+    saddle = of_type(periodic, scene["type"])
+    state = [saddle[name].values for name in style.NAMES]
+    box.points(*state, "white", _SADDLE + 1.2)
+    box.points(*state, style.VERMILION, _SADDLE)
     return box.figure
 
 
@@ -45,12 +49,3 @@ def _branches(box, manifolds):
                     np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
                 ]
                 box.line(*state, hue if side else style.pale(hue), width)
-
-
-def _saddles(box, periodic, kind):
-    chosen = np.flatnonzero(periodic["type"].values == kind)
-    if not len(chosen):
-        raise ValueError(f"no {kind} orbit among the {periodic.sizes['orbit']} given")
-    state = [periodic[name].values[chosen[0]] for name in style.NAMES]
-    box.points(*state, "white", _SADDLE + 1.2)
-    box.points(*state, style.VERMILION, _SADDLE)

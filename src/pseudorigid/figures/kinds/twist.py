@@ -25,7 +25,7 @@ def draw(scene, twist):
     )
     names = ("Energy $E$", r"Twist $\tau_1$ of the fixed point")
     plane = Plane(scene, ("energy", "twist"), names)
-    (left, right), (bottom, _) = plane.spans
+    (left, right), (bottom, _) = (scene["axes"][name]["limits"] for name in ("energy", "twist"))
     zero = float(twist["zero"])
     plane.line([left, right], [0.0, 0.0], color=style.BACKDROP, lw=0.6)
     plane.line([zero, zero], [bottom, 0.0], color=style.BACKDROP, lw=0.6)
@@ -41,6 +41,6 @@ def draw(scene, twist):
 
 def _name(plane, x, y, text):
     """Write a text to the upper right of a point."""
-    across, up = (float(a) for a in plane.place(x, y))
+    across, up = (float(a[0]) for a in plane.place(x, y))
     across, up = across + 4 * POINT, up + 2 * POINT
     plane.sheet.text(across, up, text, ha="left", va="bottom", size=style.PLAIN)

@@ -1,7 +1,8 @@
 """Orbits that the dynamics knows, as the floats from which searches begin."""
 
 from ...dynamics.ball import Ball
-from ...dynamics.periodic import of_type, symmetric_orbits
+from ...dynamics.periodic import symmetric_orbits
+from ...dynamics.variables import of_type
 
 
 def ball(surface):

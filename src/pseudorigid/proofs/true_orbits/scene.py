@@ -1,14 +1,16 @@
 """The orbits of a scene from exact starts."""
 
-import json
 from pathlib import Path
 
 import numpy as np
 
+from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
-from ..enclosure.surface import Surface, exact
+from ...dynamics.starts import start_state
+from ..enclosure.surface import Surface
 from . import keeping
 from .orbit import true_orbit
+from .start import Start
 
 
 def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=None):
@@ -17,41 +19,45 @@ def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=No
     Parameters
     ----------
     k, g, energy, starts
-        Exact, as for `true_orbit`; starts are fractions of the section's radius along y = 0.
-    impacts : list of int
+        Exact, as for `true_orbit`; a start is what its `start` is.
+    impacts : int or list of int
         How many of each orbit.
     progress : callable, optional
         Called with the share done and the seconds left of the orbit at work, and its index.
     folder : path, optional
         Where finished orbits and the checkpoint of the one at work are while the run lasts.
     """
-    pieces = []
-    for index, (start, count) in enumerate(zip(starts, impacts, strict=True)):
-        pieces.append(_kept(folder, index, k, g, energy, start, count, progress))
+    surface = Surface(k, g, energy)
+    impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
+    places = [Start(surface, start) for start in starts]
+    pieces = [
+        _kept(folder, index, place, start, count, progress)
+        for index, (place, start, count) in enumerate(zip(places, starts, impacts, strict=True))
+    ]
     if folder is not None:
         for file in Path(folder).glob("orbit_*.npz"):
             file.unlink()
-    return ragged_orbits(pieces, [float(exact("start", start)) for start in starts], impacts)
+    ball = Ball(k=float(surface.k), g=float(surface.g))
+    floats = [place.floats() for place in places]
+    states = [start_state(ball, float(surface.energy), start) for start in floats]
+    return ragged_orbits(pieces, floats, states, impacts)
 
 
-def _kept(folder, index, k, g, energy, start, count, progress):
+def _kept(folder, index, place, start, count, progress):
     """One orbit of a scene, (4, count), from the folder if it is there."""
     report = None if progress is None else lambda *done: progress(*done, index)
+    exact = (place.surface.k, place.surface.g, place.surface.energy)
     if folder is None:
-        found = true_orbit(k, g, energy, count, start=start, progress=report)
-        return _columns(found)
+        return _columns(true_orbit(*exact, count, start=start, progress=report))
     Path(folder).mkdir(parents=True, exist_ok=True)
-    identity = json.dumps([str(Surface(k, g, energy)), str(exact("start", start)), count])
     file = Path(folder) / f"orbit_{index}.npz"
     saved = keeping.load(file)
-    if saved is not None and str(saved["identity"]) == identity:
+    if saved is not None and str(saved["identity"]) == place.identity(count):
         return saved["values"]
-    found = true_orbit(
-        k, g, energy, count, start=start, progress=report,
-        checkpoint=Path(folder) / f"orbit_{index}.part.npz",
-    )  # fmt: skip
+    part = Path(folder) / f"orbit_{index}.part.npz"
+    found = true_orbit(*exact, count, start=start, progress=report, checkpoint=part)
     values = _columns(found)
-    keeping.save(file, identity=identity, values=values)
+    keeping.save(file, identity=place.identity(count), values=values)
     return values
 
 

@@ -3,7 +3,7 @@
 Each finds the flight that follows an impact at x with velocities b, c (and s = -(b + c), its exact
 sum) and returns (tau, x', xdot', udot', evaluations of the gap). Three kinds:
 
-    EXACT   the certified march of pseudorigid.flight
+    MARCH   the certified march of pseudorigid.kernel.flight
     SCAN    the paper's: steps of constant length until the gap changes sign, then bisection
             until the bracket is no longer than the tolerance
     ENGINE  a physics engine's: semi-implicit Euler until the ball overlaps the floor; the impact
@@ -20,7 +20,7 @@ from ...kernel.arithmetic import sincos
 from ...kernel.compiled import jit
 from ...kernel.scan import MOST, scan
 
-EXACT, SCAN, ENGINE = 0, 1, 2
+MARCH, SCAN, ENGINE = 0, 1, 2
 
 
 @jit
@@ -43,9 +43,9 @@ def engine(x, b, c, g, step):
 @jit
 def flight(kind, step, tolerance, x, v, w, k, g, head, low):
     """One impact and the flight that follows, by any kind: (tau, x', xdot', udot', evaluations)."""
-    if kind == EXACT:
-        p, v, q, tau, looks, _ = kernel.step(x, v, w, k, g, head, low, None)
-        return tau, p, v, q, looks
+    if kind == MARCH:
+        p, v, q, tau, count, _ = kernel.step(x, v, w, k, g, head, low, None)
+        return tau, p, v, q, count
     b, c, _ = kernel.rebound(v, w, k, head, low)
     if kind == ENGINE:
         return engine(x, b, c, g, step)
@@ -62,76 +62,19 @@ def _flights(kind, step, tolerance, x, v, w, k, g, tau, count):
 
 
 @jit
-def _energy(x, v, w, k, g):
-    return (0.5 * v * v + 0.5 * k * w * w) + x * (0.5 * k * x - g)
-
-
-@jit
-def _orbit(kind, step, tolerance, x, v, w, k, g, at, out):
-    """States and largest relative energy error so far after `at` impacts: out (at.size, 4)."""
+def _orbit(kind, step, tolerance, x, v, w, k, g, out):
     head, low = kernel.transfer(k)
-    first = _energy(x, v, w, k, g)
-    worst = 0.0
-    count = 0
-    done = 0
-    for j in range(at.size):
-        while done < at[j]:
-            _, x, v, w, looks = flight(kind, step, tolerance, x, v, w, k, g, head, low)
-            count += looks
-            done += 1
-            off = abs(_energy(x, v, w, k, g) - first) / abs(first)
-            if not off <= worst:
-                worst = off
-        out[j, 0], out[j, 1], out[j, 2], out[j, 3] = x, v, w, worst
-    return count
-
-
-@jit
-def _missed(kind, step, tolerance, x, v, w, k, g, impacts):
-    """How often it flies past an impact of the certified orbit: (missed, evaluations)."""
-    head, low = kernel.transfer(k)
-    missed = 0
-    count = 0
-    for _ in range(impacts):
-        tau, _, _, _, looks = flight(kind, step, tolerance, x, v, w, k, g, head, low)
-        x, v, w, truth, _, _ = kernel.step(x, v, w, k, g, head, low, None)
-        if wrong(tau, truth):
-            missed += 1
-        count += looks
-    return missed, count
-
-
-@jit
-def wrong(tau, truth):
-    """Whether tau is off by more than a tenth of the flight or of a time unit, or NaN."""
-    return not abs(tau - truth) <= 0.1 * min(truth, 1.0)
-
-
-@jit
-def _hard(kind, step, tolerance, x, v, w, k, g, impacts, out):
-    head, low = kernel.transfer(k)
-    count = 0
-    for _ in range(impacts):
-        tau, _, _, _, _ = flight(kind, step, tolerance, x, v, w, k, g, head, low)
-        before = x, v, w
-        x, v, w, truth, _, _ = kernel.step(x, v, w, k, g, head, low, None)
-        if wrong(tau, truth) and count < out.shape[1]:
-            out[0, count], out[1, count], out[2, count] = before
-            count += 1
-    return count
-
-
-def hard_states(ball, state, impacts, method, most=10_000):
-    """The first `most` states of the certified orbit whose next impact a method misses."""
-    out = np.empty((3, most))
-    how = method.kind, method.step, method.tolerance
-    count = _hard(*how, *(float(a) for a in state), ball.k, ball.g, impacts, out)
-    return out[:, :count].copy()
+    total = 0
+    for i in range(out.shape[1]):
+        tau, x, v, w, count = flight(kind, step, tolerance, x, v, w, k, g, head, low)
+        out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
+        total += count
+    return total
 
 
 @dataclass(frozen=True)
 class Counted:
-    """One of the kinds above with its step and tolerance."""
+    """One of the kinds above with its step and tolerance, in time units."""
 
     name: str
     family: str
@@ -143,33 +86,32 @@ class Counted:
         """(tau, evaluations) for arrays (n,) of states; NaN where none is found."""
         tau = np.empty(x.size)
         count = np.empty(x.size, np.int64)
-        _flights(*self._how, x, xdot, udot, ball.k, ball.g, tau, count)
+        how = self.kind, self.step, self.tolerance
+        _flights(*how, x, xdot, udot, ball.k, ball.g, tau, count)
         return tau, count
 
-    def orbit(self, ball, state, at):
-        """Its own orbit: (x, xdot, udot, largest energy error) after `at` impacts; evaluations."""
-        at = np.asarray(at, np.int64)
-        out = np.empty((at.size, 4))
-        count = _orbit(*self._how, *(float(a) for a in state), ball.k, ball.g, at, out)
-        return out, count
+    def orbit(self, ball, state, impacts):
+        """Its own orbit from `state`, the start excluded.
 
-    def missed(self, ball, state, impacts):
-        """(impacts of the certified orbit for which it gives another root, evaluations)."""
-        return _missed(*self._how, *(float(a) for a in state), ball.k, ball.g, impacts)
+        Returns
+        -------
+        track : ndarray, shape (4, impacts)
+            x, xdot, udot just before each impact, and the flight tau that ends there.
+        evaluations : int
+            Of all flights.
+        """
+        track = np.empty((4, impacts))
+        how = self.kind, self.step, self.tolerance
+        return track, _orbit(*how, *(float(a) for a in state), ball.k, ball.g, track)
 
-    @property
-    def _how(self):
-        return self.kind, self.step, self.tolerance
 
-
-OURS = Counted("certified march", "certified march", EXACT)
+OURS = Counted("certified march", "certified march", MARCH)
 
 
 def scan_method(step, tolerance):
     """The paper's method with this step and tolerance."""
-    return Counted(
-        f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection", SCAN, step, tolerance
-    )
+    name, family = f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection"
+    return Counted(name, family, SCAN, step, tolerance)
 
 
 def engine_method(step):

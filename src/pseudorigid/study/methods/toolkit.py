@@ -38,8 +38,5 @@ def spectrum(ball, state, impacts):
     system = DiscreteDynamicalSystem(
         mapping=_mapping, jacobian=_jacobian, system_dimension=3, number_of_parameters=2
     )
-    return np.asarray(
-        system.lyapunov(
-            [float(a) for a in state], impacts, parameters=[ball.k, ball.g], method="QR"
-        )
-    )
+    found = system.lyapunov(list(state), impacts, parameters=[ball.k, ball.g], method="QR")
+    return np.asarray(found)

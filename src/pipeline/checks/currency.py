@@ -1,0 +1,64 @@
+"""Whether results are what this tree would make: by their records, never by their times."""
+
+from functools import cache
+
+from ..records.differences import differing_block, differing_files, differing_package
+from ..records.files import file_hash
+from ..records.record import RecordError, read_record, versions
+
+MISSING = "missing"
+DAMAGED = "changed after it was made"
+
+
+class Currency:
+    """What this tree has to make again.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+    expected : dict
+        Result -> config.expected.Expected, for every result that may be asked about.
+    """
+
+    def __init__(self, root, expected):
+        self.root, self.expected = root, expected
+        self.digest = cache(lambda path: file_hash(root / path))
+        self.packages = versions()
+        self.reason = cache(self._reason)
+
+    def outdated(self, paths=None):
+        """Each of the results `paths`, or of all, that has to be made again -> why, in words."""
+        reasons = {path: self.reason(path) for path in (self.expected if paths is None else paths)}
+        return {path: why for path, why in reasons.items() if why}
+
+    def _reason(self, path):
+        """Why a result has to be made again, in words (MISSING where there is none), or None."""
+        made = self.expected[path]
+        if why := self._by_record(path, made):
+            return why
+        for used in made.inputs:
+            if used in self.expected and (why := self.reason(used)):
+                return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
+        return None
+
+    def _by_record(self, path, made):
+        if self.digest(path) is None:
+            folder = (self.root / path).is_dir()
+            return "a folder stands in its place, move it away" if folder else MISSING
+        try:
+            record = read_record(self.root, path)
+        except RecordError as error:
+            return str(error)
+        if self.digest(path) != record["output"]["sha256"]:
+            return DAMAGED
+        if words := differing_block(record["config"], made.config):
+            return f"made from another config: {words}"
+        here = {file: self.digest(file) for file in made.sources}
+        if words := differing_files(record["sources"], here):
+            return f"made by other code than this tree's: {words}"
+        if words := differing_package(record["environment"], self.packages):
+            return f"made with {words}"
+        inputs = {used: self.digest(used) for used in made.inputs}
+        if words := differing_files(record["inputs"], inputs):
+            return f"made from another {words.split()[0]}"
+        return None

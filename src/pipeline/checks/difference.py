@@ -1,0 +1,174 @@
+"""What differs between a published file as committed and as it is here, layer by layer.
+
+A tree's config, source and environment decide its data, these the drawing, and that the file: the
+first layer that differs is the cause of those after it.
+"""
+
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ..records.artifacts import ArtifactError, canonical_values, load
+from ..records.differences import differing_block, differing_files, differing_package
+from ..records.files import FileError, file_hash
+from ..records.pictures import PictureError, describe, difference
+from ..records.record import git, versions
+from . import manifest
+
+# A difference in one of these alone leaves the committed bytes.
+UPSTREAM = {"config", "source", "environment"}
+
+
+class Comparison:
+    """A tree at `root` with its `contract` against the manifest `committed`.
+
+    `against` is a folder with a second copy, a tree or its results, or None: it serves to say how
+    large a difference is.
+    """
+
+    def __init__(self, root, contract, committed, against=None):
+        self.root, self.contract, self.committed = root, contract, committed
+        self.against = against
+        self.versions = versions()
+        self.file_hash = cache(lambda path: file_hash(root / path))
+        self.differing_data = cache(self._differing_data)
+
+    def layers(self, name) -> dict[str, str] | None:
+        """Layer -> words, for each that differs, the cause first; None for a file that is new."""
+        scene = self.contract.scenes[name]
+        entry = self.committed["scenes"].get(scene)
+        if entry is None or name not in entry["figures"]:
+            return None
+        sources = {path: self.committed["sources"][path] for path in entry["sources"]}
+        here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
+        manifest_and_config = ("in the manifest", "in config.yaml")
+        layers = {
+            "config": differing_block(
+                entry["config"], self.contract.config[scene], *manifest_and_config
+            ),
+            "source": differing_files(sources, here),
+            "environment": differing_package(
+                self.committed["environment"], self.versions, "in the manifest"
+            ),
+            "data": self._data(scene, entry),
+        } | self._drawing_or_file(name, entry["figures"][name])
+        return {layer: words for layer, words in layers.items() if words}
+
+    def _data(self, scene, entry):
+        for stage, path in self.contract.data[scene].items():
+            if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
+                words = self.differing_data(path, entry["data"][stage])
+                if words:
+                    return words
+        return None
+
+    def _differing_data(self, path, committed_name):
+        """Words about the first variable of an artifact that differs from the manifest, or None."""
+        try:
+            dataset = load(self.root / path)
+        except ArtifactError as error:
+            return str(error).replace(f"{self.root}/", "")
+        except Exception as error:  # of an edited file, whatever netCDF4 makes of it
+            return f"{path}: damaged ({type(error).__name__})"
+        before, after = self.committed["data"][committed_name], manifest.describe_data(dataset)
+        for name in sorted({*before["variables"], *after["variables"]}):
+            old, new = before["variables"].get(name), after["variables"].get(name)
+            if old is None or new is None:
+                return f"{path}: variable {name} is {'new' if old is None else 'gone'}"
+            for what in ("dims", "dtype", "shape", "attributes"):
+                if old[what] != new[what]:
+                    words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
+                    return f"{path}: variable {name}: another {what.removesuffix('s')}{words}"
+            if old["sha256"] != new["sha256"]:
+                pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=True)
+                block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
+                return (
+                    f"{path}: variable {name} differs from block {block} on "
+                    f"(value {block * manifest.BLOCK:,} of {int(np.prod(new['shape'])):,})"
+                    + self._size_of_difference(path, name, dataset)
+                )
+        words = differing_block(before["attributes"], after["attributes"])
+        return words and f"{path}: attribute {words.partition(':')[0]} differs"
+
+    def _size_of_difference(self, path, name, dataset):
+        if self.against is None:
+            return ""
+        copy = self._find(self.against, Path(path).name)
+        if copy is None:
+            return f"; no {Path(path).name} in {self.against}"
+        try:
+            other = load(copy)
+        except ArtifactError as error:
+            return f"; {error}"
+        if name not in other or other[name].shape != dataset[name].shape:
+            return f"; {copy} has another {name}"
+        words = _ulps_in_words(dataset.variables[name], other.variables[name])
+        return f"; {words}, compared with {copy}"
+
+    def _drawing_or_file(self, name, entry):
+        """{"drawing": words} or {"file": words}, of the published file or the one in results."""
+        published, drawn = f"{self.contract.folder}/{name}", self.contract.drawn[name]
+        if self.file_hash(published) is None:
+            return {"file": f"{published} is missing: {self.contract.command} makes it"}
+        encoding = {}
+        for path in (published, drawn):
+            if self.file_hash(path) in (entry["sha256"], None):
+                continue
+            try:
+                if describe(self.root / path) == entry["drawing"]:
+                    encoding = encoding or {"file": f"{path}: the same picture in other bytes"}
+                    continue
+                reference = [other for other in (published, drawn) if other != path]
+                return {"drawing": f"{path}: {self._how_drawn(path, name, entry, reference)}"}
+            except PictureError as error:
+                return {"drawing": str(error).replace(f"{self.root}/", "")}
+        return encoding
+
+    def _how_drawn(self, path, name, entry, others):
+        with tempfile.TemporaryDirectory() as folder:
+            candidates = [self.root / other for other in others]
+            blob = git("show", f"HEAD:./{self.contract.folder}/{name}", root=self.root)
+            if blob is not None:
+                candidates.append(Path(folder) / name)
+                candidates[-1].write_bytes(blob)
+            if self.against is not None:
+                candidates.append(self._find(self.against, name))
+            for candidate in candidates:
+                if candidate is not None and file_hash(candidate) == entry["sha256"]:
+                    image = f"{self.contract.results}/differences/{name}"
+                    try:
+                        words, saved = difference(self.root / path, candidate, self.root / image)
+                    except FileError:
+                        return "another picture"  # and no place to show where it differs
+                    return f"{words}: see {image}" if saved else words
+        return "another picture; no copy of the committed one is at hand to count what differs"
+
+    def _find(self, folder, name):
+        """The file of this name in another tree or its results, or None."""
+        results = self.contract.results
+        for place in (".", "figures", self.contract.folder, results, f"{results}/figures"):
+            if (folder / place / name).is_file():
+                return folder / place / name
+        return None
+
+
+def ulps(a, b):
+    """How many doubles lie between each a and b, as unsigned integers; 0 where both are NaN."""
+    a, b = (np.ascontiguousarray(x, dtype="<f8").view("<i8") for x in (a, b))
+    # Bit patterns of negative numbers run backwards; afterwards all are in the numbers' order.
+    a, b = (np.where(x < 0, np.int64(-(2**63)) - x, x) for x in (a, b))
+    return np.maximum(a, b).view("<u8") - np.minimum(a, b).view("<u8")
+
+
+def _ulps_in_words(ours, theirs):
+    (kind, a), (other, b) = canonical_values(ours), canonical_values(theirs)
+    if kind != other:
+        return f"{kind} instead of {other}"
+    if kind != "<f8":
+        return f"{sum(x != y for x, y in zip(a, b, strict=True))} of {len(a)} values differ"
+    lonely = np.isnan(a) != np.isnan(b)
+    if lonely.any():
+        return f"{int(lonely.sum())} values are NaN on one side only"
+    return f"largest difference {int(ulps(a, b).max(initial=0)):,} ulp"

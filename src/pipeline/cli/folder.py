@@ -1,0 +1,83 @@
+"""This folder: one run at a time, what Ctrl-C does, and how lines reach the user."""
+
+import fcntl
+import os
+import signal
+import sys
+from contextlib import contextmanager
+
+from ..records.sources import ROOT
+
+
+class UsageError(Exception):
+    """One line for the user, and the end of the run with exit status 1."""
+
+
+@contextmanager
+def locked():
+    """Hold the lock of this folder; UsageError where another run has it. Death releases it."""
+    try:
+        lock = open(ROOT / ".lock", "w")  # noqa: SIM115  (closed below)
+        (ROOT / "results").mkdir(exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"cannot write in {ROOT}: {error.strerror}: {error.filename}") from None
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise UsageError("another ./reproduce is running in this folder") from None
+        yield
+
+
+def end_jobs() -> None:
+    """Kill every process that this one started: results appear whole or not at all."""
+    import psutil
+
+    for process in psutil.Process().children(recursive=True):
+        try:
+            process.kill()
+        except psutil.NoSuchProcess:
+            continue
+
+
+@contextmanager
+def interruptible():
+    """Ctrl-C, or SIGTERM, ends the jobs at once and raises KeyboardInterrupt in here.
+
+    Yields a list that then holds the signal's number: snakemake may catch the exception.
+    """
+    caught = []
+
+    def stop(number, frame):
+        caught.append(number)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # once is enough
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        end_jobs()
+        raise KeyboardInterrupt
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield caught
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def say(*lines: str) -> None:
+    """Lines for the user, on stderr."""
+    for line in lines:
+        print(f"reproduce: {line}", file=sys.stderr, flush=True)
+
+
+def set_environment() -> None:
+    """The tree's own packages wherever the folder was moved, and caches that need no home folder.
+
+    Settings of snakemake's own that a user's shell may have do not reach a run.
+    """
+    caches = ROOT / ".venv" / "cache"
+    for name in [name for name in os.environ if name.startswith("SNAKEMAKE_")]:
+        del os.environ[name]
+    os.environ["PYTHONPATH"] = str(ROOT / "src")
+    os.environ["XDG_CACHE_HOME"] = str(caches)
+    os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
+    os.environ.pop("MPLBACKEND", None)  # nothing here opens a window

@@ -1,0 +1,102 @@
+"""Around a run of sweeps: which are meant, the space they need, and how far they are."""
+
+import shutil
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+from pseudorigid.sweep import grid
+
+from ..config import places, unknown
+from .folder import UsageError
+
+PAUSE = 1.0  # seconds between two looks at the files
+# Bytes of disk, rounded up from what was measured: a cell in its block and in the dataset, a block
+# and snakemake's records of it, and what snakemake writes for any run.
+CELL, BLOCK, RUN = 600, 60_000, 10_000_000
+
+
+def chosen(sweeps, words) -> tuple[list[str], list[str]]:
+    """The sweeps named before the first option, all where none is, and the words after them."""
+    end = next((i for i, word in enumerate(words) if word.startswith("-")), len(words))
+    for name in words[:end]:
+        if name not in sweeps:
+            raise UsageError(unknown("sweep", name, list(sweeps)))
+    if not sweeps:
+        raise UsageError("config.yaml: sweeps: missing, or empty")
+    return words[:end] or list(sweeps), words[end:]
+
+
+def lacking(sweeps, names, outdated) -> dict[str, tuple[int, int]]:
+    """Block -> (cells, impacts), of those that are outdated."""
+    return {
+        path: (stop - start, (stop - start) * sweeps[name]["starts"] * sweeps[name]["impacts"])
+        for name in names
+        for path, (start, stop) in zip(
+            places.block_files(name, sweeps[name]), grid.ranges(sweeps[name]), strict=True
+        )
+        if path in outdated
+    }
+
+
+def shortage(blocks, total) -> str | None:
+    """One line if the disk has not the space for `blocks` and a dataset of `total` cells."""
+    need = RUN + CELL * total + BLOCK * len(blocks)
+    free = shutil.disk_usage(".").free
+    if free >= need:
+        return None
+    return f"the disk is full: about {need / 1e6:.0f} MB are needed here, {free / 1e6:.0f} are free"
+
+
+@contextmanager
+def progress(blocks, total, out=None):
+    """While the body runs, tell how many of `blocks` have been written, as given by `lacking`."""
+    pending = {path: _identity(path) for path in blocks}
+    begin = time.monotonic()
+    ended = threading.Event()
+
+    def tell():
+        written = [path for path in pending if _identity(path) not in (pending[path], None)]
+        for path in written:
+            del pending[path]
+        if written:
+            done, left = (_sums(blocks, here) for here in (blocks.keys() - pending, pending))
+            text = line(total, done, left, time.monotonic() - begin)
+            print(text, file=out or sys.stderr, flush=True)
+
+    def watch():
+        while not ended.wait(PAUSE):
+            tell()
+        tell()
+
+    thread = threading.Thread(target=watch, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def line(total, done, left, seconds) -> str:
+    """How far a sweep of `total` cells is; `done` in so many seconds and `left`: cells, impacts."""
+    text = f"sweep: {total - left[0]:,} of {total:,} cells, {done[0] / seconds:.3g} cells/s"
+    if not left[0]:
+        return text
+    minutes, rest = divmod(round(left[1] * seconds / done[1]), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{text}, {f'{hours} h {minutes} min' if hours else f'{minutes} min {rest} s'} to go"
+
+
+def _sums(blocks, paths):
+    return sum(blocks[path][0] for path in paths), sum(blocks[path][1] for path in paths)
+
+
+def _identity(path):
+    try:
+        status = Path(path).stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns

@@ -1,0 +1,124 @@
+"""Whether a block fits its declaration: pydantic's findings in our words, all of them."""
+
+import difflib
+import math
+import typing
+
+from pydantic import TypeAdapter, ValidationError
+from pydantic.fields import FieldInfo
+
+from ..declared.fields import TAGS, Block
+from .words import dotted, refusal
+
+
+def mistakes(model, given, place) -> list[str]:
+    """A line for each mistake in `given`, which stands at `place`; the topmost first.
+
+    `model` is a Block, or any other type with descriptions.
+    """
+    try:
+        TypeAdapter(model).validate_python(given)
+    except ValidationError as error:
+        found = error.errors(include_url=False, include_context=False)
+    else:
+        return []
+    # A misspelt key leaves the right one missing: say the former first.
+    rank = {"extra_forbidden": 0, "missing": 1}
+    found.sort(key=lambda e: (len(e["loc"]), rank.get(e["type"], 2)))
+    misspelt = {e["loc"][:-1] for e in found if e["type"] == "extra_forbidden"}
+    return [
+        _line(model, error, place)
+        for error in found
+        if not (error["type"] == "missing" and error["loc"][:-1] in misspelt)
+    ]
+
+
+def complete(model: type[Block], given: dict) -> dict:
+    """A correct block with the defaults of what it leaves out."""
+    defaults = {
+        name: field.default
+        for name, field in model.model_fields.items()
+        if not field.is_required() and field.default is not None
+    }
+    return defaults | given
+
+
+def _line(model, error, place) -> str:
+    loc = error["loc"]
+    where = (*place, *(part for part in loc if part not in TAGS))
+    if error["type"] == "extra_forbidden":
+        known = list(_at(model, loc[:-1])[0].model_fields)
+        near = difflib.get_close_matches(str(loc[-1]), known, 1, 0.5)
+        hint = f"did you mean {near[0]}?" if near else f"allowed here: {', '.join(known)}"
+        return f"{dotted(where)}: unknown key: {hint}"
+    if error["type"] == "missing":
+        return f"{dotted(where)}: missing"
+    if loc[-1:] == ("[key]",):
+        where, loc = where[:-2], loc[:-1]
+    annotation, allowed = _at(model, error["loc"])
+    value = error["input"]
+    if isinstance(value, str):
+        number = _number_in(value)
+        if number is not None and not _refused(annotation, number):
+            plain = repr(number)
+            if "." not in plain:
+                plain = plain.replace("e", ".0e")  # YAML 1.1 takes 1e-3 for text
+            allowed += f"; this is text to YAML, write {plain}"
+    return refusal(where, value, allowed)
+
+
+def allowed_at(model, loc) -> str:
+    """What is allowed at a place of pydantic's below a type, in words."""
+    return _at(model, loc)[1]
+
+
+def _at(annotation, loc):
+    """(type, what is allowed in words) at a place of pydantic's below a type."""
+    allowed = "something else"
+    while True:
+        if isinstance(annotation, FieldInfo):
+            allowed = annotation.description or allowed
+            parts = (annotation.annotation, *annotation.metadata)
+            annotation = typing.Annotated[parts] if annotation.metadata else parts[0]
+        whole = annotation
+        if typing.get_origin(annotation) is typing.Annotated:
+            annotation, *metadata = typing.get_args(annotation)
+            for item in metadata:
+                allowed = getattr(item, "description", None) or allowed
+        if isinstance(annotation, type) and issubclass(annotation, Block):
+            allowed = annotation.__doc__.partition("\n")[0]
+            if not loc:
+                return annotation, allowed
+            annotation, loc = annotation.model_fields[loc[0]], loc[1:]
+            continue
+        if not loc:
+            return whole, allowed
+        arguments = typing.get_args(annotation)
+        if loc[0] in TAGS:
+            annotation = arguments[TAGS.index(loc[0])]
+        elif typing.get_origin(annotation) is dict:
+            of_key = loc[1:] == ("[key]",)
+            annotation = arguments[0 if of_key else 1]
+            loc = loc[:1] if of_key else loc
+        else:
+            annotation = arguments[0]
+        loc = loc[1:]
+
+
+def _refused(annotation, value) -> bool:
+    try:
+        TypeAdapter(annotation).validate_python(value)
+    except ValidationError:
+        return True
+    return False
+
+
+def _number_in(text):
+    """The number that a text was meant to be, whole where it can be, or None."""
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    if not math.isfinite(number):
+        return None
+    return int(number) if number.is_integer() and abs(number) < 1e15 else number

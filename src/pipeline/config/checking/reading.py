@@ -1,0 +1,54 @@
+"""From the file to a checked config."""
+
+from pathlib import Path
+
+import yaml
+
+from .document import check
+from .words import ConfigError
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML that refuses a key given twice, of which plain PyYAML keeps the last without a word."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+            if not isinstance(key, yaml.ScalarNode):
+                continue  # PyYAML itself refuses a list or a mapping as a key
+            if key.value in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key {key.value} is given twice", key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def load(path) -> dict:
+    """The checked config at `path`; every scene complete with its `ball` and `formats`.
+
+    Raises ConfigError, with a line to show for each mistake.
+    """
+    path = Path(path)
+    try:
+        return check(_parse(path))
+    except ConfigError as error:
+        raise ConfigError(*(f"{path.name}: {line}" for line in error.lines)) from None
+    except RecursionError:
+        raise ConfigError(f"{path.name}: nested too deeply") from None
+
+
+def _parse(path):
+    try:
+        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+    except OSError as error:
+        raise ConfigError(f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ConfigError(f"is not UTF-8 text: byte {error.start}") from None
+    except (yaml.YAMLError, ValueError) as error:  # ValueError: a date that does not exist
+        mark = getattr(error, "problem_mark", None)
+        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise ConfigError(f"{place}not valid YAML: {problem}") from None
+    except (LookupError, AttributeError):  # what PyYAML makes of `!!bool x`
+        raise ConfigError("not valid YAML: a value that is not what its !!tag says") from None

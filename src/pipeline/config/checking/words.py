@@ -1,0 +1,39 @@
+"""The lines that say what is wrong in the config and what is allowed."""
+
+import difflib
+
+
+class ConfigError(Exception):
+    """What is wrong in the config, a line for each mistake: place, value, and what is allowed."""
+
+    def __init__(self, *lines: str):
+        super().__init__("\n".join(lines))
+        self.lines = lines
+
+
+def refusal(place, value, allowed) -> str:
+    """The line for a value that is not allowed."""
+    where = f"{dotted(place)}: " if place else ""
+    return f"{where}{shown(value)} is not allowed: expected {allowed}"
+
+
+def unknown(kind, name, known) -> str:
+    """In words that there is no such thing, and which was meant."""
+    near = difflib.get_close_matches(str(name), known, 1, 0.5)
+    hint = f"did you mean {near[0]}? " if near else ""
+    return f"no {kind} {name}: {hint}config.yaml has {', '.join(known) or 'none'}"
+
+
+def dotted(place) -> str:
+    """A place in the config as scenes.fig2.starts[1]."""
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.removeprefix(".")
+
+
+def shown(value) -> str:
+    """A value as in YAML, shortened to a part of a line."""
+    text = "nothing" if value is None else repr(value) if value not in (True, False) else ""
+    text = text or str(value).lower()
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,185 @@
+"""The types of the fields of config.yaml: pydantic's checks, and the words for what is allowed.
+
+A field's description is what a refusal says and what docs/config.md lists. Models only check:
+blocks stay the plain mappings that were written, so that 1 and 1.0 stay what they are.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic.types import Strict
+
+LARGEST = 10_000_000  # impacts of a scene, and points of a manifold: above it a number is a slip
+
+
+class Block(BaseModel):
+    """A mapping of the config: unknown keys are mistakes, and so are numbers in quotes."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+def real(allowed: str, **bounds):
+    """The type of a number, with pydantic's bounds (gt, ge, lt, le) and the words for them."""
+    return Annotated[float, Strict(), Field(description=allowed, **bounds)]
+
+
+def whole(low: int, high: int):
+    """The type of a whole number from `low` to `high`."""
+    allowed = f"a whole number from {low} to {high}"
+    return Annotated[int, Strict(), Field(description=allowed, ge=low, le=high)]
+
+
+def listed(item, allowed: str, low: int = 1, high: int | None = None):
+    """The type of a list of `low` to `high` items."""
+    return Annotated[list[item], Field(description=allowed, min_length=low, max_length=high)]
+
+
+def one_or(other, one, mark: type, allowed: str):
+    """The type of what is either `other`, where it is given as a `mark`, or `one`."""
+
+    def which(value):
+        return "(other)" if isinstance(value, mark) else "(one)"
+
+    return Annotated[
+        Annotated[one, Tag("(one)")] | Annotated[other, Tag("(other)")],
+        Discriminator(which),
+        Field(description=allowed),
+    ]
+
+
+TAGS = ("(one)", "(other)")  # of one_or, which pydantic puts into the place of a mistake
+
+Number = real("a number")
+Inertia = real("a number with 0 < k <= 1", gt=0, le=1)
+Gravity = real("a number with 0 < g < k", gt=0)
+Energy = real("a number with -g^2/(2k) < energy < k/2 - g")
+Range = listed(Number, "a list of two increasing numbers", 2, 2)
+Name = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$",
+          description="a name of letters, digits, - and _ that does not begin with -"),
+]  # fmt: skip
+
+
+class BallBlock(Block):
+    """a mapping with the keys k and g"""
+
+    k: Inertia
+    g: Gravity
+
+
+class PartOfBall(Block):
+    """a mapping with the keys k and g, or one of them"""
+
+    k: Inertia = None
+    g: Gravity = None
+
+
+class Method(Block):
+    """a mapping with the keys scan and tolerance"""
+
+    scan: real("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
+    tolerance: real("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
+
+
+class FineMethod(Method):
+    """a mapping with the keys scan and tolerance"""
+
+    # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
+    tolerance: real("a number from 1e-15 to 1e-12, for manifolds", ge=1e-15, le=1e-12)
+
+
+class Axis(Block):
+    """a mapping with the keys limits and ticks"""
+
+    limits: Range
+    ticks: listed(Number, "a list of 1 to 50 numbers", 1, 50)
+
+
+class View(Block):
+    """a mapping with the keys elevation and azimuth"""
+
+    elevation: real("a number of degrees with 0 < elevation < 90", gt=0, lt=90)
+    azimuth: real("a number of degrees from -360 to 360", ge=-360, le=360)
+
+
+class Point(Block):
+    """a mapping with the keys x and xdot, or x and y = xdot - k udot"""
+
+    x: Number
+    xdot: Number = None
+    y: Number = None
+
+
+class Branch(Block):
+    """a mapping with the key length"""
+
+    length: real("a positive number, in radii of the section", gt=0)
+
+
+class Branches(Block):
+    """a mapping with the keys outer and inner, or one of them"""
+
+    outer: Branch = None
+    inner: Branch = None
+
+
+class Resolution(Block):
+    """a mapping with the keys distance and bend"""
+
+    distance: real("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
+    bend: real("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
+
+
+class Window(Block):
+    """a mapping with the keys x and xdot"""
+
+    x: Range
+    xdot: Range
+
+
+Start = one_or(
+    Point,
+    real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",
+         gt=-1, lt=1),
+    dict,
+    "a fraction of the section's radius, or a point {x, xdot} or {x, y}",
+)  # fmt: skip
+Starts = listed(
+    Start,
+    "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
+    "{x, xdot} or {x, y}",
+)
+Impacts = one_or(
+    listed(whole(1, LARGEST), "a list of whole numbers, one for each start"),
+    whole(1, LARGEST),
+    list,
+    "a whole number, or a list of them, one for each start",
+)
+Period = whole(1, 12)
+OrbitType = Annotated[
+    Literal["elliptic", "hyperbolic", "inverse hyperbolic"],
+    Field(description="one of elliptic, hyperbolic, inverse hyperbolic"),
+]
+Saddle = Annotated[
+    Literal["hyperbolic", "inverse hyperbolic"],
+    Field(description="one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
+]
+Format = Annotated[Literal["png", "svg", "pdf"], Field(description="one of png, svg, pdf")]
+Formats = listed(Format, "a list of png, svg, pdf, none of them twice")
+
+
+def axes_of(*names: str) -> Any:
+    """The type of `axes:` with these names, each of which may be left out."""
+    keys = f"the keys {', '.join(names[:-1])} and {names[-1]}"
+    fields = {name: Axis for name in names}
+    model = type(
+        "Axes",
+        (Block,),
+        {
+            "__doc__": f"a mapping with {keys}, or some of them",
+            "__annotations__": fields,
+            **dict.fromkeys(names),
+        },
+    )
+    return model

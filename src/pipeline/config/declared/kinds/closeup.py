@@ -1,0 +1,50 @@
+"""Stable and unstable manifolds near one saddle: Figure 6 of the paper."""
+
+from ..fields import Window, axes_of, real, whole
+from ..scene import OfManifolds
+
+
+class Closeup(OfManifolds):
+    """manifolds in a window around one point
+
+    The surroundings of one point (dot) of the {{ s.type }} orbit of period {{ s.period }}, at
+    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}: stable (green) and unstable
+    (blue) manifolds of all its points that pass here.
+
+    What to see: branches that come from other points arrive along the dot's own and swing to and
+    fro across them. Each crossing is an orbit that leaves one point and ends at another.
+    """
+
+    stages = ("manifolds",)
+    framed_by = ("period", "type", "point", "window")
+    telling = "x of the point"
+    studied = "closeup"
+
+    point: whole(0, 11)
+    window: Window
+    length: real("a number above 0, in section radii", gt=0)
+    axes: axes_of("x", "xdot") = None
+
+    @classmethod
+    def lengths(cls, block):
+        """How far the branches are followed."""
+        return {("length",): block["length"]}
+
+    @classmethod
+    def faults(cls, block):
+        """A point of the orbit, and a window with an inside."""
+        yield from super().faults(block)
+        last = block["period"] - 1
+        if block["point"] > last:
+            yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
+        for axis, (low, high) in block["window"].items():
+            if not low < high:
+                yield ("window", axis), [low, high], "two increasing numbers"
+
+    @staticmethod
+    def numbers(block, periodic, manifolds):
+        """The orbit and the point."""
+        return Closeup.about_orbit(periodic, block) | {
+            "x of the point": f"{manifolds.attrs['point_x']:.7f}",
+            "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
+        }

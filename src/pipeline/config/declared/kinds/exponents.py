@@ -1,0 +1,48 @@
+"""Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
+
+from ..fields import axes_of, whole
+from ..scene import OfOrbits, each
+
+
+class Exponents(OfOrbits):
+    """Lyapunov exponents against the number of impacts
+
+    The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
+    number of impacts, up to {{ s.impacts|max if s.impacts is iterable else s.impacts }}, at
+    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}.
+
+    What to see: one exponent stays above zero, so neighbours part exponentially; one is zero,
+    since the energy is kept; and the third mirrors the first, since areas are kept. Single runs
+    differ in the third digit.
+    """
+
+    stages = ("lyapunov",)
+    framed_by = ("impacts",)
+    telling = "largest exponent"
+    studied = "exponents"
+
+    records: whole(2, 10_000)
+    axes: axes_of("impact", "exponent") = None
+
+    @classmethod
+    def faults(cls, block):
+        """No more records than impacts."""
+        yield from super().faults(block)
+        least = min(each(block["impacts"], block["starts"]))
+        if block["records"] > least:
+            yield ("records",), block["records"], f"at most impacts = {least}"
+
+    @staticmethod
+    def numbers(block, lyapunov):
+        """The last values of the largest exponent."""
+        import numpy as np
+
+        from pseudorigid.dynamics.variables import final_exponents
+
+        last = np.sort(final_exponents(lyapunov)[:, 0])
+        spread = f", standard deviation {np.std(last, ddof=1):.4f}" if last.size > 1 else ""
+        return {
+            "largest exponent": ", ".join(f"{value:.4f}" for value in last),
+            "their mean": f"{np.mean(last):.4f}{spread}",
+            "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
+        }

@@ -1,0 +1,42 @@
+"""Orbits on the energy surface: Figures 2 and 8 of the paper."""
+
+from ..fields import listed, whole
+from ..scene import OfOrbits, OnSurface
+
+Place = whole(0, 10_000_000)
+
+
+class Portrait(OnSurface, OfOrbits):
+    """orbits on the energy surface
+
+    {{ s.starts|length }} orbits of {{ s.impacts|sum if s.impacts is iterable else s.impacts *
+    s.starts|length }} impacts in all, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
+    s.ball.g }}: position x (downwards), velocity and strain rate just before each impact. They
+    lie on one half of an ellipsoid, the surface of this energy.
+
+    What to see: closed curves, one colour an orbit, are regular motion. Those around one point
+    belong to the elliptic fixed point, chains of small ones to elliptic orbits of a longer
+    period. Grey points are one orbit that wanders over an area: chaos.
+    """
+
+    stages = ("orbits",)
+    telling = "impacts"
+    studied = "portrait"
+
+    sea: listed(Place, "a list of places in starts, counted from 0, none of them twice", 0) = []
+
+    @classmethod
+    def faults(cls, block):
+        """Places in `sea` are places in `starts`."""
+        yield from super().faults(block)
+        last = len(block["starts"]) - 1
+        if len(set(block["sea"])) < len(block["sea"]):
+            yield ("sea",), block["sea"], "a list of places in starts, none of them twice"
+        for place in block["sea"]:
+            if place > last:
+                yield ("sea",), place, f"a place in starts, from 0 to {last}"
+
+    @staticmethod
+    def numbers(block, orbits):
+        """How many orbits and impacts."""
+        return {"orbits": f"{orbits.sizes['orbit']}", "impacts": f"{orbits.sizes['point']:,}"}

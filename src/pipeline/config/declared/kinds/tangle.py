@@ -1,0 +1,43 @@
+"""Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
+
+from ..fields import Branches
+from ..scene import OfManifolds, OfOrbits, OnSurface
+
+
+class Tangle(OfManifolds, OfOrbits, OnSurface):
+    """manifolds on the energy surface
+
+    Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period
+    }} (dots), at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. In grey some
+    orbits as a backdrop.
+
+    What to see: lines of the two colours leave each dot and meet those of its neighbours, but do
+    not coincide with them: they cross, fold and fill the chaotic sea.
+    """
+
+    stages = ("orbits", "manifolds", "periodic")
+    telling = "orbit"
+    studied = "tangle"
+
+    branches: Branches
+
+    @classmethod
+    def lengths(cls, block):
+        """Those of the branches."""
+        branches = block["branches"]
+        return {("branches", side, "length"): branches[side]["length"] for side in branches}
+
+    @classmethod
+    def faults(cls, block):
+        """At least one branch."""
+        if not block["branches"]:
+            yield ("branches",), {}, "a mapping with the keys outer and inner, or one of them"
+        yield from super().faults(block)
+
+    @staticmethod
+    def numbers(block, orbits, periodic, manifolds):
+        """The orbit, and how much there is of its branches."""
+        return Tangle.about_orbit(periodic, block) | {
+            "branches": f"{manifolds.sizes['branch']}",
+            "points of the lines": f"{manifolds.sizes['vertex']:,}",
+        }

@@ -1,0 +1,203 @@
+"""What a scene is, and the groups of fields that kinds of picture are made of.
+
+A kind of picture is one class in `kinds`, derived from these; the checks of a group that need more
+than one field stand with it. Numbers are compared as the decimals that were written.
+"""
+
+import inspect
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from .fields import (
+    LARGEST,
+    BallBlock,
+    Block,
+    Energy,
+    FineMethod,
+    Formats,
+    Impacts,
+    Method,
+    OrbitType,
+    Period,
+    Resolution,
+    Saddle,
+    Starts,
+    View,
+    axes_of,
+)
+
+Fault = tuple[tuple, Any, str]  # place in the scene, value, what is allowed
+SECTION = axes_of("x", "xdot", "udot")
+
+
+class Scene(Block):
+    """a mapping that begins with picture
+
+    The docstring of a kind has, below its first line, the caption of the kind's figures: Jinja,
+    with the scene's block as `s`; what the picture shows, and what to see in it.
+    """
+
+    # In the order in which the kind's `draw` takes them.
+    stages: ClassVar[tuple[str, ...]]
+    # A variant that changes one of these, the ball or the energy has axes of its own.
+    framed_by: ClassVar[tuple[str, ...]] = ()
+    # The quantity of `numbers` that stands for the figure in a list.
+    telling: ClassVar[str]
+    # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
+    studied: ClassVar[str | None] = None
+
+    picture: Annotated[str, Field(description="the kind of picture: one of those below")]
+    ball: BallBlock = None
+    energy: Energy
+    method: Method = None
+    formats: Formats = ["png"]
+
+    @classmethod
+    def caption(cls) -> str:
+        """The caption of its figures, a template."""
+        return inspect.getdoc(cls).partition("\n\n")[2]
+
+    @staticmethod
+    def numbers(block: dict, **data) -> dict[str, str]:
+        """Quantity -> value in words, from the datasets of its stages (for the report)."""
+        raise NotImplementedError
+
+    @classmethod
+    def faults(cls, block: dict) -> Iterator[Fault]:
+        """What is wrong with a complete block whose fields are well each by itself."""
+        ball = block["ball"]
+        if not ball["g"] < ball["k"]:
+            yield ("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"
+            return
+        yield from _energy_faults(block)
+        formats = block["formats"]
+        if len(set(formats)) < len(formats):
+            yield ("formats",), formats, "a list of png, svg, pdf, none of them twice"
+        if "png" not in formats:
+            yield ("formats",), formats, "a list that has png in it"
+        for axis, drawn in block.get("axes", {}).items():
+            yield from _axis_faults(drawn, ("axes", axis))
+
+
+class OfOrbits(Scene):
+    """A scene of orbits from given starts."""
+
+    starts: Starts
+    impacts: Impacts
+
+    @classmethod
+    def faults(cls, block):
+        """Each start on the section, impacts for each of them, not too many in all."""
+        yield from super().faults(block)
+        starts, impacts = block["starts"], block["impacts"]
+        for i, start in enumerate(starts):
+            if isinstance(start, dict):
+                yield from _start_faults(block, start, ("starts", i))
+        if isinstance(impacts, list) and len(impacts) != len(starts):
+            yield ("impacts",), impacts, f"one number for each of the {len(starts)} starts"
+        elif sum(each(impacts, starts)) > LARGEST:
+            what = f"at most {LARGEST} impacts in a scene, counted over all its starts"
+            yield ("impacts",), impacts, what
+
+
+class OfPeriodicOrbit(Scene):
+    """A scene of one periodic orbit."""
+
+    period: Period
+    type: OrbitType
+
+    @staticmethod
+    def about_orbit(periodic, block) -> dict[str, str]:
+        """The orbit in words, and what tells its kind of stability."""
+        from pseudorigid.dynamics.variables import of_type
+
+        orbit = of_type(periodic, block["type"])
+        words = {"orbit": f"{block['type']}, period {block['period']}"}
+        if block["type"] == "elliptic":
+            return words | {"rotation number": f"{float(orbit['rotation_number']):.6f}"}
+        return words | {"multiplier": f"{float(orbit['multiplier']):.6f}"}
+
+
+class OfManifolds(OfPeriodicOrbit):
+    """A scene of the manifolds of a hyperbolic orbit."""
+
+    method: FineMethod = None
+    type: Saddle
+    resolution: Resolution
+
+    @classmethod
+    def lengths(cls, block) -> dict[tuple, float]:
+        """Place in the block -> the length of a branch."""
+        raise NotImplementedError
+
+    @classmethod
+    def faults(cls, block):
+        """No branch longer than its points allow."""
+        yield from super().faults(block)
+        longest = LARGEST * block["resolution"]["distance"]
+        for place, length in cls.lengths(block).items():
+            if length > longest:
+                yield place, length, f"at most {LARGEST} times resolution.distance = {longest:g}"
+
+
+class OnSurface(Scene):
+    """A scene drawn on the energy surface, in (x, xdot, udot)."""
+
+    view: View = {"elevation": 40, "azimuth": 115}
+    axes: SECTION = None
+
+
+def each(impacts, starts) -> list[int]:
+    """Impacts of each start, given as one number or as a list."""
+    return impacts if isinstance(impacts, list) else [impacts] * len(starts)
+
+
+def exact(value) -> Fraction:
+    """The decimal as written: as floats 0.2 / 2 - 0.04 is a little more than 0.06."""
+    return Fraction(str(value))
+
+
+def _energy_faults(block):
+    k, g, energy = (exact(x) for x in (*(block["ball"][n] for n in "kg"), block["energy"]))
+    lowest, highest = -g * g / (2 * k), k / 2 - g
+    if not energy > lowest:
+        where = f"-g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
+        yield ("energy",), block["energy"], f"a number above {where}"
+    elif not energy < highest:
+        where = f"k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
+        yield ("energy",), block["energy"], f"a number below {where}"
+
+
+def _axis_faults(axis, place):
+    low, high = axis["limits"]
+    if not low < high:
+        yield (*place, "limits"), axis["limits"], "two increasing numbers"
+        return
+    for tick in axis["ticks"]:
+        if not low <= tick <= high:
+            yield (*place, "ticks"), tick, f"numbers within the limits {axis['limits']}"
+
+
+def _start_faults(block, start, place):
+    """A point {x, xdot} or {x, y} must lie inside the section at the scene's energy."""
+    if ("xdot" in start) == ("y" in start):
+        yield place, start, "a point {x, xdot} or {x, y}"
+        return
+    k, g, energy = (exact(x) for x in (*(block["ball"][n] for n in "kg"), block["energy"]))
+    x = exact(start["x"])
+    rest = 2 * energy + 2 * g * x - k * x * x  # twice the kinetic energy
+    least = Fraction(1, 10**12) * (2 * energy + g * g / k)  # that near the rim roundings decide
+    if "y" in start:
+        y = exact(start["y"])
+        inside = (1 + k) * rest - y * y > least
+        where = "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"
+    else:
+        v = exact(start["xdot"])
+        square = rest - v * v  # k udot^2
+        inside = square > least and (v >= 0 or square - k * v * v > least)
+        where = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"
+    if not inside:
+        yield place, start, f"a point on the section at energy {block['energy']:g}, {where}"

@@ -1,0 +1,120 @@
+"""What made a result: a record beside each artifact and drawing.
+
+The record of results/paper/orbits_fig2.nc is results/paper/provenance/orbits_fig2.nc.json. It is
+written as the job's last act and is one of the job's outputs: a job that was killed before it is
+done again. Paths are relative to the project's root, so that a folder that moved still verifies.
+"""
+
+import json
+import os
+import platform
+import subprocess
+from importlib import metadata
+from pathlib import Path
+
+from .files import file_hash, replacing
+
+SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
+# The packages that decide bits. Python's own version does not, nor do the tools around the work.
+PACKAGES = (
+    "deflate",
+    "fonttools",
+    "llvmlite",
+    "matplotlib",
+    "netCDF4",
+    "numba",
+    "numpy",
+    "pyparsing",
+    "xarray",
+)
+
+
+class RecordError(ValueError):
+    """In words, why a record cannot be read."""
+
+
+def record_path(result):
+    """Where the record of a result is: results/paper/provenance/<its file's name>.json."""
+    _, variant, *_, name = Path(result).parts
+    return f"results/{variant}/provenance/{name}.json"
+
+
+def read_record(root, path):
+    """The record of a result; raises RecordError, in words, where there is none to be read."""
+    try:
+        record = json.loads((root / record_path(path)).read_text(encoding="utf-8"))
+        for name, kind in SHAPE.items():
+            if not isinstance(record[name], kind):
+                raise TypeError
+        str(record["output"]["sha256"])
+    except FileNotFoundError:
+        raise RecordError("no record of what made it") from None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        raise RecordError(f"its record {record_path(path)} cannot be read") from None
+    return record
+
+
+def begin(*, config, inputs, sources):
+    """Return what can be said before the work: paths are relative to the current folder, the root.
+
+    `config` is the block behind the result, `inputs` the results it is made from, `sources` the
+    project's own files that make it.
+    """
+    commit, dirty = _commit()
+    return {
+        "commit": commit,
+        "dirty": dirty,
+        "config": config,
+        "inputs": {path: file_hash(path) for path in sorted(inputs)},
+        "sources": {path: file_hash(path) for path in sorted(sources)},
+        "environment": versions(),
+        "python": platform.python_version(),
+    }
+
+
+def finish(record, output, path):
+    """Write the record of the finished file `output` to `path`."""
+    about = {"file": str(output), "sha256": file_hash(output)}
+    if str(output).endswith(".nc"):
+        from .artifacts import content_hash, load
+
+        about["content"] = content_hash(load(output))
+    with replacing(path) as part:
+        text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
+        part.write_text(text + "\n", encoding="utf-8")
+
+
+def versions():
+    """Return package -> installed version, None where it is not installed."""
+    found = {}
+    for package in PACKAGES:
+        try:
+            found[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            found[package] = None
+    return found
+
+
+def git(*arguments, root="."):
+    """Return what git prints, as bytes; None where it fails or is not there."""
+    try:
+        result = subprocess.run(
+            ["git", "-C", str(root), *arguments],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+            env=os.environ | {"GIT_OPTIONAL_LOCKS": "0"},
+        )
+    except OSError:
+        return None
+    return result.stdout if result.returncode == 0 else None
+
+
+def _commit():
+    """(commit, whether tracked files other than the figures differ from it), None if unknown."""
+    commit = git("rev-parse", "HEAD")
+    # Another repository may lie around a copy of this folder.
+    if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
+        return None, None
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!paper_figures")
+    return commit.decode().strip(), None if changed is None else bool(changed.strip())

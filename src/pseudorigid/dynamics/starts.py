@@ -1,0 +1,45 @@
+"""Where the orbits of a scene start: on the symmetry line y = 0, or at a point of the section."""
+
+import numpy as np
+
+
+def start_state(ball, energy, start):
+    """The state (x, xdot, udot) of a start.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+    start : float or mapping
+        A fraction of the section's radius along y = 0, from -1 to 1; or a point with x and
+        either xdot or y = xdot - k udot.
+
+    Raises
+    ------
+    ValueError
+        A start off the section.
+    """
+    if not isinstance(start, dict):
+        return ball.start(start, energy)
+    if "y" in start:
+        return ball.state_xy(start["x"], start["y"], energy)
+    return ball.state(start["x"], start["xdot"], energy)
+
+
+def start_variables(starts, states):
+    """Dataset variables on `orbit`: `start`, NaN where it is a point, and then start_x, start_xdot.
+
+    `states` (orbit, 3) are those of `starts`.
+    """
+    fractions = [np.nan if isinstance(start, dict) else start for start in starts]
+    text = "start along y = 0, in section radii from the centre"
+    data = {"start": ("orbit", np.asarray(fractions, dtype=float), _about(text))}
+    if any(isinstance(start, dict) for start in starts):
+        for i, name in enumerate(("x", "xdot")):
+            values = np.array([state[i] for state in states], dtype=float)
+            data[f"start_{name}"] = ("orbit", values, _about(f"{name} of the start"))
+    return data
+
+
+def _about(text):
+    return {"long_name": text, "units": "1"}

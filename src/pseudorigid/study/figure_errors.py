@@ -1,0 +1,255 @@
+"""The error of each figure under each compiled method, in pixels, and what the method spends.
+
+What counts as error depends on the kind of picture, which names its measure:
+
+    portrait  the drift of the energy over each orbit, as a change of the section's radius: it moves
+              every curve; along a curve points may slide unseen
+    motion    the error of height and time at the impacts, against the proved orbit
+    tangle, closeup
+              the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of
+              an impact: across a branch errors shrink by 1/m each impact, along it they do not
+              show
+    exponents the change of the largest exponent, averaged over the orbits
+
+A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the
+energy says. The mean exponent of a long orbit does not.
+"""
+
+import math
+from decimal import Decimal
+from typing import NamedTuple
+
+import numpy as np
+
+from ..dynamics.ball import Ball
+from ..dynamics.starts import start_state
+from ..dynamics.variables import of_type
+from ..figures.axes.box import Box
+from ..figures.canvas.style import DPI
+from ..figures.kinds import closeup, exponents, motion
+from ..kernel.arithmetic import log, sincos_each
+from ..kernel.compiled import jit
+from ..kernel.law import rebound, transfer
+from ..proofs import judge
+from .failures import certified_orbit, energy_drift
+from .methods.counted import ENGINES, OURS, SCANS
+from .work import dataset, is_wrong, proved_times
+
+# The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
+METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
+# The scatter between orbits of an exponent after 2e5 impacts, whatever the method.
+SCATTER = 0.004
+BRANCH_POINTS = 2000  # of a manifold, evenly by index: shares of misses to a tenth of a per cent
+
+
+class Errors(NamedTuple):
+    """What one figure shows of the methods' errors; lists are by method."""
+
+    error: list  # of the picture, in pixels
+    missed: list  # impacts flown past
+    evaluations: list  # an impact
+    impacts: int  # computed for the comparison
+    axis: str  # in whose units the following are
+    pixel: float
+    stroke: float  # the width of a line or dot, in points
+    limit: float = 1.0  # error that the picture can hide, in pixels
+    misses_show: bool = True
+
+
+def figure_errors(scenes, measures, artifacts):
+    """The error of each figure under each method, missed impacts, evaluations, what is good enough.
+
+    Parameters
+    ----------
+    scenes : dict
+        Name -> block of the checked config, with its axes.
+    measures : dict
+        Name -> what counts as error there, a key of MEASURES.
+    artifacts : dict
+        (stage, name) -> Dataset, for the periodic orbits and manifolds of the scenes.
+
+    Returns
+    -------
+    xarray.Dataset
+        On (scene, method).
+
+    Raises
+    ------
+    ValueError
+        A measure that there is not.
+    """
+    rows = []
+    for name, block in scenes.items():
+        if measures[name] not in MEASURES:
+            known = ", ".join(MEASURES)
+            raise ValueError(f"{name}: no measure {measures[name]!r} (the study has {known})")
+        data = {stage: found for (stage, scene), found in artifacts.items() if scene == name}
+        rows.append(MEASURES[measures[name]](block, **data))
+    error, missed, evaluations, impacts, axes, pixel, stroke, limit, misses_show = (
+        np.array(column) for column in zip(*rows, strict=True)
+    )
+    good = (error <= limit[:, None]) & ((missed == 0) | ~misses_show[:, None])
+    cheapest = np.where(good, evaluations, np.inf).argmin(axis=1)
+    digit = [_last_digit(block, axis) for block, axis in zip(scenes.values(), axes, strict=True)]
+    each = ("scene", "method")
+    variables = {
+        "scene": ("scene", list(scenes), "scene"),
+        "error": (each, error, "error of the picture in pixels"),
+        "missed": (each, missed, "impacts flown past"),
+        "evaluations": (each, evaluations, "evaluations an impact"),
+        "impacts": ("scene", impacts, "impacts computed for the comparison"),
+        "pixel": ("scene", pixel, "a pixel in units of the axis"),
+        "line": ("scene", stroke * DPI / 72 * pixel, "width of a line or dot in units of the axis"),
+        "digit": ("scene", digit, "last digit of the axis' labels"),
+        "limit": ("scene", limit, "error that the picture can hide, in pixels"),
+        "good": (each, good.astype(np.int8), "1 where the picture is right"),
+        "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
+    }
+    return dataset(METHODS, variables)
+
+
+def _portrait(block):
+    ball, states, impacts = _orbits(block)
+    pixel = 1.0 / Box(block).view.scale
+    radius = ball.section(block["energy"])[1]
+    error = []
+    for method in METHODS:
+        tracks = [method.orbit(ball, *orbit)[0] for orbit in zip(states, impacts, strict=True)]
+        drifts = [energy_drift(ball, *each)[-1] for each in zip(states, tracks, strict=True)]
+        error.append(max(drifts) * abs(ball.energy(*states[-1])) / (ball.k * radius) / pixel)
+    return Errors(error, *_misses(ball, states, impacts), sum(impacts), "x", pixel, stroke=0.8)
+
+
+def _exponents(block):
+    ball, states, impacts = _orbits(block)
+    _, pixel = _pixels(exponents.plane(block))
+    means = []
+    for method in METHODS:
+        orbits = zip(states, impacts, strict=True)
+        found = [_largest_exponent(ball, method, *orbit) for orbit in orbits]
+        means.append(sum(found) / len(found))
+    error = [abs(mean - means[0]) / pixel for mean in means]
+    limit = SCATTER / math.sqrt(len(states)) / pixel
+    missed, evaluations = _misses(ball, states, impacts)
+    return Errors(error, missed, evaluations, sum(impacts), "exponent", pixel, 0.8, limit, False)
+
+
+def _motion(block, periodic):
+    ball = Ball(**block["ball"])
+    orbit = of_type(periodic, block["type"])
+    state = tuple(float(orbit[name].values[0]) for name in ("x", "xdot", "udot"))
+    impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
+    truth = np.array(judge.orbit(ball, state, impacts)).T
+    times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
+    across, up = _pixels(motion.plane(block))
+    error, evaluations = [], []
+    for method in METHODS:
+        track, count = method.orbit(ball, state, impacts)
+        late = np.abs(np.cumsum(track[3]) - times) / across
+        high = np.abs(track[0] - truth[0]) / up
+        error.append(float(max(late.max(), high.max())))
+        evaluations.append(count / impacts)
+    missed, _ = _misses(ball, [state], [impacts])
+    return Errors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
+
+
+def _tangle(block, periodic, manifolds):
+    return _branches(block, periodic, manifolds, 1.0 / Box(block).view.scale)
+
+
+def _closeup(block, periodic, manifolds):
+    return _branches(block, periodic, manifolds, _pixels(closeup.plane(block))[0])
+
+
+def _branches(block, periodic, manifolds, pixel):
+    ball = Ball(**block["ball"])
+    multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
+    # a decimal power, since a power function's last bit differs between machines
+    growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
+    columns = np.array([manifolds[name].values for name in ("x", "xdot", "udot")])
+    columns = columns[:, ~np.isnan(columns[0])]
+    columns = columns[:, :: max(1, columns.shape[1] // BRANCH_POINTS)]
+    columns[2] = np.maximum(columns[2], -columns[1])
+    truth = proved_times(ball, columns)
+    times, missed, evaluations = _solved(ball, columns, truth)
+    exact = _next_states(ball, columns, truth)
+    error = []
+    for tau in times:
+        off = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
+        off = off[~is_wrong(tau, truth)].max(initial=0.0)
+        error.append(off / (1.0 - 1.0 / growth) / pixel)
+    return Errors(error, missed, evaluations, truth.size, "x", pixel, stroke=0.5)
+
+
+MEASURES = {
+    "portrait": _portrait,
+    "motion": _motion,
+    "tangle": _tangle,
+    "closeup": _closeup,
+    "exponents": _exponents,
+}
+
+
+def _pixels(plane):
+    """The size of a pixel on the two axes of a plane picture."""
+    left, bottom, right, top = plane.frame
+    (x0, x1), (y0, y1) = plane.across.limits, plane.up.limits
+    return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
+
+
+def _last_digit(block, axis):
+    """The last digit that the labels of an axis show."""
+    ticks = block["axes"][axis]["ticks"]
+    decimals = max(len(f"{tick:.10g}".partition(".")[2]) for tick in ticks)
+    return float(f"1e-{decimals}")
+
+
+def _orbits(block):
+    """(ball, states, impacts) of a scene of orbits."""
+    ball, starts, impacts = Ball(**block["ball"]), block["starts"], block["impacts"]
+    states = [start_state(ball, block["energy"], start) for start in starts]
+    return ball, states, impacts if isinstance(impacts, list) else [impacts] * len(starts)
+
+
+def _misses(ball, states, impacts):
+    """(impacts missed, evaluations an impact) along certified orbits, by method."""
+    pieces = [certified_orbit(ball, *orbit) for orbit in zip(states, impacts, strict=True)]
+    columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
+    return _solved(ball, columns, truth)[1:]
+
+
+def _solved(ball, columns, truth):
+    """(flight times, how many are wrong, evaluations a flight) of states, each by method."""
+    times, counts = zip(*(method.solve(ball, *columns) for method in METHODS), strict=True)
+    return times, [is_wrong(tau, truth).sum() for tau in times], [n.mean() for n in counts]
+
+
+def _next_states(ball, columns, tau):
+    """The states after flights of given times, eq. (26)."""
+    x, xdot, udot = columns
+    b, c, _ = rebound(xdot, udot, ball.k, *transfer(ball.k))
+    sine, cosine = sincos_each(tau)
+    return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
+
+
+def _largest_exponent(ball, method, state, impacts):
+    """The largest exponent along the method's own orbit, by one tangent vector."""
+    track, _ = method.orbit(ball, state, impacts)
+    x, xdot, udot = np.column_stack((state, track[:3, :-1]))
+    return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
+
+
+@jit
+def _growth(jacobians):
+    """The logarithm by which a product of matrices (n, 3, 3) stretches the vector (1, 0, 0)."""
+    a, b, c = 1.0, 0.0, 0.0
+    total = 0.0
+    for j in jacobians:
+        p = (j[0, 0] * a + j[0, 1] * b) + j[0, 2] * c
+        q = (j[1, 0] * a + j[1, 1] * b) + j[1, 2] * c
+        r = (j[2, 0] * a + j[2, 1] * b) + j[2, 2] * c
+        length = math.sqrt((p * p + q * q) + r * r)
+        if length > 0.0 and length < math.inf:  # not differentiable where the next impact grazes
+            a, b, c = p / length, q / length, r / length
+            total += log(length)
+    return total

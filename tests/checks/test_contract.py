@@ -1,0 +1,123 @@
+"""The contract itself: what is missing, broken or too much in it, and accept, which renews it."""
+
+import shutil
+
+import pytest
+from runs import contents
+from verdicts import accepting, verified
+
+FIG3 = "paper_figures/fig3.png"
+
+
+def test_a_deleted_figure(moved):
+    (moved.path / FIG3).unlink()
+    found = verified(moved)
+    assert found.wrong == {"fig3.png": [f"file: {FIG3} is missing: ./reproduce makes it"]}
+    assert found.findings == []
+
+
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"garbage"])
+def test_a_figure_that_is_none(moved, content):
+    for name in ("fig3.png", "fig3.svg"):
+        (moved.path / "paper_figures" / name).write_bytes(content)
+    found = verified(moved)
+    assert set(found.wrong) == {"fig3.png", "fig3.svg"}
+    for name, (words,) in found.wrong.items():
+        assert words.startswith(f"drawing: paper_figures/{name}: damaged, or not")
+    assert found.findings == []
+
+
+def test_every_line_of_the_manifest_counts(moved):
+    path = moved.path / "paper_figures" / "MANIFEST.json"
+    lines = path.read_text().splitlines(keepends=True)
+    package = next(i for i, line in enumerate(lines) if '"matplotlib"' in line)
+    digest = next(i for i, line in enumerate(lines) if '"pixels"' in line)
+    for missing in (0, package, digest, len(lines) - 1):
+        path.write_text("".join(lines[:missing] + lines[missing + 1 :]))
+        found = verified(moved)
+        assert len(found.findings) == 1
+        assert found.findings[0].startswith("paper_figures/MANIFEST.json: ")
+        assert [*found.wrong.values()] == 11 * [["file: as in SHA256SUMS"]]
+
+
+@pytest.mark.parametrize("content", ["", "[]", "null", "{}", "{", "\0"])
+def test_no_manifest_to_speak_of(moved, content):
+    (moved.path / "paper_figures" / "MANIFEST.json").write_text(content)
+    assert verified(moved).findings[0].startswith("paper_figures/MANIFEST.json: ")
+
+
+def test_sums_with_a_missing_or_broken_line(moved):
+    path = moved.path / "paper_figures" / "SHA256SUMS"
+    text = path.read_text()
+    lines = text.splitlines(keepends=True)
+
+    def finding():
+        found = verified(moved)
+        assert (found.status, found.wrong) == (1, {})
+        (words,) = found.findings
+        return words.removeprefix("paper_figures/SHA256SUMS: ")
+
+    path.write_text("".join(line for line in lines if "fig3.svg" not in line))
+    assert finding() == "no line for fig3.svg"
+    path.write_text(text.replace(lines[0][:64], "0" * 64))
+    assert finding() == f"not the hash of {lines[0].split()[1]} that MANIFEST.json has"
+    path.write_text("not a sum\n")
+    assert finding() == "line 1 is not a sha256 and a file's name"
+    path.unlink()
+    assert finding() == "missing"
+
+
+def test_a_figure_that_no_scene_makes(moved):
+    shutil.copy(moved.path / FIG3, moved.path / "paper_figures" / "fig9.png")
+    found = verified(moved)
+    assert (found.status, found.wrong) == (1, {})
+    assert found.findings == ["paper_figures/fig9.png: no scene of config.yaml makes it"]
+
+
+def test_an_added_scene_is_a_note_until_it_is_accepted(moved):
+    document = moved.document()
+    document["scenes"]["again"] = document["scenes"]["fig3"] | {"duration": 7, "formats": ["png"]}
+    moved.write(document)
+    assert moved.run("paper_figures/again.png").returncode == 0
+    found = verified(moved)
+    assert found.notes == ["again.png: new: ./reproduce accept adds it to the contract"]
+    assert (found.status, found.findings) == (0, [])
+    assert found.wrong == {"again.png": ["new"]}
+    assert found.last == "11 of 12 figures identical; 1 note"
+    assert accepting(moved) == (
+        0,
+        [
+            "again.png  new",
+            "paper_figures/SHA256SUMS and paper_figures/MANIFEST.json renewed: 12 figures",
+        ],
+    )
+    assert verified(moved)[:4] == (0, {}, [], [])
+
+
+# ---- accept ----
+
+
+def test_accept_says_what_changed_and_repeats_itself(moved):
+    assert accepting(moved) == (0, ["paper_figures: nothing changed"])
+    moved.edit("fig7", impacts=61)
+    status, (refusal,) = accepting(moved)
+    assert status == 1
+    assert "made from another config: impacts: 60 then, 61 now" in refusal
+    assert moved.run("paper_figures/fig7.png", "paper_figures/fig7.svg").returncode == 0
+    assert set(verified(moved).wrong) == {"fig7.png", "fig7.svg"}
+    status, lines = accepting(moved)
+    assert status == 0
+    assert lines[0] == "fig7.png  config: impacts: 60 in the manifest, 61 in config.yaml"
+    assert any(line.startswith("fig7.png  data: results/paper/lyapunov_fig7.nc") for line in lines)
+    assert any(line.startswith("fig7.svg  drawing: ") for line in lines)
+    assert not any(line.startswith("fig2.png") for line in lines)
+    assert verified(moved).status == 0
+
+
+def test_accept_without_results_is_one_line(moved):
+    shutil.rmtree(moved.path / "results")
+    before = contents(moved)
+    status, (line,) = accepting(moved)
+    assert status == 1
+    assert line.endswith("is missing: run ./reproduce first")
+    assert contents(moved) == before

@@ -1,0 +1,104 @@
+"""The records of what made each result, and what is said of a result that they do not fit."""
+
+import json
+import os
+import shutil
+
+from verdicts import verified
+
+PERIODIC = "results/paper/periodic_fig3.nc"
+ORBITS = "results/paper/orbits_fig2.nc"
+LYAPUNOV = "src/pseudorigid/dynamics/lyapunov.py"
+
+
+def finding(tree):
+    """The first finding about results, of figures that are all as committed."""
+    found = verified(tree)
+    assert (found.status, found.wrong) == (1, {})
+    assert all(line.endswith(": run ./reproduce") for line in found.findings)
+    return found.findings[0].removesuffix(": run ./reproduce")
+
+
+def test_a_record_says_what_made_its_result(accepted):
+    path = accepted.path / "results" / "paper" / "provenance" / "motion_fig3.nc.json"
+    record = json.loads(path.read_text())
+    assert record["config"]["duration"] == 16
+    assert set(record["inputs"]) == {PERIODIC}
+    assert {"src/pseudorigid/dynamics/motion.py", "workflow/scripts/stage.py"} <= set(
+        record["sources"]
+    )
+    assert LYAPUNOV not in record["sources"]
+    assert {"numpy", "numba", "xarray"} <= set(record["environment"])
+    assert record["output"]["file"] == "results/paper/motion_fig3.nc"
+    assert {"commit", "dirty"} <= set(record)
+
+
+def test_a_result_without_its_record_or_with_a_broken_one(moved):
+    record = moved.path / "results" / "paper" / "provenance" / "orbits_fig2.nc.json"
+    text = record.read_text()
+    record.unlink()
+    assert finding(moved) == f"{ORBITS}: no record of what made it"
+    for content in ("", "[]", "{}", text.replace('"sources"', '"sauces"')):
+        record.write_text(content)
+        said = "its record results/paper/provenance/orbits_fig2.nc.json cannot be read"
+        assert finding(moved) == f"{ORBITS}: {said}"
+
+
+def test_deleted_records_come_back(moved):
+    folder = moved.path / "results" / "paper" / "provenance"
+    kept = {path.name for path in folder.iterdir()} - {"absent.json.json"}
+    shutil.rmtree(folder)
+    assert moved.run("paper_figures/fig3.png").returncode == 0
+    assert (
+        {p.name for p in folder.iterdir()} - {"absent.json.json"}
+        == {
+            "periodic_fig3.nc.json",
+            "motion_fig3.nc.json",
+            "fig3.png.json",
+        }
+        <= kept
+    )
+    found = verified(moved)
+    assert not [line for line in found.findings if "fig3.png" in line]
+    assert "no record of what made it" in found.findings[0]
+
+
+def test_a_result_made_by_other_code(moved):
+    """The module is edited, the result made, the edit taken back with its time."""
+    module = moved.path / LYAPUNOV
+    text, then = module.read_text(), module.stat()
+    with module.open("a") as file:
+        file.write("# edited\n")
+    moved.warm()
+    target = "results/paper/lyapunov_fig7.nc"
+    assert moved.run(target).returncode == 0
+    module.write_text(text)
+    os.utime(module, ns=(then.st_atime_ns, then.st_mtime_ns))
+    assert finding(moved) == f"{target}: made by other code than this tree's: {LYAPUNOV} differs"
+
+
+def test_a_run_killed_between_result_and_record_does_both_again(moved):
+    """Everything dies, snakemake too, where the result is whole and its record not yet there."""
+    result = moved.path / ORBITS
+    module = moved.path / "src" / "pipeline" / "records" / "record.py"
+    text = module.read_text()
+    result.unlink()
+    end = "    about = {"
+    assert text.count(end) == 1
+    module.write_text(text.replace(end, f"    os.killpg(os.getpgrp(), 9)\n{end}"))
+    # One job, in a group of its own that dies with it.
+    run = moved.start(ORBITS, start_new_session=True)
+    assert run.wait() == -9
+    module.write_text(text)
+    assert result.exists()
+    assert ORBITS in finding(moved)
+    assert moved.run(ORBITS).returncode == 0
+    assert verified(moved)[:3] == (0, {}, [])
+
+
+def test_a_result_made_from_another_input(moved):
+    path = moved.path / "results" / "paper" / "provenance" / "motion_fig3.nc.json"
+    record = json.loads(path.read_text())
+    record["inputs"][PERIODIC] = "0" * 64
+    path.write_text(json.dumps(record))
+    assert finding(moved) == f"results/paper/motion_fig3.nc: made from another {PERIODIC}"

@@ -1,0 +1,229 @@
+"""verify: each planted fault is named, in its layer, and nothing ends in a traceback."""
+
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+import netCDF4
+import numpy as np
+import pytest
+from verdicts import said, verified
+
+from pipeline.checks.difference import ulps
+from pipeline.records import pictures
+from pseudorigid.figures.canvas.render import png
+
+FIG3 = "paper_figures/fig3.png"
+PERIODIC = "results/paper/periodic_fig3.nc"
+ORBITS = "results/paper/orbits_fig2.nc"
+CHANGED = "changed after it was made: run ./reproduce"
+
+
+def test_an_intact_tree_passes_in_seconds_wherever_it_is(moved):
+    start = time.monotonic()
+    result = moved.run("verify")
+    assert time.monotonic() - start < 20
+    found = said(result.stdout, result.returncode)
+    assert found == (0, {}, [], [], "11 of 11 figures identical", [])
+
+
+def test_sha256sum_passes(moved):
+    tool = shutil.which("sha256sum")
+    if tool is None:
+        pytest.skip("no sha256sum here")
+    command = [tool, "--strict", "-c", "SHA256SUMS"]
+    subprocess.run(command, cwd=moved.path / "paper_figures", check=True, capture_output=True)
+
+
+def test_a_clone_without_results_passes_and_says_so(moved):
+    shutil.rmtree(moved.path / "results")
+    found = verified(moved)
+    assert found.status == 0
+    assert found.findings == [
+        "no results here: only the committed files were checked (./reproduce makes the rest)"
+    ]
+
+
+def test_the_contract_knows_no_place_and_no_day(accepted):
+    text = (accepted.path / "paper_figures" / "MANIFEST.json").read_text()
+    records = [file.read_text() for file in accepted.path.glob("results/paper/provenance/*.json")]
+    assert len(records) >= 10 + 11
+    for content in (text, *records):
+        assert str(accepted.path) not in content
+        assert time.strftime("%Y-") not in content
+    assert "commit" not in text
+
+
+# ---- one fault for each layer ----
+
+
+def test_config(moved):
+    moved.edit("fig7", impacts=61)
+    found = verified(moved)
+    words = ["config: impacts: 60 in the manifest, 61 in config.yaml"]
+    assert found.wrong == {"fig7.png": words, "fig7.svg": words}
+    assert len(found.findings) == 1
+    assert found.findings[0].endswith(
+        "made from another config: impacts: 60 then, 61 now: run ./reproduce"
+    )
+
+
+def test_a_key_of_an_axis(moved):
+    axes = {"impact": {"limits": [0, 200000], "ticks": [0]}}
+    axes["exponent"] = {"limits": [-0.5, 0.5], "ticks": [0]}
+    moved.edit("fig7", axes=axes)
+    assert verified(moved).wrong["fig7.png"][0].startswith("config: axes.exponent.limits: ")
+
+
+def test_a_misspelt_key_is_one_line(moved):
+    moved.edit("fig7", impact=61)
+    result = moved.run("verify")
+    line = "config.yaml: scenes.fig7.impact: unknown key: did you mean impacts?\n"
+    assert (result.returncode, result.stdout) == (1, line)
+
+
+def test_source(moved):
+    """Stale until it is made again; then the bytes are the committed ones, and that is a note."""
+    module = "src/pseudorigid/dynamics/lyapunov.py"
+    with (moved.path / module).open("a") as file:
+        file.write("# edited\n")
+    found = verified(moved)
+    assert (found.status, found.wrong) == (1, {})
+    words = f"made by other code than this tree's: {module} differs: run ./reproduce"
+    assert found.findings[0] == f"results/paper/lyapunov_fig7.nc: {words}"
+    assert found.notes == [f"fig7.png, fig7.svg: source: {module} differs"]
+    moved.warm()
+    assert moved.run("paper_figures/fig7.png", "paper_figures/fig7.svg").returncode == 0
+    again = verified(moved)
+    assert (again.status, again.wrong, again.findings) == (0, {}, [])
+    assert again.notes == found.notes
+    assert verified(moved, strict=True).status == 1
+
+
+def test_environment(moved):
+    """Another matplotlib, as far as its metadata go, found before the installed one."""
+    lib = moved.path / "lib"
+    about = lib / "matplotlib-3.0.1.dist-info" / "METADATA"
+    about.parent.mkdir(parents=True)
+    about.write_text("Metadata-Version: 2.1\nName: matplotlib\nVersion: 3.0.1\n")
+    start = "import sys, runpy; sys.path.insert(0, sys.argv.pop(1)); "
+    start += "runpy.run_module('pipeline', run_name='__main__', alter_sys=True)"
+    command = [sys.executable, "-P", "-c", start, str(lib), "verify"]
+    environment = moved.environment()
+    result = subprocess.run(
+        command, capture_output=True, text=True, cwd="/", check=False, env=environment
+    )
+    found = said(result.stdout, result.returncode)
+    assert (found.status, found.wrong) == (1, {}), result.stderr
+    assert re.search(r": made with matplotlib 3\.\S+ then, 3\.0\.1 here: ", found.findings[0])
+    assert re.search(
+        r"environment: matplotlib 3\.\S+ in the manifest, 3\.0\.1 here", found.notes[0]
+    )
+
+
+def change_a_value(path, variable, index, by_ulps):
+    with netCDF4.Dataset(path, "a") as file:
+        file.set_auto_mask(False)
+        values = file[variable][...]
+        values.view("i8")[index] += by_ulps
+        file[variable][...] = values
+
+
+def test_data(moved, accepted):
+    path = "results/paper/orbits_fig5.nc"
+    change_a_value(moved.path / path, "x", 17, 3)
+    found = verified(moved, against=accepted.path)
+    (words,) = found.wrong.pop("fig5.png")
+    assert found.wrong == {}
+    assert found.findings[0] == f"{path}: {CHANGED}"
+    assert words.startswith(f"data: {path}: variable x differs from block 0 on (value 0 of ")
+    assert "largest difference 3 ulp, compared with " in words
+
+
+def test_the_block_is_named(moved):
+    """In the middle of 2,000 values; the motion has the longest arrays of the small scenes."""
+    change_a_value(moved.path / "results" / "paper" / "motion_fig4.nc", "strain", 1500, 1)
+    found = verified(moved)
+    assert set(found.wrong) == {"fig4.png", "fig4.svg"}
+    words = found.wrong["fig4.png"][0]
+    assert "variable strain differs from block 1 on (value 1,024 of " in words
+
+
+def test_an_edited_attribute(moved):
+    with netCDF4.Dataset(moved.path / PERIODIC, "a") as file:
+        file.setncattr("energy", 0.02)
+    found = verified(moved)
+    words = [f"data: {PERIODIC}: attribute energy differs"]
+    assert found.wrong == {"fig3.png": words, "fig3.svg": words}
+    assert found.findings[0] == f"{PERIODIC}: {CHANGED}"
+
+
+@pytest.mark.parametrize("keep", [0, 1, 4000, -1])
+def test_a_truncated_artifact(moved, keep):
+    path = moved.path / ORBITS
+    path.write_bytes(path.read_bytes()[:keep])
+    found = verified(moved)
+    assert set(found.wrong) == {"fig2.png"}
+    assert found.wrong["fig2.png"][0].startswith(f"data: {ORBITS}: ")
+
+
+def spoil(path, row, column):
+    image = pictures.pixels(path).copy()
+    image[row, column] ^= 255
+    path.write_bytes(png(image, 300))
+
+
+def test_one_pixel(moved):
+    spoil(moved.path / FIG3, 100, 200)
+    found = verified(moved)
+    (words,) = found.wrong.pop("fig3.png")
+    assert (found.wrong, found.findings) == ({}, [])
+    assert re.match(rf"drawing: {FIG3}: 1 of [\d,]+ pixels differs: see results/paper/diff", words)
+    image = pictures.pixels(moved.path / "results" / "paper" / "differences" / "fig3.png")
+    red = (image == (220, 0, 0)).all(axis=2)
+    assert np.argwhere(red).tolist() == [[100, 200]]
+
+
+def test_one_pixel_of_a_drawing_that_was_not_published(moved):
+    drawing = "results/paper/figures/fig3.png"
+    spoil(moved.path / drawing, 5, 6)
+    found = verified(moved)
+    assert set(found.wrong) == {"fig3.png"}
+    assert f"drawing: {drawing}: 1 of" in found.wrong["fig3.png"][0]
+    assert found.findings == [f"{drawing}: {CHANGED}"]
+
+
+def test_one_pixel_without_results_is_compared_with_the_commit(moved):
+    shutil.rmtree(moved.path / "results")
+    for command in (["init", "-q"], ["add", "paper_figures"], ["commit", "-q", "-m", "x"]):
+        identity = ["-c", "user.name=x", "-c", "user.email=x@example.org"]
+        subprocess.run(["git", *identity, *command], cwd=moved.path, check=True)
+    spoil(moved.path / FIG3, 100, 200)
+    assert "1 of" in verified(moved).wrong["fig3.png"][0]
+
+
+def test_another_svg(moved):
+    path = moved.path / "paper_figures" / "fig7.svg"
+    path.write_text(path.read_text().replace("stroke-width: 0.8", "stroke-width: 0.9", 1))
+    found = verified(moved)
+    assert set(found.wrong) == {"fig7.svg"}
+    assert re.search(r"drawing: .*: 1 of [\d,]+ elements differ", found.wrong["fig7.svg"][0])
+
+
+def test_file_encoding(moved):
+    from PIL import Image
+
+    path = moved.path / FIG3
+    Image.fromarray(pictures.pixels(path)).save(path, optimize=True)
+    found = verified(moved)
+    assert found.wrong == {"fig3.png": [f"file: {FIG3}: the same picture in other bytes"]}
+    assert found.findings == []
+
+
+def test_ulps():
+    a = np.array([1.0, -0.0, 5e-324, -1.0, np.nan, np.inf])
+    b = np.array([np.nextafter(1.0, 2.0), 0.0, -5e-324, 1.0, np.nan, np.finfo(float).max])
+    between = 2 * int(np.array(1.0).view("i8"))
+    assert ulps(a, b).tolist() == [1, 0, 2, between, 0, 1]

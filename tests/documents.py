@@ -1,0 +1,98 @@
+"""A config with one correct scene of each kind, and a table of what is wrong with others."""
+
+import json
+
+import pytest
+
+from pipeline import config
+
+AXES = {"limits": [-1, 1], "ticks": [0]}
+SECTION = {"x": AXES, "xdot": AXES, "udot": AXES}
+VIEW = {"elevation": 40, "azimuth": 115}
+RESOLUTION = {"distance": 0.01, "bend": 10}
+
+SCENES = {
+    "a_portrait": {
+        "picture": "portrait",
+        "energy": 0.01,
+        "starts": [-0.5, 0.5],
+        "impacts": [10, 20],
+        "sea": [1],
+        "view": VIEW,
+        "axes": SECTION,
+    },
+    "a_motion": {
+        "picture": "motion",
+        "energy": 0.01,
+        "period": 6,
+        "type": "elliptic",
+        "duration": 16,
+        "formats": ["png", "svg", "pdf"],
+        "axes": {"t": {"limits": [0, 16], "ticks": [0, 16]}, "displacement": AXES},
+    },
+    "a_tangle": {
+        "picture": "tangle",
+        "energy": 0.01,
+        "period": 6,
+        "type": "hyperbolic",
+        "branches": {"outer": {"length": 2}},
+        "resolution": RESOLUTION,
+        "starts": [0.5],
+        "impacts": [10],
+        "view": VIEW,
+        "axes": SECTION,
+    },
+    "a_closeup": {
+        "picture": "closeup",
+        "energy": 0.01,
+        "period": 6,
+        "type": "hyperbolic",
+        "point": 5,
+        "window": {"x": [-0.1, 0.1], "xdot": [-0.1, 0.1]},
+        "length": 2,
+        "resolution": RESOLUTION,
+        "axes": {"x": AXES, "xdot": AXES},
+    },
+    "exponents": {
+        "picture": "exponents",
+        "energy": 0.01,
+        "starts": [0.5, 0.6],
+        "impacts": 1000,
+        "records": 10,
+        "axes": {"impact": {"limits": [0, 1000], "ticks": [0, 1000]}, "exponent": AXES},
+    },
+}
+GOOD = {"ball": {"k": 0.2, "g": 0.04}, "scenes": SCENES}
+
+
+def good():
+    """A correct document, anew each time, no part of it in two places."""
+    return json.loads(json.dumps(GOOD))
+
+
+def changed(path, value):
+    """A copy of GOOD with the value at a dotted path replaced, or the key removed by `...`."""
+    document = good()
+    block = document
+    *parents, last = (int(key) if key.isdigit() else key for key in path.split("."))
+    for key in parents:
+        block = block[key]
+    if value is ...:
+        del block[last]
+    else:
+        block[last] = value
+    return document
+
+
+def complaints(document):
+    """The lines with which a document is refused."""
+    with pytest.raises(config.ConfigError) as raised:
+        config.check(document)
+    assert str(raised.value).splitlines() == list(raised.value.lines)
+    return raised.value.lines
+
+
+def complaint(document):
+    """The one line with which a document is refused."""
+    (line,) = complaints(document)
+    return line

@@ -1,0 +1,245 @@
+"""Orbits: shapes, bits, memory, bad input; the ragged orbits of a scene; the motion between
+impacts.
+"""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from pseudorigid import Ball, orbit, symmetric_orbits
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.dynamics.variables import of_type
+
+BALL = Ball(0.2, 0.04)
+NAMES = ("x", "xdot", "udot", "tau")
+FRACTIONS = np.array([[-0.44, -0.1, 0.142], [0.17, 0.53, 0.9]])
+
+
+def bits(a):
+    return np.asarray(a, dtype=float).tobytes()
+
+
+def values(dataset):
+    return np.stack([dataset[name].values for name in NAMES])
+
+
+def test_first_entries_are_the_impacts_of_the_ball_one_by_one():
+    state = BALL.start(0.534522, 0.01)
+    found = orbit(BALL, state, 50)
+    assert found.sizes == {"impact": 50}
+    for i in range(50):
+        after = BALL.impact(*state)
+        assert bits(after) == bits([found[name].values[i] for name in NAMES])
+        state = after[:3]
+
+
+@pytest.mark.parametrize(
+    ("fractions", "dims"),
+    [
+        (0.534522, ()),
+        (FRACTIONS[0], ("orbit",)),
+        (FRACTIONS[0][:1], ("orbit",)),
+        (FRACTIONS[:0, 0], ("orbit",)),
+        (FRACTIONS, ("orbit_0", "orbit_1")),
+    ],
+)
+def test_dims_follow_the_state_and_the_start_is_left_out(fractions, dims):
+    state = BALL.start(fractions, 0.01)
+    found = orbit(BALL, state, 7)
+    shape = np.shape(fractions)
+    for name in NAMES:
+        assert found[name].dims == ("impact", *dims)
+        assert found[name].shape == (7, *shape)
+        assert found[name].dtype == float
+        assert found[name].attrs["units"] == "1"
+        assert found[name].attrs["long_name"]
+    assert bits([found[name].values[0] for name in NAMES]) == bits(BALL.impact(*state))
+    last = orbit(BALL, state, 7, keep="last")
+    for name in NAMES:
+        assert last[name].dims == dims
+        assert bits(last[name].values) == bits(found[name].values[-1])
+
+
+@pytest.mark.parametrize("impacts", [1, 2, 1000, np.int64(17), 20.0])
+def test_last_is_the_last_of_all_bit_for_bit(impacts):
+    state = BALL.start(np.linspace(-0.99, 0.99, 12), 0.01)
+    everything = values(orbit(BALL, state, impacts))
+    assert everything.shape == (4, int(impacts), 12)
+    assert bits(everything[:, -1]) == bits(values(orbit(BALL, state, impacts, keep="last")))
+
+
+@pytest.mark.parametrize("layout", ["plain", "strided", "fortran", "reversed"])
+def test_each_element_has_the_bits_of_the_scalar_call(layout):
+    x, xdot, udot = BALL.start(FRACTIONS, 0.01)
+    if layout == "strided":
+        x, xdot, udot = (np.repeat(a, 2, axis=1)[:, ::2] for a in (x, xdot, udot))
+    elif layout == "fortran":
+        x, xdot, udot = (np.asfortranarray(a) for a in (x, xdot, udot))
+    elif layout == "reversed":
+        x, xdot, udot = (a[:, ::-1] for a in (x, xdot, udot))
+    before = bits((x, xdot, udot))
+    together = values(orbit(BALL, (x, xdot, udot), 400))
+    assert bits((x, xdot, udot)) == before  # the input is left as it was
+    for i in np.ndindex(x.shape):
+        alone = values(orbit(BALL, (x[i], xdot[i], udot[i]), 400))
+        assert bits(alone) == bits(together[(slice(None), slice(None), *i)])
+
+
+def test_states_broadcast():
+    x = np.array([0.0, 0.1, 0.2])
+    udot = np.array([[0.1], [0.3]])
+    found = orbit(BALL, (x, 0.05, udot), 5)
+    assert found["x"].shape == (5, 2, 3)
+    assert bits(found["x"].values[:, 1, 2]) == bits(orbit(BALL, (0.2, 0.05, 0.3), 5)["x"].values)
+    assert found["impact"].values.tolist() == [1, 2, 3, 4, 5]
+
+
+def test_an_orbit_goes_on_from_where_it_ended():
+    state = BALL.start(0.534522, 0.01)
+    whole = orbit(BALL, state, 300, keep="last")
+    half = orbit(BALL, state, 170, keep="last")
+    rest = orbit(BALL, [half[n].item() for n in NAMES[:3]], 130, keep="last")
+    assert bits(values(rest)) == bits(values(whole))
+
+
+@pytest.mark.parametrize("impacts", [0, -1, 1.5, True, "7"])
+def test_impacts_that_are_no_count_are_refused(impacts):
+    with pytest.raises(ValueError, match="impacts"):
+        orbit(BALL, BALL.start(0.1, 0.01), impacts)
+
+
+@pytest.mark.parametrize("impacts", [float("nan"), float("inf"), None])
+def test_impacts_that_are_no_number_are_an_error(impacts):
+    with pytest.raises((ValueError, TypeError, OverflowError)):
+        orbit(BALL, BALL.start(0.1, 0.01), impacts)
+
+
+@pytest.mark.parametrize("keep", ["first", None, "", "ALL"])
+def test_another_keep_is_refused(keep):
+    with pytest.raises(ValueError, match="keep"):
+        orbit(BALL, BALL.start(0.1, 0.01), 3, keep=keep)
+
+
+def test_a_state_off_the_section_is_refused():
+    with pytest.raises(ValueError, match="xdot"):
+        orbit(BALL, (0.1, -0.2, 0.1), 3)
+    with pytest.raises(ValueError, match="xdot"):
+        orbit(BALL, (0.1, [0.2, -0.2], 0.1), 3)
+
+
+def test_a_state_that_is_not_finite_stays_nan_beside_good_ones():
+    good = orbit(BALL, (0.1, 0.1, 0.1), 20)
+    found = orbit(BALL, ([0.1, np.nan, np.inf], 0.1, 0.1), 20)
+    assert bits(values(found)[:, :, 0]) == bits(values(good))
+    assert np.all(np.isnan(values(found)[:, :, 1:]))
+
+
+def test_the_last_state_alone_takes_memory_that_does_not_grow():
+    program = (
+        "import resource\n"
+        "from pseudorigid import Ball, orbit\n"
+        "ball = Ball(0.2, 0.04)\n"
+        "state = ball.start([0.5] * 8, 0.01)\n"
+        "orbit(ball, state, 2, keep='last')\n"
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "orbit(ball, state, 500_000, keep='last')\n"
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert int(done.stdout) < 5_000  # kB; all of them would be 128,000
+
+
+def test_a_scene_is_ragged_orbit_after_orbit():
+    starts, impacts = [-0.44, 0.534522, 0.1], [5, 1, 12]
+    found = scene_orbits(BALL, 0.01, starts, impacts)
+    assert found.sizes == {"point": 18, "orbit": 3}
+    assert found["start"].values.tolist() == starts
+    assert found["row_size"].values.tolist() == impacts
+    assert found["row_size"].dtype == np.int64
+    assert found["row_size"].attrs["sample_dimension"] == "point"
+    at = 0
+    for start, count in zip(starts, impacts, strict=True):
+        alone = values(orbit(BALL, BALL.start(start, 0.01), count))
+        assert bits(values(found)[:, at : at + count]) == bits(alone)
+        at += count
+    energy = BALL.energy(*values(found)[:3])
+    assert np.max(np.abs(energy - 0.01)) < 1e-16 * 20
+
+
+def test_a_scene_with_a_start_outside_or_a_count_too_few_is_refused():
+    with pytest.raises(ValueError):
+        scene_orbits(BALL, 0.01, [1.01], [5])
+    with pytest.raises(ValueError):
+        scene_orbits(BALL, 0.01, [0.1, 0.2], [5])
+
+
+SETTINGS = [
+    (0.2, 0.04, 0.01, 1),
+    (0.2, 0.04, 0.01, 6),
+    (0.2, 0.04, 0.001, 12),
+    (0.2, 0.04, -0.0039, 1),
+    (0.2, 0.04, 0.055, 4),
+    (1.0, 0.1, 0.05, 3),
+    (0.05, 0.004, 0.003, 5),
+    (1 / 3, 0.1, 0.06, 1),
+    (0.01, 0.001, 0.0035, 1),
+]
+
+
+@pytest.mark.parametrize(("k", "g", "energy", "period"), SETTINGS)
+def test_motion_touches_at_the_impacts_never_crosses_and_closes(k, g, energy, period):
+    ball = Ball(k, g)
+    radius = ball.section(energy)[1]
+    orbits = symmetric_orbits(ball, energy, period)
+    assert orbits.sizes["orbit"] > 0
+    for i in range(orbits.sizes["orbit"]):
+        one = orbits.isel(orbit=i)
+        total = float(one["total_time"])
+        stretch = max(1.0, abs(float(one["multiplier"])) / 50.0)
+        for duration in (2.37 * total, total, 0.4 * float(one["tau"][0])):
+            found = motion(ball, one, duration)
+            t, position, strain = (found[n].values for n in ("t", "position", "strain"))
+            assert t[0] == 0.0
+            assert t[-1] == duration
+            assert np.all(np.diff(t) >= 0.0)
+            assert np.max(position + strain) <= 1e-15 * max(1.0, radius)
+            impact_t, impact_position = found["impact_t"].values, found["impact_position"].values
+            assert np.all(impact_t <= duration)
+            assert np.all(np.isin(impact_t, t))
+            for when, where in zip(impact_t, impact_position, strict=True):
+                assert np.all(position[t == when] == where)
+                assert np.all(strain[t == when] == -where)
+            # between impacts it is off the floor
+            inside = ~np.isin(t, impact_t) & (t < duration)
+            assert np.all((position + strain)[inside] < 0.0)
+            # impacts are as far apart as the orbit says, and the line has no gaps
+            expected = np.resize(one["tau"].values, impact_t.size - 1)
+            assert np.allclose(np.diff(impact_t), expected, rtol=0, atol=1e-13 * max(1, duration))
+            for curve in (position, strain):
+                assert np.max(np.abs(np.diff(curve))) < 0.2 * np.ptp(curve)
+        found = motion(ball, one, 2.0 * total)
+        position, t = found["position"].values, found["t"].values
+        later = np.interp(np.linspace(total, 2 * total, 777), t, position)
+        first = np.interp(np.linspace(0, total, 777), t, position)
+        assert np.max(np.abs(later - first)) < 1e-11 * stretch
+
+
+def test_motion_is_the_flight_of_equation_26():
+    orbits = symmetric_orbits(BALL, 0.01, 6)
+    one = of_type(orbits, "elliptic")
+    found = motion(BALL, one, float(one["total_time"]))
+    x, v, w, tau = (float(one[name][0]) for name in NAMES)
+    e = 2.0 * (v + w) / (1.0 + BALL.k)
+    t = found["t"].values
+    first = t < tau
+    t = t[first]
+    b, c = v - BALL.k * e, w - e
+    expected = x + b * t + 0.5 * BALL.g * t * t
+    assert np.max(np.abs(found["position"].values[first] - expected)) < 1e-15
+    expected = -x * np.cos(t) + c * np.sin(t)
+    assert np.max(np.abs(found["strain"].values[first] - expected)) < 1e-15

@@ -1,0 +1,142 @@
+"""The paper's own method: its map, the impacts it misses, and scenes that name it."""
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+from pipeline.records.artifacts import load
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.dynamics.motion import motion
+from pseudorigid.dynamics.variables import of_type
+from pseudorigid.kernel.scan import scan
+
+BALL = Ball(0.2, 0.04)
+SEA = BALL.start(0.534522, 0.01)
+FINE = {"scan": 0.1, "tolerance": 1e-12}
+
+
+def scanned(step=0.1, tolerance=1e-12):
+    return Ball(BALL.k, BALL.g, ImpactMap((step, tolerance)))
+
+
+def test_it_is_the_map_to_its_tolerance():
+    states = BALL.start(np.linspace(-0.9, 0.9, 50), 0.01)
+    for tolerance in (1e-3, 1e-6, 1e-12):
+        ball = scanned(tolerance=tolerance)
+        for name in ("impact", "inverse_impact"):
+            near, far = np.array(getattr(ball, name)(*states)), getattr(BALL, name)(*states)
+            assert np.abs(near - far).max() <= tolerance
+        assert (ball.map.impacts, ball.map.missed) == (100, 0)
+        exact = BALL.jacobian(*states, impacts=2)
+        off = np.abs(ball.jacobian(*states, impacts=2) - exact).max(axis=(1, 2))
+        assert np.all(off <= 100 * tolerance * np.abs(exact).max(axis=(1, 2)) ** 2)
+    assert np.abs(near - far).max() > 0  # another method indeed
+
+
+def test_impacts_flown_past_are_counted():
+    """Against the certified march from each of its own states, one by one."""
+    ball = scanned(step=0.5)
+    track = orbit(ball, SEA, 50_000)
+    x, v, w, tau = (track[name].values for name in ("x", "xdot", "udot", "tau"))
+    first = BALL.time_to_impact(x[:-1], v[:-1], w[:-1])
+    late = int(np.sum(tau[1:] > first + 1e-5))
+    assert ball.map.missed == late > 5
+    assert ball.map.impacts == 50_000
+    # the energy shows nothing
+    assert np.max(np.abs(BALL.energy(x, v, w) / 0.01 - 1.0)) < 1e-9
+
+
+def test_exponents_are_of_its_own_orbit():
+    ball = scanned(step=0.5)
+    found = lyapunov_spectrum(ball, SEA, 2000, records=1).exponent.values[-1]
+    orbits = scanned(step=0.5)
+    orbit(orbits, SEA, 2000)
+    assert (ball.map.impacts, ball.map.missed) == (2000, orbits.map.missed)
+    exact = lyapunov_spectrum(BALL, SEA, 2000, records=1).exponent.values[-1]
+    assert 1e-6 < np.max(np.abs(found - exact)) < 0.1  # chaos: another orbit after 100 impacts
+
+
+def test_a_motion_follows_its_own_impacts():
+    one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
+    exact = motion(BALL, one, 60)
+    for tolerance in (1e-12, 1e-4):
+        ball = scanned(tolerance=tolerance)
+        found = motion(ball, one, 60)
+        assert ball.map.impacts >= found.sizes["impact"]
+        at = found["impact_t"].values
+        off = np.max(np.abs(at - exact["impact_t"].values))
+        assert 0 < off < 1e3 * tolerance
+        assert np.all(np.diff(at) > 0)
+
+
+def test_the_scan_gives_up_with_an_error():
+    """A flight of 2e7 time units has more steps than any scan takes."""
+    with pytest.raises(ArithmeticError, match="scan"):
+        Ball(0.2, 1e-8, ImpactMap((0.1, 1e-6))).impact(0.0, 0.0, 0.3)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_what_is_not_finite_gives_nan_at_once(bad):
+    assert np.isnan(scan(bad, -0.1, -0.1, 0.04, 0.1, 1e-6)[0])
+    assert np.isnan(scanned().impact(bad, 0.0, 1.0)).all()
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+def test_a_nonsense_scan_is_refused(bad):
+    for how in ({"step": bad}, {"tolerance": bad}):
+        with pytest.raises(ValueError, match=f"{next(iter(how))} = .* is not allowed"):
+            scanned(**how)
+
+
+@pytest.fixture(scope="module")
+def published(tmp_path_factory):
+    """A small tree whose Figures 3, 5 and 7 are by the paper's method."""
+    from conftest import fresh_tree
+
+    tree = fresh_tree(tmp_path_factory.mktemp("scan") / "as published")
+    for scene in ("fig3", "fig5"):
+        tree.edit(scene, method=FINE)
+    tree.edit("fig7", method={"scan": 1, "tolerance": 1e-3}, impacts=3000)
+    targets = [f"paper_figures/{scene}.png" for scene in ("fig3", "fig4", "fig5", "fig7")]
+    tree.result = tree.run(*targets)
+    assert tree.result.returncode == 0, tree.result.stdout
+    return tree
+
+
+def attributes(tree, name):
+    return load(tree.path / "results" / "paper" / f"{name}.nc").attrs
+
+
+def test_the_data_of_a_method_say_what_it_missed(published):
+    for name in ("motion_fig3", "orbits_fig5", "manifolds_fig5", "lyapunov_fig7"):
+        found = attributes(published, name)
+        assert '"method":{"scan":' in found["config"]
+        assert 0 <= found["impacts_missed"] < found["impacts"]
+    assert attributes(published, "lyapunov_fig7")["impacts"] == 9000
+    assert attributes(published, "lyapunov_fig7")["impacts_missed"] > 0
+    # periodic points are the certified map's; a scene without a method has no such words
+    for name in ("periodic_fig3", "motion_fig4"):
+        assert not {"impacts", "impacts_missed"} & set(attributes(published, name))
+        assert "method" not in attributes(published, name)["config"]
+
+
+def test_the_run_tells_it(published):
+    lines = [x for x in published.result.stdout.splitlines() if "fell through the floor" in x]
+    missed = attributes(published, "lyapunov_fig7")["impacts_missed"]
+    assert lines[-1] == (
+        f"fig7: {missed} of 9,000 impacts fell through the floor (scan 1, tolerance 0.001)"
+    )
+    assert [line.split(":")[0] for line in lines] == ["fig3", "fig5", "fig7"]
+
+
+def test_a_method_makes_its_own_data_alone(published):
+    published.edit("fig3", method=None)
+    planned = published.planned("paper_figures/fig3.png")
+    published.edit("fig3", method=FINE)
+    assert "results/paper/motion_fig3.nc" in planned
+    assert "results/paper/periodic_fig3.nc" not in planned
+
+
+def test_the_paper_s_own_scenes_are_certified():
+    assert "method:" not in (ROOT / "config.yaml").read_text().partition("variants:")[0]

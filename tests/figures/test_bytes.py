@@ -1,0 +1,143 @@
+"""Pictures have the same bytes for everyone, and hold exactly what was drawn."""
+
+import os
+import subprocess
+import sys
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+import samples
+from project import ROOT
+from samples import KINDS, draw
+
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.render import pixels, render
+
+HOSTILE = """\
+font.family: monospace
+font.size: 30
+axes.facecolor: red
+savefig.dpi: 7
+savefig.bbox: tight
+savefig.facecolor: blue
+svg.fonttype: none
+svg.hashsalt: other
+pdf.compression: 9
+path.simplify: True
+lines.antialiased: False
+lines.scale_dashes: False
+mathtext.fontset: cm
+text.hinting: none
+text.usetex: True
+"""
+
+
+def hostile(folder):
+    """An environment with other settings, other fonts under our fonts' names, another locale."""
+    from fontTools.ttLib import TTFont
+    from matplotlib import get_data_path
+
+    fonts = folder / ".fonts"
+    fonts.mkdir()
+    for number, family in enumerate(("DejaVu Sans", "STIXGeneral")):
+        font = TTFont(Path(get_data_path()) / "fonts" / "ttf" / "cmss10.ttf")
+        for record in font["name"].names:
+            if record.nameID in (1, 16):
+                record.string = family
+        font.save(fonts / f"{number}.ttf")
+    (folder / "matplotlibrc").write_text(HOSTILE)
+    return {
+        "HOME": str(folder),
+        "XDG_DATA_HOME": str(folder),
+        "MPLCONFIGDIR": str(folder),
+        "MPLBACKEND": "svg",
+        "LC_ALL": "C",
+        "LANG": "tr_TR.UTF-8",
+        "TZ": "Asia/Tokyo",
+        "PYTHONHASHSEED": "77",
+        "SOURCE_DATE_EPOCH": "1",
+        "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX512_ICL",
+        "OPENBLAS_CORETYPE": "Prescott",
+        "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4",
+    }
+
+
+def test_same_bytes_for_everyone(tmp_path):
+    here = samples.digests()
+    environment = os.environ | hostile(tmp_path)
+    environment["PYTHONPATH"] = os.pathsep.join(map(str, (ROOT / "tests", ROOT / "src")))
+    run = subprocess.run(
+        [sys.executable, "-c", "import samples; print(samples.digests())"],
+        env=environment,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.strip() == str(here)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_last_bit_in_matplotlib_moves_no_pixel(kind, monkeypatch):
+    from matplotlib import transforms
+
+    before = pixels(draw(kind))
+    exact = transforms.affine_transform
+    random = np.random.default_rng(5)
+
+    def noisy(values, matrix):
+        result = exact(values, matrix)
+        return result * (1 + 4e-16 * random.choice([-1, 0, 1], np.shape(result)))
+
+    monkeypatch.setattr(transforms, "affine_transform", noisy)
+    assert np.array_equal(pixels(draw(kind)), before)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_png_holds_exactly_the_pixels(kind):
+    from PIL import Image
+
+    figure = draw(kind)
+    with Image.open(BytesIO(render(figure, "png"))) as image:
+        assert image.mode == "RGB"
+        assert round(image.info["dpi"][0]) == style.DPI
+        assert set(image.info) == {"dpi", "srgb"}
+        assert np.array_equal(np.asarray(image), pixels(figure))
+
+
+def test_drawing_leaves_matplotlib_as_it_was():
+    import matplotlib
+    from matplotlib import font_manager
+
+    fonts = font_manager.fontManager.ttflist
+    with matplotlib.rc_context({"font.size": 31, "path.simplify": True}):
+        before = dict(matplotlib.rcParams)
+        pixels(draw("motion"))
+        assert dict(matplotlib.rcParams) == before
+    assert font_manager.fontManager.ttflist is fonts
+
+
+def test_a_job_imports_only_what_it_uses():
+    names = "pyplot", "xarray", "pandas", "numba", "scipy", "netCDF4", "backend_pdf"
+    code = (
+        "import sys\n"
+        f"from pseudorigid.figures.kinds import {', '.join(KINDS)}\n"
+        "from pseudorigid.figures.canvas import render\n"
+        f"print([m for m in sys.modules for name in {names} if name in m.split('.')])"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.stdout.strip() == "[]", run.stderr
+
+
+def test_refuses_other_formats():
+    with pytest.raises(ValueError, match="png, svg, pdf"):
+        render(draw("motion"), "jpg")

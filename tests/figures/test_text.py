@@ -1,0 +1,95 @@
+"""Text in pictures: nothing clipped, nothing on top of something else, large enough to read."""
+
+import pytest
+from samples import DATA, FLAT, KINDS, SCENES, SPACE, draw, exponents, module
+
+from pseudorigid.figures.axes import limits, plane
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.render import pixels
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_text_is_whole_and_apart(kind):
+    assert_text_is_whole_and_apart(draw(kind))
+
+
+def lengths_scaled(data, scale):
+    """The data with every length multiplied, times and exponents as they are."""
+    names = {"x", "xdot", "udot", "position", "strain", "impact_position"} & set(data.variables)
+    edges = {"window_x": [0.2101, 0.2116], "window_xdot": [0.0925, 0.0932]}
+    edges = {name: [scale * edge for edge in ends] for name, ends in edges.items()}
+    points = {name: scale * data.attrs[name] for name in data.attrs if name.startswith("point_")}
+    changed = data.assign({name: scale * data[name] for name in names})
+    return changed.assign_attrs(edges | points | {"g": scale * data.attrs["g"]})
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0, 0.37, 0.1, 5000.0])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
+    scene = {key: value for key, value in SCENES[kind].items() if key != "axes"}
+    scene |= {"duration": 15.5, "impacts": 200_000}
+    data = [lengths_scaled(part, scale) for part in DATA[kind]()]
+    figure = module(kind).draw(scene, *data)
+    assert_text_is_whole_and_apart(figure)
+
+
+def test_an_axis_that_a_scene_gives_is_kept():
+    given = {"limits": [0, 8], "ticks": [0, 8]}
+    scene = limits.complete({"axes": {"t": given}}, t=lambda: 1 / 0, x=lambda: "made")
+    assert scene == {"axes": {"t": given, "x": "made"}}
+
+
+def test_names_of_exponents_that_coincide_are_moved_apart():
+    data = exponents()
+    data["exponent"] *= 0.0
+    figure = module("exponents").draw(SCENES["exponents"], data)
+    assert_text_is_whole_and_apart(figure)
+    texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
+    names = [text.get_text() for text in texts if "lambda" in text.get_text()]
+    assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
+
+
+def assert_text_is_whole_and_apart(figure):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    with style.pinned():
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
+    wide, high = figure.bbox.size
+    for text, extent in boxes:
+        assert min(extent.x0, extent.y0) >= 4, text
+        assert extent.x1 <= wide - 4, text
+        assert extent.y1 <= high - 4, text
+    for place, (text, extent) in enumerate(boxes):
+        for other, second in boxes[:place]:
+            assert not extent.overlaps(second), (text, other)
+    image = pixels(figure)
+    for side in (image[:3], image[-3:], image[:, :3], image[:, -3:]):
+        assert (side == 255).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_text_is_legible_at_a_columns_width(kind):
+    figure = draw(kind)
+    shrink = min(1, style.COLUMN / figure.bbox.width)
+    assert min(text.get_size() for text in figure.texts) * shrink >= 7
+
+
+@pytest.mark.parametrize("axes", [SPACE, FLAT])
+@pytest.mark.parametrize("azimuth", [25, 115, 205, 295, 340])
+def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
+    scene = {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}, "sea": []}
+    assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
+
+
+@pytest.mark.parametrize(
+    "value, power, text",
+    [(0, 0, "0"), (-0.2, 0, "\N{MINUS SIGN}0.2"), (0.2116, 0, "0.2116"), (160000, 5, "1.6")],
+)
+def test_labels_of_ticks(value, power, text):
+    assert style.number(value, power) == text
+
+
+def test_large_ticks_share_a_power_of_ten():
+    assert plane.thousands([0, 200000]) == 5
+    assert plane.thousands([0, 16]) == 0

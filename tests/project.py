@@ -1,0 +1,194 @@
+"""A copy of the project in a folder of its own, driven as a user drives it."""
+
+import fcntl
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import yaml
+from numba.core.caching import _CacheLocator
+
+from pseudorigid.kernel import compiled
+
+ROOT = Path(__file__).parents[1]
+# The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
+SHIPPED = Path(__file__).with_name("scenes.yaml")
+PARTS = ("Snakefile", "pyproject.toml", "reproduce", "requirements", "src", "workflow")
+NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
+
+
+def shipped():
+    """The committed scenes, parsed: a new document each time."""
+    return yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+
+
+class Tree:
+    """A copy of the project at `path`, sharing the running interpreter."""
+
+    def __init__(self, path):
+        self.path = path
+
+    @property
+    def config(self):
+        """Where its config is."""
+        return self.path / "config.yaml"
+
+    def document(self):
+        """Its config, parsed."""
+        return yaml.safe_load(self.config.read_text(encoding="utf-8"))
+
+    def write(self, document):
+        """Give it another config."""
+        self.config.write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
+
+    def edit(self, scene, **fields):
+        """Change fields of a scene in its config; None removes one."""
+        document = self.document()
+        block = document["scenes"][scene] | fields
+        document["scenes"][scene] = {k: v for k, v in block.items() if v is not None}
+        self.write(document)
+
+    def warm(self):
+        """Bring compiled code along, also after an edit that leaves the machine code as it is.
+
+        Numba keeps it in a folder named after the text of the sources, and in it for each folder
+        of sources in one named after that folder's place.
+        """
+        here, there = Path(compiled._CACHE), Path(_own_cache(self.path))
+        package = self.path / "src" / "pseudorigid"
+        for folder in (package, *(p for p in package.rglob("*") if p.is_dir())):
+            theirs = ROOT / folder.relative_to(self.path) / "x.py"
+            old, new = map(
+                _CacheLocator.get_suitable_cache_subpath, map(str, (theirs, folder / "x.py"))
+            )
+            if (here / old).is_dir() and not (there / new).exists():
+                shutil.copytree(here / old, there / new)
+
+    def command(self, *arguments):
+        """What ./reproduce runs once .venv is ready."""
+        return [sys.executable, "-P", "-m", "pipeline", *arguments]
+
+    def environment(self):
+        """What ./reproduce runs it in."""
+        return os.environ | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
+
+    def run(self, *arguments, **environment):
+        """Run to the end; the result's stdout holds all that a user sees."""
+        return subprocess.run(
+            self.command(*arguments),
+            env=self.environment() | environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            cwd="/",
+            check=False,
+        )
+
+    def start(self, *arguments, **how):
+        """Begin a run."""
+        how = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL} | how
+        how = {"env": self.environment(), "stdin": subprocess.DEVNULL, "cwd": "/"} | how
+        return subprocess.Popen(self.command(*arguments), **how)
+
+    def planned(self, *targets):
+        """The outputs of the jobs that a run would start now, without their records."""
+        result = self.run(*targets, "-n", "--quiet", "host")
+        assert result.returncode == 0, result.stdout
+        return set(re.findall(r"^    output: ([^\s,]+)", result.stdout, re.MULTILINE))
+
+    def published(self):
+        """Name -> (bytes, inode, mtime) of everything in paper_figures/."""
+        return {
+            file.name: (file.read_bytes(), file.stat().st_ino, file.stat().st_mtime_ns)
+            for file in (self.path / "paper_figures").iterdir()
+        }
+
+    def copy(self, path):
+        """Another copy, results and all, that a test may spoil."""
+        shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)
+        tree = Tree(path)
+        tree.warm()
+        return tree
+
+
+def _own_cache(path):
+    """Where the copy at `path` keeps compiled code."""
+    file = path / "src" / "pseudorigid" / "kernel" / "compiled.py"
+    spec = importlib.util.spec_from_file_location("compiled_elsewhere", file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module._CACHE
+
+
+def fresh_tree(path, document=None):
+    """A clone as far as files go: sources, a config, and figures newer than anything.
+
+    `document` is its config, by default the shipped scenes with little work in them. Every
+    committed figure has a stand-in.
+    """
+    path.mkdir(parents=True)
+    for part in PARTS:
+        source = ROOT / part
+        if source.is_dir():
+            shutil.copytree(source, path / part, ignore=NO_CACHES)
+        else:
+            shutil.copy2(source, path / part)
+    tree = Tree(path)
+    tree.write(document or small(shipped()))
+    figures = path / "paper_figures"
+    figures.mkdir()
+    for scene, block in tree.document()["scenes"].items():
+        for extension in {"png", *block.get("formats", [])} - {"pdf"}:
+            file = figures / f"{scene}.{extension}"
+            file.write_text("committed")
+            os.utime(file, (4e9, 4e9))
+    tree.warm()
+    return tree
+
+
+def small(document):
+    """A config whose scenes hold as little work as shows that they work."""
+    for block in document["scenes"].values():
+        if isinstance(block.get("impacts"), list):
+            block["impacts"] = [30 for _ in block["impacts"]]
+        elif "impacts" in block:
+            block |= {"impacts": 60, "records": 6}
+        if "resolution" in block:
+            distance = block["resolution"]["distance"] * (1 if "window" in block else 100)
+            block["resolution"] = {"distance": distance, "bend": 60}
+        for branch in block.get("branches", {}).values():
+            branch["length"] = 0.2
+    return document
+
+
+def of_scenes(*names, **parts):
+    """A small config of some of the shipped scenes, drawn as png; no variants unless given."""
+    document = small(shipped())
+    scenes = {name: document["scenes"][name] | {"formats": ["png"]} for name in names}
+    return {"ball": document["ball"], "scenes": scenes} | parts
+
+
+@contextmanager
+def locked(path):
+    """Wait until no other process holds this lock."""
+    with open(path, "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def once(folder, make):
+    """What `make(folder)` leaves in a folder, made by the first process that asks for it."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    done = folder.with_name(f"{folder.name}.done")
+    with locked(folder.with_name(f"{folder.name}.lock")):
+        if not done.exists():
+            shutil.rmtree(folder, ignore_errors=True)  # of one that failed
+            make(folder)
+            done.touch()
+    return folder

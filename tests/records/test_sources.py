@@ -1,0 +1,48 @@
+"""Which files stand behind a job, read from the import statements."""
+
+import pytest
+
+from pipeline import config
+from pipeline.records import sources
+
+
+def of_stage(name):
+    """The science's files behind a stage, without their package."""
+    files = config.stage_code(name)
+    return {file.removeprefix("src/pseudorigid/") for file in files if "pseudorigid" in file}
+
+
+def test_a_job_depends_on_what_it_imports_and_no_more():
+    used = of_stage("lyapunov")
+    wanted = {"dynamics/lyapunov.py", "kernel/impact.py", "kernel/arithmetic.py", "__init__.py"}
+    assert wanted <= used
+    assert not used & {"dynamics/manifolds.py", "dynamics/periodic.py"}
+    assert not {name for name in of_stage("orbits") if name.startswith("figures")}
+    drawing = config.drawing_code("motion")
+    assert "src/pseudorigid/figures/kinds/motion.py" in drawing
+    assert "src/pseudorigid/figures/kinds/portrait.py" not in drawing
+    assert not [file for file in drawing if file.startswith("src/pipeline/config")]
+
+
+def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
+    package = tmp_path / "pseudorigid"
+    (package / "inner").mkdir(parents=True)
+    for name, text in {
+        "__init__.py": "",
+        "a.py": "def f():\n    from .inner import b\n",
+        "inner/__init__.py": "HERE = 1",
+        "inner/b.py": "from ..c import value\nimport os, pseudorigid.d",
+        "c.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from . import unused",
+        "d.py": "from . import a\nfrom .inner import HERE",
+        "unused.py": "",
+        "lazy.py": "from . import Ball",
+        "lost.py": "from .nowhere import x",
+    }.items():
+        (package / name).write_text(text)
+    monkeypatch.setattr(sources, "SRC", tmp_path)
+    found = [str(file.relative_to(package)) for file in sources.closure("pseudorigid.a")]
+    assert found == ["__init__.py", "a.py", "c.py", "d.py", "inner/__init__.py", "inner/b.py"]
+    with pytest.raises(ValueError, match="import Ball from its module"):
+        sources.closure("pseudorigid.lazy")
+    with pytest.raises(ValueError, match=r"no module pseudorigid\.nowhere"):
+        sources.closure("pseudorigid.lost")

@@ -1,0 +1,147 @@
+"""Faults of a run: damaged files, failing jobs, interrupts and kills."""
+
+import fcntl
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import netCDF4
+import pytest
+from runs import contents, last_line, rows
+
+
+def test_damaged_results_are_made_again_and_not_published(done):
+    before = contents(done)
+    paper = done.path / "results" / "paper"
+    drawing, dataset, record = (
+        paper / name
+        for name in ("figures/fig3.png", "periodic_fig4.nc", "provenance/orbits_fig2.nc.json")
+    )
+    whole = dataset.read_bytes()
+    drawing.write_bytes(drawing.read_bytes()[:300])
+    dataset.write_bytes(whole[:5000])
+    record.write_text("{")
+    said = done.run("-n").stdout
+    assert drawing.stat().st_size == 300  # what only says something changes nothing
+    result = done.run()
+    assert result.returncode == 0
+    last_line(result)
+    for text in (said, result.stdout):
+        for file in ("figures/fig3.png", "periodic_fig4.nc"):
+            line = f"reproduce: results/paper/{file}: changed after it was made: made again"
+            assert line in text
+        assert "orbits_fig2.nc: its record results/paper/provenance/orbits_fig2.nc.json" in text
+    assert contents(done) == before
+    assert drawing.read_bytes() == before["fig3.png"]
+    assert dataset.read_bytes() == whole
+
+
+def test_a_number_changed_by_hand_is_not_drawn(done):
+    before = contents(done)
+    path = done.path / "results" / "paper" / "motion_fig3.nc"
+    then = path.stat()
+    with netCDF4.Dataset(path, "a") as file:
+        file["strain"][:] = 0.5 * file["strain"][:]
+    os.utime(path, ns=(then.st_atime_ns, then.st_mtime_ns))
+    result = done.run("paper_figures/fig3.png")
+    assert result.returncode == 0
+    assert "results/paper/motion_fig3.nc: changed after it was made: made again" in result.stdout
+    assert contents(done) == before
+
+
+def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
+    before = done.published()
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "lyapunov.py"
+    text = module.read_text()
+    module.write_text(f"{text}\n\ndef scene_exponents(*_, **__):\n    return 1 / 0\n")
+    result = done.run("paper_figures/fig7.png")
+    assert result.returncode == 1
+    log = "results/paper/logs/lyapunov_fig7.log"
+    said = f"reproduce: fig7: ZeroDivisionError: division by zero (traceback in {log})"
+    last_line(result)
+    assert said in result.stdout.splitlines()
+    assert result.stdout.splitlines()[-1].endswith("not made")
+    assert "Traceback" in (done.path / log).read_text()
+    assert done.published() == before
+    module.write_text(text)
+    assert done.run().returncode == 0
+
+
+def test_a_failing_publication_leaves_the_figures_as_they_were(done):
+    """Where a drawing cannot be copied, the committed figure stays whole."""
+    before = contents(done)
+    module = done.path / "src" / "pipeline" / "cli" / "figures.py"
+    text = module.read_text()
+    assert text.count("shutil.copyfile(") == 1
+    done.edit("fig3", duration=15)
+    module.write_text(text.replace("shutil.copyfile(", "part.write_text('half'), shutil.nothing("))
+    assert done.run("paper_figures/fig3.png").returncode != 0
+    assert contents(done) == before
+    module.write_text(text)
+    assert done.run("paper_figures/fig3.png").returncode == 0
+    assert contents(done)["fig3.png"] != before["fig3.png"]
+
+
+@pytest.mark.parametrize("everyone", [False, True])
+def test_a_killed_run_leaves_whole_files_and_no_lock(done, everyone):
+    before = contents(done)
+    results = done.path / "results"
+    shutil.rmtree(results)
+    targets = [f"paper_figures/fig3.{extension}" for extension in ("png", "svg")]
+    run = done.start(*targets, start_new_session=True)
+    try:
+        for _ in range(600):
+            if list(results.glob("paper/figures/*.*")):
+                break
+            time.sleep(0.1)
+        assert run.poll() is None
+        (os.killpg if everyone else os.kill)(run.pid, signal.SIGKILL)
+        run.wait()
+        assert contents(done) == before
+        again = done.run(*targets)
+        assert again.returncode == 0, again.stdout
+        assert set(rows(again.stdout)) == set(targets)
+    finally:
+        if run.poll() is None:
+            os.killpg(run.pid, signal.SIGKILL)
+    assert contents(done) == before
+
+
+@pytest.mark.parametrize(
+    "file", ["src/pipeline/config/__init__.py", "src/snakemake/cli.py", "Snakefile"]
+)
+def test_interrupting_the_start_is_no_traceback(tree, file):
+    reached = tree.path / "reached"
+    path = tree.path / file
+    if "snakemake" in file:  # a stand-in, found first
+        path.parent.mkdir()
+        (path.parent / "__init__.py").touch()
+    with path.open("a") as module:
+        module.write(f"\nimport time\nopen({str(reached)!r}, 'w').close()\ntime.sleep(60)\n")
+    run = tree.start(
+        "-n",
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        # A job in the background of a shell would ignore it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    for _ in range(600):
+        if reached.exists():
+            break
+        time.sleep(0.1)
+    run.send_signal(signal.SIGINT)
+    output, _ = run.communicate(timeout=30)
+    assert run.returncode != 0
+    assert "Traceback" not in output
+
+
+def test_two_runs_do_not_meet(tree):
+    with (tree.path / ".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        result = tree.run("-n")
+    assert result.returncode == 1
+    assert result.stdout == "reproduce: another ./reproduce is running in this folder\n"
+    assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing

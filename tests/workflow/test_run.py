@@ -1,0 +1,154 @@
+"""What a run makes again and what it leaves alone, in a copy whose scenes are tiny."""
+
+import os
+import shutil
+import time
+
+from project import fresh_tree
+from runs import FIG3, FIG7, contents, rows
+
+LYAPUNOV = "src/pseudorigid/dynamics/lyapunov.py"
+
+
+def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
+    table = rows((finished.path / "first run").read_text())
+    assert set(table.values()) == {"recomputed"}
+    assert {f"paper_figures/{name}" for name in finished.published()} == set(table)
+    assert b"committed" not in contents(finished).values()
+
+
+def test_a_second_run_has_nothing_to_do(done):
+    before = done.published()
+    start = time.monotonic()
+    again = done.run()
+    assert time.monotonic() - start < 20
+    assert "snakemake" not in again.stdout  # not even started
+    assert set(rows(again.stdout).values()) == {"current"}
+    assert done.published() == before
+
+
+def test_a_figure_of_a_fresh_clone_needs_only_its_orbit(tree):
+    assert tree.planned("paper_figures/fig3.png") == FIG3
+
+
+def test_everything_of_a_fresh_clone_is_planned(tree, finished):
+    for file in sorted(p for p in tree.path.rglob("*") if p.is_file()):
+        if "paper_figures" not in file.parts:
+            os.utime(file, (0, 0))
+    results = (finished.path / "results").rglob("*.*")
+    made = {path for path in results if path.suffix not in (".log", ".json")}
+    assert tree.planned() == {str(p.relative_to(finished.path)) for p in made}
+
+
+def test_editing_the_exponents_reruns_them_alone(done):
+    done.edit("fig7", impacts=61)
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_editing_axes_only_draws_again(done):
+    axes = {"limits": [-0.5, 0.5], "ticks": [0]}
+    done.edit("fig7", axes={"impact": {"limits": [0, 200000], "ticks": [0]}, "exponent": axes})
+    assert done.planned() == FIG7
+
+
+def test_adding_a_format_makes_that_file_alone(done):
+    done.edit("fig7", formats=["png", "svg", "pdf"])
+    assert done.planned() == {"results/paper/figures/fig7.pdf"}
+
+
+def test_editing_a_module_reruns_what_uses_it_and_touching_it_nothing(done):
+    module = done.path / LYAPUNOV
+    module.touch()
+    assert done.planned() == set()
+    with module.open("a") as file:
+        file.write("# edited\n")
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_what_was_deleted_comes_back(done):
+    for name in ("fig3.png", "fig7.svg"):
+        (done.path / "results" / "paper" / "figures" / name).unlink()
+    artifact = done.path / "results" / "paper" / "periodic_fig3.nc"
+    content = artifact.read_bytes()
+    artifact.unlink()
+    before = contents(done)
+    single = done.run("paper_figures/fig3.png")
+    assert single.returncode == 0
+    assert rows(single.stdout) == {"paper_figures/fig3.png": "recomputed"}
+    assert artifact.read_bytes() == content
+    again = rows(done.run().stdout)
+    assert again.pop("paper_figures/fig7.svg") == "recomputed"
+    assert again.pop("paper_figures/fig3.png") == "current"
+    assert contents(done) == before
+    assert done.planned() == set()
+
+
+def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
+    before = contents(done)
+    for name in ("fig3.png", "fig7.svg"):
+        figure = done.path / "paper_figures" / name
+        figure.write_text("x")
+        os.utime(figure, (4e9, 4e9))
+    single = done.run("paper_figures/fig3.png")
+    assert rows(single.stdout) == {"paper_figures/fig3.png": "current"}
+    assert contents(done) == before | {"fig7.svg": b"x"}
+    everything = done.run()
+    assert set(rows(everything.stdout).values()) == {"current"}
+    assert contents(done) == before
+
+
+def test_results_alone_are_enough_and_times_say_nothing(done, tmp_path):
+    """As a cache hands them to a fresh clone, whose files have any times, also in the future."""
+    fresh = fresh_tree(tmp_path / "elsewhere")
+    shutil.copytree(done.path / "results", fresh.path / "results", copy_function=shutil.copy)
+    for i, file in enumerate(sorted(fresh.path.glob("src/**/*.py"))):
+        os.utime(file, (4e9, 4e9) if i % 2 else (0, 0))
+    fresh.edit("fig7", records=5)
+    result = fresh.run()
+    assert result.returncode == 0, result.stdout
+    table = rows(result.stdout)
+    again = {f"paper_figures/fig7.{extension}" for extension in ("png", "svg")}
+    assert {file for file, state in table.items() if state == "recomputed"} == again
+    same = contents(done).items() - {(n, b) for n, b in contents(done).items() if "fig7" in n}
+    assert same <= contents(fresh).items()
+
+
+def test_a_source_replaced_with_its_time_kept_is_noticed(done):
+    module = done.path / LYAPUNOV
+    then = module.stat()
+    module.write_text(module.read_text() + "# other\n")
+    os.utime(module, ns=(then.st_atime_ns, then.st_mtime_ns))
+    shutil.rmtree(done.path / ".snakemake")
+    assert done.planned() == FIG7 | {"results/paper/lyapunov_fig7.nc"}
+
+
+def test_a_figure_that_cannot_exist_is_left_out_and_the_rest_is_drawn(done):
+    before = contents(done)
+    done.edit("fig3", type="inverse hyperbolic")
+    done.edit("fig7", records=5)
+    result = done.run()
+    assert result.returncode == 1
+    said = [line for line in result.stdout.splitlines() if line.startswith("fig3")]
+    assert len(said) == 2
+    words = "cannot exist: no inverse hyperbolic orbit of period 1 at energy 0.01 (found: elliptic)"
+    assert all(line.endswith(words) for line in said)
+    table = rows(result.stdout)
+    assert {file for file in table if table[file] == "recomputed"} == {
+        "paper_figures/fig7.png",
+        "paper_figures/fig7.svg",
+    }
+    assert len(table) == len(before) - 2
+
+
+def test_settings_of_a_users_shell_do_not_matter(done):
+    (done.path / "results" / "paper" / "figures" / "fig3.png").unlink()
+    result = done.run(
+        "paper_figures/fig3.png", MPLBACKEND="no such backend", SNAKEMAKE_PROFILE="none such"
+    )
+    assert result.returncode == 0, result.stdout
+
+
+def test_the_graph_is_printed(tree):
+    result = tree.run("paper_figures/fig3.png", "--dag")
+    assert result.returncode == 0
+    assert "digraph snakemake_dag" in result.stdout
