@@ -10,10 +10,11 @@ import pytest
 from flint import arb, ctx
 from judge import exact_map
 
-from pseudorigid import Ball
+from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, Surface, search_certificate
-from pseudorigid.proofs.checks import jump
+from pseudorigid.proofs.checks import jump, periodic
 from pseudorigid.proofs.checks.certificate import NotProvedError
+from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
 BALL = Ball(k=0.2, g=0.04)
 ORBITS = [n for n in THEOREMS if re.match("fixed-|six-|ten-|twelve-", n)]
@@ -335,6 +336,20 @@ def test_the_map_is_not_proved_smooth_above_its_threshold():
         jump.check(text, at, radius=Fraction(1), length=Fraction(0))
 
 
+@pytest.mark.parametrize("energy", [-0.003, 0.001, 0.01, 0.03, 0.0599])
+def test_the_search_in_doubles_finds_one_fixed_point_too(energy):
+    assert symmetric_orbits(BALL, energy, 1).sizes["orbit"] == 1
+
+
+def test_more_fixed_points_are_not_excluded_where_there_are_three():
+    # k = 0.2, g = 0.01, E = 0.03: the search finds three
+    assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
+    k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
+    text = propose_only_fixed_point(k, g, energy)
+    with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
+        periodic.check_only_fixed_point(text, k, g, energy)
+
+
 def leading_digits(text, fields):
     """Every certificate with the leading digit of one number of these fields changed."""
     place, field = 0, None
@@ -355,6 +370,7 @@ def leading_digits(text, fields):
 FIELDS = {
     "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
     "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
+    "energy_up_to", "theta_below",
 }  # fmt: skip
 
 
