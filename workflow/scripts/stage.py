@@ -13,6 +13,13 @@ block = snakemake.params.block
 os.environ["OMP_NUM_THREADS"] = str(snakemake.threads)
 
 
+def written(start):
+    """A start with its decimals as text."""
+    if isinstance(start, dict):
+        return {name: str(value) for name, value in start.items()}
+    return str(start)
+
+
 def compute_exactly(compute, fields):
     """From the decimals as they are written; finished orbits are kept while the job lasts."""
     what = f"{snakemake.wildcards.variant}/{snakemake.wildcards.scene}"
@@ -24,7 +31,7 @@ def compute_exactly(compute, fields):
     numbers = {**block["ball"], "energy": block["energy"]}
     return compute(
         **{name: str(value) for name, value in numbers.items()},
-        **fields,
+        **fields | {"starts": [written(start) for start in fields["starts"]]},
         progress=progress,
         folder=f"{snakemake.output[0]}.part",
     )

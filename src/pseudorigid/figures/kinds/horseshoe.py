@@ -70,5 +70,6 @@ def _relation(panel, horseshoe):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=0.8)
     for edge in (0, 1):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=2.0)
-    panel.note(0.0, 1.0, "the middle set", ha="center", va="bottom", shift=(0.0, 2.5))
-    panel.note(0.0, 0.0, "image of the set before it", ha="center")
+    for up, gap, text in ((1.0, 5.5, "the middle set"), (0.0, 0.0, "image of the set before it")):
+        at = [float(a[0]) for a in panel.place(0.0, up)]
+        panel.sheet.text(at[0], at[1] + gap * POINT, text, ha="center", va="center", size=_SIZE)

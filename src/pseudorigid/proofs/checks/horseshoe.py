@@ -2,8 +2,8 @@
 
 Sets S_0 ... S_(n-1) at the saddles cover each other in turn; a chain M_-K ... M_K leaves from S_a
 and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. Every bi-infinite path in that graph
-is followed by an orbit of P (Zgliczynski and Gidea 2004, Theorem 9), by the cone condition on every
-relation by only one, and the set of these orbits is compact, invariant and uniformly hyperbolic
+is followed by an orbit of P (Zgliczynski and Gidea 2004), by the cone condition on every relation
+by only one, and the set of these orbits is compact, invariant and uniformly hyperbolic
 (Kokubu, Wilczak and Zgliczynski 2007; Zgliczynski 2009).
 
 M_0 is disjoint from all other sets. So a path is known from the times at which its orbit visits

@@ -3,13 +3,13 @@
 An h-set is a parallelogram c + p u + q s, |p|, |q| <= 1, with one expanding and one contracting
 direction: its exit set are the two edges p = -1 and p = 1. N covers M, N => M, if the image of N
 stays within |q'| < 1 in the coordinates (p', q') of M, and the images of N's two exit edges lie
-beyond p' = -1 and p' = 1, on opposite sides (Zgliczynski and Gidea 2004, Definition 6 and, for one
-expanding direction, Theorem 16). The pair satisfies the cone condition if
+beyond p' = -1 and p' = 1, on opposite sides: with one expanding direction this suffices for the
+covering relation of Zgliczynski and Gidea (2004). The pair satisfies the cone condition if
 
     Q(z1' - z2') > Q(z1 - z2),   Q = p^2 - q^2,   for all z1 != z2 of N with images z1', z2',
 
 for which it suffices that D^T Q D - Q is positive definite for every D in the interval hull of the
-derivatives on N, in these coordinates (Kokubu, Wilczak and Zgliczynski 2007, section 3).
+derivatives on N, in these coordinates (Kokubu, Wilczak and Zgliczynski 2007).
 """
 
 from dataclasses import dataclass

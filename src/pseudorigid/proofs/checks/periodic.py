@@ -1,8 +1,20 @@
 """Periodic orbits by interval Newton on the shooting map, eq. F_i = P(z_i) - z_(i+1).
 
-Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990, 5.1): let X be a box with
+Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990): let X be a box with
 midpoint c and A an interval matrix that contains DF on X and is regular. If N = c - A^-1 F(c) lies
 in the interior of X, then F has exactly one zero in X, and it is in N.
+
+All fixed points at once, by hand. A flight turns (x, udot+) into (x', udot'): at a fixed point
+x^2 + (udot+)^2 = x^2 + udot^2, so udot+ = -udot and y = 0. With theta = tau/2 then xdot = g theta,
+udot = g theta/k, x = udot cot(theta), and
+
+    E = (g^2/2k) ((1 + k) theta^2 + (1 - theta cot(theta))^2 - 1).
+
+On (0, pi) both terms rise, from E = -g^2/(2k) without bound: one theta for each energy. Its flight
+is the first, since the gap at theta + r, udot cot(theta) + g (r^2 - theta^2)/2 - udot cos(r)/
+sin(theta), rises for r in (0, theta). theta = n pi would need udot = 0. On (pi, 3 pi/2) the gap is
+above zero at r = 0, so that there was an impact before, if (1 + |cos|)/(k |sin|) > theta/2, for
+which 1/k > theta/2 is enough. Larger theta have larger energies.
 """
 
 from dataclasses import dataclass
@@ -57,6 +69,24 @@ def check(text, surface, *, period, type, radius, window=None):
             raise NotProvedError("no point is proved to lie in the window of the paper's figure")
         margins = {"radius": float(size), "trace": lowest(abs(abs(orbit.trace) - 2))}
         return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
+
+
+def check_only_fixed_point(text, k, g, energy):
+    """Prove that the map has one fixed point at each energy from -g^2/(2k) up to `energy`."""
+    with ctx.workprec(BITS):
+        certificate = Certificate(text, "only fixed point")
+        certificate.ball(k, g)
+        highest, longest = certificate.number("energy_up_to"), certificate.number("theta_below")
+        if highest != energy:
+            raise NotProvedError(f"the certificate is of energies up to {highest}, not {energy}")
+        needed = (2 * k * highest / (g * g) + 1) / (1 + k)  # theta^2 is at most this
+        if not (longest - Fraction(1, 100)) ** 2 < needed <= longest**2:
+            raise NotProvedError("theta is not proved to be below the stated one")
+        bound = ball_of(longest)
+        if not (bound < 3 * arb.pi() / 2 and longest * k < 2):
+            raise NotProvedError("a second fixed point is not excluded")
+        margins = {"theta": lowest(3 * arb.pi() / 2 - bound), "earlier": float(2 - longest * k)}
+        return Finding({"energies up to": ball_of(highest)}, margins)
 
 
 def prove(surface, centres, radius):

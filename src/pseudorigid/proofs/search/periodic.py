@@ -1,6 +1,7 @@
 """Certificates of periodic orbits: centres from Newton's method, and the largest round box."""
 
 from fractions import Fraction
+from math import ceil, sqrt
 
 from flint import arb, arb_mat, ctx
 
@@ -68,4 +69,13 @@ def _text(surface, centres, size):
         header("periodic orbit", surface)
         + f"radius = {float(size):.0e}\n"
         + rows("points", centres)
+    )
+
+
+def propose_only_fixed_point(k, g, energy):
+    """The text of the certificate that there is no other fixed point up to an energy."""
+    longest = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
+    return (
+        f'kind = "only fixed point"\nk = "{k}"\ng = "{g}"\n'
+        f'energy_up_to = "{energy}"\ntheta_below = {longest}\n'
     )

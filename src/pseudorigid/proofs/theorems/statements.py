@@ -124,6 +124,17 @@ def _orbit_theorem(name, surface, period, kind, radius):
     return Theorem(name, statement, periodic.check, bounds, propose)
 
 
+def _only_theorem():
+    def propose(theorem):
+        from ..search import periodic as proposals
+
+        return proposals.propose_only_fixed_point(K, G, K / 2 - G)
+
+    statement = "at each energy up to k/2 - g, eq. (31), the map has exactly one fixed point"
+    bounds = {"k": K, "g": G, "energy": K / 2 - G}
+    return Theorem("one-fixed-point", statement, periodic.check_only_fixed_point, bounds, propose)
+
+
 def _twist_theorem(name, surface, period, radius):
     def propose(theorem):
         from ..search import known
@@ -227,6 +238,7 @@ THEOREMS = {
     theorem.name: theorem
     for theorem in (
         *(_orbit_theorem(*names, Fraction(radius)) for *names, radius in _ORBITS),
+        _only_theorem(),
         _horseshoe_theorem(
             "horseshoe-outer", "outer", {"side": 1, "steps": 59, "size": 6.5e-5, "room": 1.14},
             (Fraction("0.326"), Fraction("0.327")), Fraction("0.0185"),

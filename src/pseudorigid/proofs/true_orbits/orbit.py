@@ -25,8 +25,9 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
         How many.
     x, y : same
         The start in the chart, y = xdot - k udot.
-    start : same
-        In place of x and y: a fraction, -1 to 1, of the section's radius along y = 0.
+    start : same, or mapping
+        In place of x and y: a fraction, -1 to 1, of the section's radius along y = 0; or a mapping
+        with x and either y or xdot.
     progress : callable, optional
         Called now and then with the share done, 0 to 1, and the seconds that are left.
     checkpoint : path, optional
@@ -46,7 +47,9 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
         grazes to within the precision, more bits than MOST_BITS, too little memory.
     """
     surface = Surface(k, g, energy)
-    place = Start(surface, x, y, start)
+    if (x is None) == (start is None):
+        raise ValueError("where the orbit starts is given by x and y, or by start: by one of them")
+    place = Start(surface, {"x": x, "y": y} if start is None else start)
     checkpoint = None if checkpoint is None else Path(checkpoint)
     impacts = whole_number("impacts", impacts)
     _memory(impacts)

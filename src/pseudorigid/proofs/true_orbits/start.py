@@ -13,37 +13,59 @@ from .follow import FRAME_BITS, GUARD, RESULT_BITS
 
 
 class Start:
-    """An exact start: balls of its coordinates at any precision."""
+    """An exact start: balls of its coordinates at any precision.
 
-    def __init__(self, surface, x, y, start):
-        if (x is None) == (start is None) or (x is None and y != 0):
-            raise ValueError("a start is either x and y or a fraction of the section's radius")
+    `start` is a fraction of the section's radius along y = 0, or a mapping with x and y or xdot.
+    """
+
+    def __init__(self, surface, start):
         self.surface = surface
-        self.fraction = None if start is None else exact("start", start)
-        self.x = None if x is None else exact("x", x)
-        self.y = exact("y", y)
+        names = sorted(start) if isinstance(start, dict) else ["start"]
+        if names not in (["start"], ["x", "y"], ["x", "xdot"]):
+            raise ValueError(
+                "a start is a fraction of the section's radius, or x and y, or x and xdot"
+            )
+        values = start if isinstance(start, dict) else {"start": start}
+        self.numbers = {name: exact(name, values[name]) for name in names}
         if not self._inside():
-            what = f"start = {self.fraction}" if x is None else f"x = {self.x}, y = {self.y}"
-            raise ValueError(f"{what} is not inside the section's rim at {surface}")
+            raise ValueError(f"the start {self} is not inside the section's rim at {surface}")
+
+    def __str__(self):
+        return ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
 
     def _inside(self):
         """Exactly: whether s > 0 there."""
-        if self.fraction is not None:
-            return -1 < self.fraction < 1
         k, g, energy = self.surface.k, self.surface.g, self.surface.energy
-        return (1 + k) * (2 * energy + self.x * (2 * g - k * self.x)) > self.y * self.y
+        if "start" in self.numbers:
+            return -1 < self.numbers["start"] < 1
+        x = self.numbers["x"]
+        kinetic = 2 * energy + x * (2 * g - k * x)  # twice of it
+        if "y" in self.numbers:
+            return (1 + k) * kinetic > self.numbers["y"] ** 2
+        xdot = self.numbers["xdot"]  # with udot > 0 of two, k udot^2 = 2 T - xdot^2
+        return kinetic > xdot * xdot and (xdot >= 0 or kinetic > (1 + k) * xdot * xdot)
 
     def balls(self):
         """(x, y) at the context's precision."""
-        if self.fraction is None:
-            return ball_of(self.x), ball_of(self.y)
-        k, g, _ = self.surface.constants()
-        return g / k + ball_of(self.fraction) * self.surface.radius(), arb(0)
+        k, g, energy = self.surface.constants()
+        numbers = {name: ball_of(value) for name, value in self.numbers.items()}
+        if "start" in numbers:
+            return g / k + numbers["start"] * self.surface.radius(), arb(0)
+        x = numbers["x"]
+        if "y" in numbers:
+            return x, numbers["y"]
+        xdot = numbers["xdot"]
+        udot = ((2 * energy + x * (2 * g - k * x) - xdot * xdot) / k).sqrt()
+        return x, xdot - k * udot
+
+    def floats(self):
+        """The start as `dynamics.starts.start_state` takes it."""
+        numbers = {name: float(value) for name, value in self.numbers.items()}
+        return numbers.get("start", numbers)
 
     def identity(self, impacts):
         """What a checkpoint must be of."""
-        parts = (self.surface.k, self.surface.g, self.surface.energy, self.fraction, self.x, self.y)
-        return json.dumps([str(part) for part in parts] + [impacts])
+        return json.dumps([str(self.surface), str(self), impacts])
 
 
 def bits_needed(surface, place, impacts):

@@ -8,7 +8,7 @@ from flint import ctx
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.dynamics.periodic import of_type
+from pseudorigid.dynamics.variables import of_type
 from pseudorigid.proofs import THEOREMS, Surface, judge, prove_horseshoe, prove_orbit
 from pseudorigid.proofs.theorems import impacts, pictures
 
@@ -64,7 +64,7 @@ def test_what_cannot_be_proved_is_said_in_one_line(six):
         prove_horseshoe(PAPER, of_type(six, "elliptic"), **plan)
     one_line(error)
     with pytest.raises(
-        ValueError, match="the orbit's energy is 0.01, not that of k = 1/5"
+        ValueError, match=r"the orbit's energy is 0.01, not that of k = 1/5"
     ) as error:
         prove_orbit(Surface("1/5", "1/25", "1/50"), hyperbolic)
     one_line(error)
@@ -80,7 +80,7 @@ def test_what_cannot_be_proved_is_said_in_one_line(six):
         prove_horseshoe(PAPER, hyperbolic, **plan | {"side": "left"})
     moved = hyperbolic.copy(deep=True)
     moved["x"] = moved["x"] + 1e-3
-    with pytest.raises(ValueError, match="energy|cannot be proved"):
+    with pytest.raises(ValueError, match=r"energy|cannot be proved"):
         prove_orbit(PAPER, moved)
 
 
@@ -169,9 +169,11 @@ def test_the_pictures_are_drawn():
     one = render(twist.draw({"marks": [0.001, 0.01]}, data), "png")
     assert one == render(twist.draw({"marks": [0.001, 0.01]}, data), "png")
     assert one != render(twist.draw({"marks": []}, data), "png")
-    saddles = of_type(symmetric_orbits(BALL, 0.01, 6), "hyperbolic")
-    branches = {"outer": {"length": 0.5}, "inner": {"length": 0.5}}
-    manifolds = scene_manifolds(BALL, 0.01, saddles, branches, {"distance": 0.05, "bend": 40})
+    manifolds = scene_manifolds(
+        BALL, 0.01, symmetric_orbits(BALL, 0.01, 6), 6, "hyperbolic",
+        {"distance": 0.05, "bend": 40},
+        branches={"outer": {"length": 0.5}, "inner": {"length": 0.5}},
+    )  # fmt: skip
     axes = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
     sets = pictures.horseshoe_data()
     two = render(horseshoe.draw({"axes": axes}, manifolds, sets), "png")

@@ -10,10 +10,11 @@ import pytest
 from flint import arb, ctx
 from judge import exact_map
 
-from pseudorigid import Ball
+from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, Surface, search_certificate
-from pseudorigid.proofs.checks import jump, twist
+from pseudorigid.proofs.checks import jump, periodic
 from pseudorigid.proofs.checks.certificate import NotProvedError
+from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
 BALL = Ball(k=0.2, g=0.04)
 ORBITS = [n for n in THEOREMS if re.match("fixed-|six-|ten-|twelve-", n)]
@@ -139,7 +140,7 @@ def test_the_twist_is_that_of_measured_rotation_numbers(name, energy, results):
     orbit = "fixed-point" if energy == 0.01 else "fixed-point-low"
     fixed = float(results[orbit].digits["x"][1:].split()[0])
     state = BALL.state_xy(fixed, 0.0, energy)
-    (a, b), (c, d) = BALL.chart_jacobian(*state)
+    (a, b), (_, d) = BALL.chart_jacobian(*state)
     sine = np.copysign(np.sqrt(1 - ((a + d) / 2) ** 2), b)
     beta = np.sqrt(b / sine)
     frame = beta, beta * ((a + d) / 2 - a) / b
@@ -277,8 +278,9 @@ def test_certificates_of_another_ball_are_refused(name, field, value):
 @pytest.mark.parametrize("name", THEOREMS)
 def test_unreadable_certificates_are_refused(name):
     text = THEOREMS[name].text()
-    for broken in ("", text[: len(text) // 2], text.replace("k = ", "kk = "),
-                   re.sub(r"kind = .*", 'kind = "poem"', text), re.sub(r"\d+", "x", text)):  # fmt: skip
+    another = re.sub(r"kind = .*", 'kind = "poem"', text)
+    without = text.replace("k = ", "kk = ")
+    for broken in ("", text[: len(text) // 2], without, another, re.sub(r"\d+", "x", text)):
         refused(name, broken)
 
 
@@ -329,8 +331,23 @@ def test_the_map_is_not_proved_smooth_above_its_threshold():
     for other in ("1/100", "11/6249", "11/6251"):
         assert "product" in refused("diffeomorphism", text.replace("11/6250", other))
     with pytest.raises(NotProvedError, match="no flight touches the floor"):
-        jump.check(THEOREMS["jump-set"].text().replace("1/100", "11/6250"),
-                   Surface("1/5", "1/25", "11/6250"), radius=Fraction(1), length=Fraction(0))  # fmt: skip
+        at = Surface("1/5", "1/25", "11/6250")
+        text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
+        jump.check(text, at, radius=Fraction(1), length=Fraction(0))
+
+
+@pytest.mark.parametrize("energy", [-0.003, 0.001, 0.01, 0.03, 0.0599])
+def test_the_search_in_doubles_finds_one_fixed_point_too(energy):
+    assert symmetric_orbits(BALL, energy, 1).sizes["orbit"] == 1
+
+
+def test_more_fixed_points_are_not_excluded_where_there_are_three():
+    # k = 0.2, g = 0.01, E = 0.03: the search finds three
+    assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
+    k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
+    text = propose_only_fixed_point(k, g, energy)
+    with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
+        periodic.check_only_fixed_point(text, k, g, energy)
 
 
 def leading_digits(text, fields):
@@ -353,6 +370,7 @@ def leading_digits(text, fields):
 FIELDS = {
     "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
     "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
+    "energy_up_to", "theta_below",
 }  # fmt: skip
 
 
@@ -391,4 +409,3 @@ def test_the_twist_of_the_search_is_found_another_way():
     with ctx.workprec(160):
         points = polished(surface, known.points(surface, 6, "elliptic"))
         assert abs(formula.estimate(surface, points) - found) < arb("1e-25")
-    assert Fraction(1, 10**6) > twist.CLOSE

@@ -21,28 +21,33 @@ NAMES = ("x", "xdot", "udot", "tau")
 
 
 def independent(impacts, digits, x="2/5"):
-    """The same orbit with `digits` decimal digits throughout: the kernel says which root it is,
+    """The same orbit from `digits` decimal digits down to 60: the kernel says which root it is,
     Newton's method gives its digits. Rows of x, xdot, udot, tau as mpf.
     """
     rows = []
-    with mpmath.workdps(digits):
-        k, g, energy = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25, mpmath.mpf(1) / 100
-        x = mpmath.mpf(Fraction(x).numerator) / Fraction(x).denominator
-        s = mpmath.sqrt((1 + k) * (2 * energy + 2 * g * x - k * x * x) / k)
-        v, w = k * s / (1 + k), s / (1 + k)
-        for _ in range(impacts):
+    state = None
+    for i in range(impacts):
+        level = digits - (digits - 60) * i // impacts
+        with mpmath.workdps(level):
+            k, g, energy = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25, mpmath.mpf(1) / 100
+            if state is None:
+                x = mpmath.mpf(Fraction(x).numerator) / Fraction(x).denominator
+                s = mpmath.sqrt((1 + k) * (2 * energy + 2 * g * x - k * x * x) / k)
+                state = x, k * s / (1 + k), s / (1 + k)
+            x, v, w = state
             s = v + w
             b, c = v - 2 * k * s / (1 + k), w - 2 * s / (1 + k)
-            t = mpmath.mpf(BALL.time_to_impact(float(x), float(v), float(w)))
+            t = mpmath.mpf(BALL.time_to_impact(*map(float, state)))
             known = 12
-            while known < 2 * digits:
-                cosine, sine = mpmath.cos_sin(t)
-                gap = x + t * (b + g * t / 2) - x * cosine + c * sine
-                t -= gap / (b + g * t + x * sine + c * cosine)
+            while known < level:
                 known *= 2
+                with mpmath.workdps(min(known, level) + 10):
+                    cosine, sine = mpmath.cos_sin(t)
+                    gap = x + t * (b + g * t / 2) - x * cosine + c * sine
+                    t = t - gap / (b + g * t + x * sine + c * cosine)
             cosine, sine = mpmath.cos_sin(t)
-            x, v, w = x * cosine - c * sine, b + g * t, x * sine + c * cosine
-            rows.append((x, v, w, t))
+            state = x * cosine - c * sine, b + g * t, x * sine + c * cosine
+            rows.append((*state, t))
     return rows
 
 
@@ -106,7 +111,7 @@ def test_the_bound_holds_the_true_orbit():
 
 
 def exact_start():
-    return start.Start(surface.Surface("1/5", "1/25", "1/100"), "2/5", 0, None)
+    return start.Start(surface.Surface("1/5", "1/25", "1/100"), {"x": "2/5", "y": 0})
 
 
 def test_plain_balls_are_a_second_opinion():
@@ -133,6 +138,17 @@ def test_starts_of_a_scene_are_fractions_of_the_radius():
         assert np.abs(data[name] - ours[name]).max() < 1e-7
     assert data["start"].equals(ours["start"])
     assert data["row_size"].equals(ours["row_size"])
+
+
+def test_starts_of_a_scene_may_be_points():
+    starts = [{"x": 0.1, "xdot": 0.05}, {"x": 0.3, "y": -0.02}, 0.5]
+    exact = [{"x": "0.1", "xdot": "0.05"}, {"x": "0.3", "y": Decimal("-0.02")}, "0.5"]
+    data = true_scene_orbits(**PAPER, starts=exact, impacts=25)
+    ours = scene_orbits(BALL, 0.01, starts, 25)
+    assert set(data.variables) == set(ours.variables)
+    for name in data.variables:
+        assert data[name].attrs == ours[name].attrs
+        assert np.nanmax(np.abs(data[name] - ours[name])) < 1e-9
 
 
 def test_the_elliptic_orbit_returns_for_as_long_as_one_looks():
@@ -227,12 +243,14 @@ def test_bad_input_is_refused_in_one_line(monkeypatch):
     refuse("energy = -1 is not allowed: above -1/250", energy="-1")
     refuse("impacts = 0 is not allowed", impacts=0)
     refuse("impacts = 2.5 is not allowed", impacts=2.5)
-    refuse("a start is either x and y or a fraction", x=None, y=0)
-    refuse("a start is either x and y or a fraction", start="0.5")
+    refuse("by x and y, or by start: by one of them", x=None)
+    refuse("by x and y, or by start: by one of them", start="0.5")
+    refuse("a start is a fraction .* or x and xdot", x=None, start={"x": "0.1", "z": "0"})
+    refuse("x = 1/10, xdot = 1/2 is not inside", x=None, start={"x": "0.1", "xdot": "0.5"})
     refuse("x = 3/5, y = 0 is not inside the section's rim", x="3/5")
     # on the rim exactly: 2 g x = k x^2
     refuse("is not inside the section's rim", energy="0", x="2/5")
-    refuse("start = 1 is not inside", x=None, y=0, start="1")
+    refuse("start = 1 is not inside", x=None, start="1")
     refuse("need [0-9]+ GB of memory", impacts=10**12)
     monkeypatch.setattr(follow, "MOST_BITS", 200)
     refuse("300 impacts of this orbit need [0-9]+ bits, more than 200", impacts=300)
