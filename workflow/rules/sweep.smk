@@ -91,4 +91,4 @@ rule sweep:
 
 rule atlas:
     input:
-        [file for name in SWEEPS for file in (grid.dataset(name), *grid.pictures(name))],
+        [file for name in SWEEPS for file in (grid.dataset(name), *grid.pictures(name, SWEEPS[name]))],

@@ -19,10 +19,13 @@ def sweep(arguments: list[str]) -> int:
 
 def atlas(arguments: list[str]) -> int:
     """The pictures of the sweeps, and whatever they still need."""
+    sweeps = config.load(ROOT / "config.yaml")["sweeps"]
     return swept(
         arguments,
         lambda names: [
-            file for name in names for file in (grid.dataset(name), *grid.pictures(name))
+            file
+            for name in names
+            for file in (grid.dataset(name), *grid.pictures(name, sweeps[name]))
         ],
     )
 

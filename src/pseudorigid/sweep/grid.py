@@ -10,7 +10,7 @@ from itertools import pairwise
 LARGEST = 10_000_000_000_000  # impacts of a sweep: above it a number is a slip
 MOST_JOBS = 5000  # of a sweep: beyond, snakemake is busier with its list than with the jobs
 HIGHEST = 1e9  # of E/g^2
-FORMATS = ("png", "svg")  # of a picture
+FORMATS = ("png", "svg")  # of a line; of a plane the first alone
 _EXACT = Context(prec=40)
 
 
@@ -152,10 +152,14 @@ def record(name) -> str:
     return f"results/sweep/{name}.nc.sha256"
 
 
-def pictures(name) -> list[str]:
-    """Where its pictures are drawn, and where users look for them."""
+def pictures(name, sweep) -> list[str]:
+    """Where its pictures are drawn, and where users look for them.
+
+    A plane has a rectangle a cell: as vectors they would weigh megabytes.
+    """
+    formats = FORMATS if is_line(sweep) else FORMATS[:1]
     folders = ("results/sweep/figures", "atlas_figures")
-    return [f"{folder}/{name}.{extension}" for folder in folders for extension in FORMATS]
+    return [f"{folder}/{name}.{extension}" for folder in folders for extension in formats]
 
 
 def is_line(sweep) -> bool:
