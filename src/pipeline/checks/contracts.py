@@ -95,7 +95,9 @@ def atlas(checked):
     """The pictures of the sweeps, and so their datasets."""
     sweeps = checked["sweeps"]
     drawn = {
-        Path(path).name: (name, path) for name in sweeps for path in places.sweep_pictures(name)
+        Path(path).name: (name, path)
+        for name in sweeps
+        for path in places.sweep_pictures(name, sweeps[name])
     }
     return Contract(
         what="pictures",

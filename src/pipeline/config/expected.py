@@ -66,6 +66,6 @@ def of_sweeps(sweeps) -> dict[str, Expected]:
         for i, path in enumerate(blocks):
             found[path] = Expected(grid.block(sweep, i), code)
         found[data] = Expected(grid.whole(sweep), code, blocks)
-        for path in places.sweep_pictures(name):
+        for path in places.sweep_pictures(name, sweep):
             found[path] = Expected(sweep, drawn, [data])
     return found

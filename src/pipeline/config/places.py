@@ -83,9 +83,10 @@ def sweep_dataset(name) -> str:
     return f"results/sweep/{name}.nc"
 
 
-def sweep_pictures(name) -> list[str]:
-    """Where its pictures are drawn."""
-    return [f"results/sweep/figures/{name}.{extension}" for extension in SHOWN]
+def sweep_pictures(name, sweep) -> list[str]:
+    """Where its pictures are drawn; of a plane, whose cells are many, no vectors."""
+    formats = SHOWN if len(sweep["k"]) == 1 else SHOWN[:1]
+    return [f"results/sweep/figures/{name}.{extension}" for extension in formats]
 
 
 def atlas_published(drawing) -> str:

@@ -6,12 +6,20 @@ one parameter u, whose whole part counts the images and whose rest walks along t
 two neighbours are too far apart or the line bends too much, a point is inserted at the middle of u
 and mapped from the segment. The reversor makes the stable branches: they are unstable ones of the
 mirrored point, mirrored.
+
+Where the multiplier is below WEAK, many images lie between the segment and the end of a branch.
+Roundings halfway to the next saddle grow after it like what tells the branch from that saddle's
+own, and points that come from the segment on their own go to and fro along the line. There each
+image is mapped from the one before: a vertex from the one at u - 1, which changes no bit; a point
+between vertices from the cubic through the four vertices around u - 1, unless a jump of the map
+parts them. How far roundings have come shows where two images join: two orbits lead there. The
+branch ends where these are apart by more than KNOWN times the image's extent.
 """
 
 import numpy as np
 import xarray as xr
 
-from ..kernel.arithmetic import sincos
+from ..kernel.arithmetic import log, sincos
 from .variables import of_type, variables
 
 # End of the first segment in section radii: it misses the branch by about its square.
@@ -20,7 +28,10 @@ START = 1e-6
 FINEST = 1e-3
 # Outside a window the line is followed with sides of this length, in section radii.
 COARSE = 0.01
-MOST_IMAGES = 400
+FRESH = 16  # points of an image to begin with
+MOST_IMAGES = 400  # of a multiplier of at least WEAK; else so many that they grow as much
+WEAK = 1.5
+KNOWN = 0.1
 MOST_VERTICES = 3_000_000
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
@@ -58,12 +69,13 @@ def trace_manifold(
     Returns:
         Dataset of x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where
         the line is interrupted, by the window's edge or by a jump of the map. Attribute
-        start_error: by how much, in section radii, the image of the first segment misses it.
+        start_error: by how much, in section radii, the image of the first segment misses it; ended:
+        the length, in section radii, where a branch is no longer known to rounding, if that is
+        before `length`.
 
     Raises:
         ValueError: an orbit that is not hyperbolic or not of this energy, an argument out of
-        range, or
-            a branch of more than MOST_VERTICES points.
+            range, or a branch of more than MOST_VERTICES points or MOST_IMAGES images.
     """
     points = np.stack(
         [np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")]
@@ -83,9 +95,10 @@ def trace_manifold(
         "xdot": "velocity of the mass centre just before impact",
         "udot": "strain rate just before impact",
     }
-    return xr.Dataset(
-        variables("vertex", vertices, names), attrs={"start_error": branch.start_error()}
-    )
+    attributes = {"start_error": branch.start_error()}
+    if branch.ended is not None:
+        attributes["ended"] = branch.ended
+    return xr.Dataset(variables("vertex", vertices, names), attrs=attributes)
 
 
 def _check(ball, energy, points, saddle, side, length, distance, bend, window):
@@ -175,6 +188,8 @@ def _collect(ball, energy, orbit, requests, resolution):
     ]
     whole = xr.concat(traced, "vertex", combine_attrs="override")
     whole.attrs["start_error"] = max(branch.attrs["start_error"] for branch in traced)
+    if ended := [branch.attrs["ended"] for branch in traced if "ended" in branch.attrs]:
+        whole.attrs["ended"] = min(ended)
     return whole.assign(
         row_size=(
             "branch",
@@ -224,10 +239,49 @@ class _Branch:
         if self.multiplier < 0.0:  # the two sides change places: every second image
             self.period *= 2
             self.multiplier *= self.multiplier
+        self.weak = self.multiplier < WEAK
+        self.ended = None
         self.first = START * self.radius / self.multiplier * sign * e
 
+    def next(self, fresh, u, states):
+        """States (3, n) at the parameters `fresh` (n,), where `states` at `u` are known."""
+        if not self.weak or u.size < 2 * FRESH:
+            return self(fresh)
+        found, good = self._forward(fresh - 1.0, u, states)
+        if not good.all():
+            found[:, ~good] = self(fresh[~good])
+        return found
+
+    def _forward(self, before, u, states):
+        """The images of the states at the parameters `before`, and which of them can be trusted."""
+        ball = self.ball
+        at = np.minimum(np.searchsorted(u, before), u.size - 1)
+        there = u[at] == before
+        four = np.clip(at - 2, 0, u.size - 4) + np.arange(4)[:, None]
+        known = states[:, four]
+        if self.mirrored:
+            known = np.stack(ball.reflect(*known))
+        columns = known[:, at - four[0], np.arange(at.size)]
+        chart = np.stack([known[0], known[1] - ball.k * known[2]])
+        first, second = (
+            _interpolated(u[four[part]], chart[:, part], before)
+            for part in (slice(0, 3), slice(1, 4))
+        )
+        good = np.ones(at.size, bool)
+        if self.energy > ball.g * ball.g * (1.0 + 0.5 * ball.k):  # the map may jump
+            extent = np.max(chart, axis=1) - np.min(chart, axis=1)
+            good = np.all(np.abs(first - second) <= 0.5 * np.max(extent, axis=0), axis=0)
+        share = (before - u[four[0]]) / (u[four[3]] - u[four[0]])
+        x, y = first + share * (second - first)
+        between = good & ~there
+        columns[:, between] = ball.state_xy(x[between], y[between], self.energy)
+        columns = [np.ascontiguousarray(a) for a in columns]
+        ball.map.steps(*columns, ball.k, ball.g, self.period, np.empty(at.size))
+        found = np.stack(ball.reflect(*columns) if self.mirrored else columns)
+        return found, good | there
+
     def __call__(self, u):
-        """States (3, n) at the parameters u (n,)."""
+        """States (3, n) at the parameters u (n,), each from the first segment."""
         image = np.floor(u)
         sigma = 1.0 + (self.multiplier - 1.0) * (u - image)
         start = self.origin[:, None] + sigma * self.first[:, None]
@@ -240,6 +294,15 @@ class _Branch:
             states[:, rows] = columns
         return np.stack(self.ball.reflect(*states)) if self.mirrored else states
 
+    def known(self, image, u, states):
+        """Whether two orbits to where images `image - 1` and `image` join agree that far."""
+        if image < 2:
+            return True
+        ends = self(np.array([np.nextafter(float(image), 0.0), float(image)]))
+        last = states[:, u >= image - 1]
+        extent = np.max(np.max(last, axis=1) - np.min(last, axis=1))
+        return np.max(np.abs(ends[:, 1] - ends[:, 0])) <= KNOWN * extent
+
     def base(self):
         """The point itself, (3, 1)."""
         state = self.ball.reflect(*self.point) if self.mirrored else self.point
@@ -251,22 +314,37 @@ class _Branch:
         return float(np.max(np.abs(ends[:, 1] - ends[:, 0])) / self.radius)
 
 
+def _interpolated(nodes, values, at):
+    """The parabolas through values (2, 3, n) at nodes (3, n), at `at` (n,)."""
+    a, b, c = nodes
+    slope = (values[:, 1] - values[:, 0]) / (b - a)
+    bend = ((values[:, 2] - values[:, 1]) / (c - b) - slope) / (c - a)
+    return values[:, 0] + (at - a) * (slope + (at - b) * bend)
+
+
 def _trace(branch, length, distance, bend, window):
     """The polyline (3, n) of a branch, image by image until it is `length` long."""
     straight = sincos(bend * DEGREE)[1]
     u = np.empty(0)
     states = np.empty((3, 0))
-    for image in range(MOST_IMAGES):
-        fresh = image + np.arange(16) / 16.0
-        u, states = np.append(u, fresh), np.append(states, branch(fresh), axis=1)
+    most, travelled = MOST_IMAGES, np.zeros(1)
+    if branch.weak:
+        most = int(MOST_IMAGES * log(WEAK) / log(branch.multiplier))
+    for image in range(most):
+        if branch.weak and not branch.known(image, u, states):
+            branch.ended = float(travelled[-1])
+            break
+        fresh = image + np.arange(FRESH) / FRESH
+        states = np.append(states, branch.next(fresh, u, states), axis=1)
+        u = np.append(u, fresh)
         while True:
             short = _too_coarse(branch, u, states, distance, straight, window)
             middle = 0.5 * (u[:-1] + u[1:])[short]
             if not middle.size:
                 break
             at = np.nonzero(short)[0] + 1
-            u = np.insert(u, at, middle)
-            states = np.insert(states, at, branch(middle), axis=1)
+            fresh = branch.next(middle, u, states)
+            u, states = np.insert(u, at, middle), np.insert(states, at, fresh, axis=1)
             if u.size > MOST_VERTICES:
                 raise ValueError(
                     f"a manifold of more than {MOST_VERTICES} points: make length shorter"
@@ -276,6 +354,11 @@ def _trace(branch, length, distance, bend, window):
         travelled = np.cumsum(np.where(jumps, 0.0, sides))
         if travelled[-1] >= length:
             break
+    else:
+        raise ValueError(
+            f"a manifold is {travelled[-1]:.3g} section radii long after {most} images, with a "
+            f"multiplier of {branch.multiplier:.6g}: make length shorter"
+        )
     last = int(np.searchsorted(travelled, length)) + 1
     states, jumps = states[:, : last + 1], jumps[:last]
     states = np.concatenate([branch.base(), states], axis=1)

@@ -1,22 +1,28 @@
 """The atlas: how much of the section is regular and how chaotic the rest, over k and E/g^2."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..dynamics import fixed_point
 from .axes import raster
 from .axes.panel import Axis, Panel, log10
 from .canvas import style
+from .canvas.ragged import pieces
 from .canvas.sheet import POINT, Sheet
 
-RESONANCES = tuple((1, q) for q in (2, 3, 4, 5, 6, 8, 10))
+RESONANCES = tuple((1, q) for q in range(2, 11))
 PAPER = (0.2, {"Figure 8": 0.625, "Figure 2": 6.25})  # k, and E/g^2 of the paper's two cases
-NOTE = (
-    "the paper: “regular trajectories",
-    "are progressively destroyed",
-    "as the energy increases”",
+QUOTATION = (
+    "the paper: the regular trajectories",
+    "“appear to be progressively destroyed",
+    "as the total energy increases”",
 )
-LEFT, RIGHT = 120, 885
+LEFT, WIDE, HIGH = 115, 800, 640  # pixels: a panel of the plane, made of whole pixels a cell
 _SIZE = 6.0  # points: text beside lines
+_NAME = 46  # pixels: the room that the name of a resonance needs
+_NORMAL = 1.959964  # standard errors either way that hold 95 %
+_DASHES = 5.0, 4.0  # widths of a line: the onset of jumps
 
 
 def draw(sweep, data):
@@ -29,29 +35,59 @@ def plane(sweep, data):
     """Regular share and the sea's exponent, a coloured cell each, over E/g^2 and k.
 
     `data` is the dataset of the sweep. Curves: where the fixed point's rotation number is a
-    simple fraction; circles: the paper's two cases. Grey: no sea.
+    simple fraction, and where impacts begin to jump; circles: the paper's two cases. Grey: no sea.
     """
-    sheet = Sheet(style.COLUMN, 1425)
-    high = float(np.nanmax(data["exponent"].values, initial=0.05))
+    wide, high = (
+        count * max(1, most // count)
+        for count, most in ((len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH))
+    )
+    lower = 320
+    upper = lower + high + 195
+    sheet = Sheet(style.COLUMN, 75 * -(-(upper + high + 105) // 75))
+    largest = float(np.nanmax(data["exponent"].values, initial=0.05))
     values = (
         ("Regular share of the section", data["regular"].values, 1.0, "viridis"),
-        ("Lyapunov exponent of the sea", data["exponent"].values, high, "magma"),
+        ("Lyapunov exponent of the sea, an impact", data["exponent"].values, largest, "magma"),
     )
-    for i, (title, shade, largest, colors) in enumerate(values):
-        bottom = 825 - i * 705
-        frame = (LEFT, bottom, RIGHT, bottom + 500)
+    for bottom, (title, shade, most, table) in zip((upper, lower), values, strict=True):
+        frame = (LEFT, bottom, LEFT + wide, bottom + high)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
-        up = _linear(raster.edges(np.array(sweep["k"])), "$k$")
+        up = _linear(raster.edges(np.array(sweep["k"])), "$k$", 7)
         panel = Panel(sheet, frame, across, up, grid=False)
-        raster.cells(panel, sweep, shade / largest, colors)
-        raster.scale(sheet, frame, largest, colors)
-        sheet.text(RIGHT, frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
-        _resonances(panel, named=i == 0)
+        raster.minor(panel, _minor(across), _minor(up))
+        raster.cells(panel, sweep, shade / most, table)
+        raster.scale(sheet, frame, most, table)
+        sheet.text(frame[2], frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
+        _resonances(panel, named=bottom == upper)
+        _jumps(panel)
         for e in PAPER[1].values():
             if _inside(across, e) and _inside(up, PAPER[0]):
                 panel.dots(e, PAPER[0], "white", size=5.0, hollow=True)
                 panel.dots(e, PAPER[0], style.BLACK, size=2.5)
+    _plane_key(sheet, 170)
     return sheet.figure
+
+
+def _plane_key(sheet, top):
+    """What curves, circles and grey mean, a row each from the height `top` down."""
+    x, y = LEFT, top
+    _stroke(sheet, [x, x + 50], [y, y])
+    _entry(sheet, y, "rotation number of the fixed point, 1/2 to 1/10")
+    y -= 40
+    _stroke(sheet, [x, x + 50], [y, y], dashed=True)
+    _entry(sheet, y, "$E/g^2 = 1 + k/2$: above it the map jumps")
+    y -= 40
+    ring = {"mec": style.BACKDROP, "mfc": "white", "mew": 0.7}
+    sheet.draw([x + 25], [y], ls="none", marker="o", ms=5.0, **ring)
+    sheet.draw([x + 25], [y], ls="none", marker="o", ms=2.5, color=style.BLACK, mew=0)
+    _entry(sheet, y, "the paper's Figure 8 (left) and Figure 2 (right)")
+    y -= 40
+    sheet.draw([x, x + 50], [y, y], lw=6.0, color=style.GRID)
+    _entry(sheet, y, "no chaotic orbit among those of the cell")
+
+
+def _entry(sheet, y, text):
+    sheet.text(LEFT + 70, y, text, ha="left", va="center", size=_SIZE)
 
 
 @style.pinned()
@@ -60,78 +96,125 @@ def line(sweep, data):
 
     `data` is the dataset of a sweep with one k; with a g the energy is the paper's E, else E/g^2.
     """
-    sheet = Sheet(style.COLUMN, 1125)
+    sheet = Sheet(style.COLUMN, 1275)
+    k = sweep["k"][0]
     unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0
     energy = np.array(sweep["energy"]) * unit
     name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
     first, last = min(0.0, energy[0]), max(0.0, energy[-1])
     across = _linear((first, last + (0.02 * (last - first) or 1.0)), name, 8)
     blank = Axis(across.limits, across.ticks, labels=("",) * len(across.ticks))
-    share = _linear((0.0, 1.0), "Regular share of the section", 5)
-    exponents = data["exponent_high"].values[0]
+    share = _linear((0.0, 1.0), "", 5)
+    exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
     exponent = _linear((0.0, float(np.nanmax(exponents, initial=0.05)) * 1.02), "", 4)
-    frames = (LEFT, 560, 1010, 1050), (LEFT, 135, 1010, 490)
+    frames = (110, 635, 1010, 1145), (110, 135, 1010, 545)
     panels = Panel(sheet, frames[0], blank, share), Panel(sheet, frames[1], across, exponent)
-    sheet.text(
-        LEFT,
-        frames[1][3] + 4 * POINT,
-        "Lyapunov exponent of the sea",
-        ha="left",
-        va="bottom",
-        size=7,
+    for panel in panels:
+        raster.minor(panel, _minor(across), _minor(panel.up))
+    titles = (
+        ("Regular share of the section", "bars: 95 %"),
+        ("Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles"),
     )
-    for turns, impacts in RESONANCES:
-        at = fixed_point.resonance(sweep["k"][0], turns, impacts) * unit
-        if across.limits[0] < at < across.limits[1]:
-            for panel in panels:
-                _, low, _, high = panel.frame
-                x = float(panel.place(at, 0)[0][0])
-                sheet.draw([x, x], [low, high], color=style.BACKDROP, lw=0.7, zorder=0.8)
-            text = f"{turns}/{impacts}"
-            sheet.text(x + 2 * POINT, frames[0][3] - 4, text, ha="left", va="top", size=_SIZE)
-    _bars(panels[0], energy, data, "regular", style.BLUE)
-    _bars(panels[1], energy, data, "exponent", style.VERMILION)
-    for i, text in enumerate(NOTE):
-        y = frames[0][3] - 60 - i * 34
-        sheet.text(RIGHT + 105, y, text, ha="right", va="top", size=_SIZE)
+    for (_, _, right, top), (title, bars), rise in zip(frames, titles, (14, 4), strict=True):
+        sheet.text(110, top + rise * POINT, title, ha="left", va="bottom", size=7.0)
+        sheet.text(right, top + rise * POINT, bars, ha="right", va="bottom", size=_SIZE)
+    shown = [(r, fixed_point.resonance(k, *r) * unit) for r in RESONANCES]
+    shown = [(r, at) for r, at in shown if energy[0] < at < across.limits[1]]
+    places = [_upright(panels, at, color=style.BACKDROP, lw=0.7) for _, at in shown]
+    for ((turns, impacts), _), x in zip(shown, _apart(places), strict=True):
+        text = f"{turns}/{impacts}"
+        sheet.text(x, frames[0][3] + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+    onset = (1.0 + 0.5 * k) * unit
+    if energy[0] < onset < across.limits[1]:
+        x = _upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
+        sheet.text(x + 6, frames[1][3] - 8, "jumps begin", ha="left", va="top", size=_SIZE)
+    error = _NORMAL * data["exponent_error"].values[0]
+    quartiles = data["exponent_low"].values[0], data["exponent_high"].values[0]
+    middle = data["exponent"].values[0]
+    regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
+    _bars(panels[0], energy, style.BLUE, *regular)
+    _bars(panels[1], energy, style.pale(style.VERMILION), np.full(energy.size, np.nan), *quartiles)
+    _bars(panels[1], energy, style.VERMILION, middle, middle - error, middle + error)
+    for i, text in enumerate(QUOTATION if "g" in sweep else ()):
+        sheet.text(1000, frames[0][3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
     for name, e in PAPER[1].items():
-        if sweep["k"][0] == PAPER[0] and e in sweep["energy"]:
+        if k == PAPER[0] and e in sweep["energy"]:
             at, value = e * unit, float(data["regular"].sel(energy=e).values[0])
             panels[0].dots(at, value, style.BLACK, size=4.5, hollow=True)
-            panels[0].dots(at, value, style.BLUE, size=2.2)
-            panels[0].note(at, value, name, shift=(3, 12))
+            panels[0].dots(at, value, style.BLUE, size=2.0)
+            panels[0].note(at, value, name, shift=(4, 11))
     return sheet.figure
 
 
-def _bars(panel, x, data, name, color):
-    """A dot a cell, joined, with its bar from name_low to name_high."""
-    values = (data[key].values[0] for key in (name, f"{name}_low", f"{name}_high"))
-    values, low, high = values
+def _apart(places):
+    """The places, those of neighbours moved apart where their names would touch."""
+    order = sorted(range(len(places)), key=lambda i: places[i])
+    moved = list(places)
+    for left, right in pairwise(order):
+        push = 0.5 * max(0.0, _NAME - (moved[right] - moved[left]))
+        moved[left], moved[right] = moved[left] - push, moved[right] + push
+    return moved
+
+
+def _upright(panels, at, **how):
+    """A line through the panels at a place on the axis; its x."""
+    x = float(panels[0].place(at, 0)[0][0])
+    for panel in panels:
+        _, low, _, high = panel.frame
+        panel.sheet.draw([x, x], [low, high], zorder=0.8, **how)
+    return x
+
+
+def _bars(panel, x, color, values, low, high):
+    """A dot a cell, joined, with its bar from low to high."""
     panel.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
     for at, *span in zip(x, low, high, strict=True):
         if not np.isnan(span[0]):
             panel.line([at, at], span, color=color, lw=0.7, zorder=2)
     seen = ~np.isnan(values)
-    panel.dots(x[seen], values[seen], color, size=2.2)
+    panel.dots(x[seen], values[seen], color, size=1.7)
 
 
 def _resonances(panel, named):
     """The curves of the fixed point's resonances, named where they leave the frame."""
-    bottom, top = panel.up.limits
-    k = bottom + (top - bottom) * np.arange(1, 1001) / 1000
-    k = k[k > 0.0]
+    k = _heights(panel)
     for turns, impacts in RESONANCES:
         e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
         inside = np.array([_inside(panel.across, one) for one in e])
-        e = np.where(inside, e, np.nan)
-        panel.line(e, k, color=style.BLACK, lw=1.3, zorder=2)
-        panel.line(e, k, color="white", lw=0.6, zorder=2.1)
+        _curve(panel, np.where(inside, e, np.nan), k)
         if named and inside.any():
             last = int(np.flatnonzero(inside)[-1])
             x, y = (float(place[0]) for place in panel.place(e[last], k[last]))
             x = max(x, panel.frame[0] + 12 * POINT)
             text = f"{turns}/{impacts}"
             panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+
+
+def _jumps(panel):
+    """Where impacts that graze begin to leave the floor, and the map to jump: E/g^2 = 1 + k/2."""
+    k = _heights(panel)[[0, -1]]
+    e = 1.0 + 0.5 * k
+    if all(_inside(panel.across, one) for one in e):
+        _curve(panel, e, k, dashed=True)
+
+
+def _heights(panel):
+    """1,000 values of k up the panel, above 0."""
+    bottom, top = panel.up.limits
+    k = bottom + (top - bottom) * np.arange(1001) / 1000
+    return k[k > 0.0]
+
+
+def _curve(panel, x, y, dashed=False):
+    for piece in pieces(*panel.place(x, y)):
+        _stroke(panel.sheet, *piece, dashed)
+
+
+def _stroke(sheet, x, y, dashed=False):
+    """A white line edged in black, or white dashes on a black one."""
+    how = {"ls": (0, _DASHES)} if dashed else {}
+    sheet.draw(x, y, color=style.BLACK, lw=1.5, zorder=2.0)
+    sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **how)
 
 
 def _energy_axis(values, name):
@@ -148,6 +231,12 @@ def _energy_axis(values, name):
 def _linear(edges, name, count=5):
     low, high = float(edges[0]), float(edges[-1])
     return Axis((low, high), tuple(raster.ticks(low, high, count)), name)
+
+
+def _minor(axis):
+    return (
+        raster.decades(*axis.limits) if axis.decades else raster.between(axis.ticks, *axis.limits)
+    )
 
 
 def _inside(axis, value):

@@ -29,7 +29,7 @@ def run(word, arguments, start) -> int:
     results = expected.of_sweeps({name: sweeps[name] for name in names})
     targets = [places.sweep_dataset(name) for name in names]
     if word == "atlas":
-        targets += [file for name in names for file in places.sweep_pictures(name)]
+        targets += [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
     with locked():
         outdated = Currency(ROOT, results).outdated(running.needed(results, targets))
         blocks = sweeping.lacking(sweeps, names, outdated)

@@ -9,29 +9,34 @@ from .panel import log10
 
 _SIZE = 6.0  # points: text beside a scale
 _STEPS = 64  # colours of a scale
+_MINOR = 1.5  # points: the length of a minor tick
 
 
 def cells(panel, sweep, shades, table):
-    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN."""
-    palette = colors(table)
+    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN.
+
+    They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
+    they would weigh megabytes.
+    """
     left, bottom, right, top = panel.frame
     energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
     along = log10(energy) if panel.across.decades else energy
-    x = _pixels(edges(along), panel.across.limits, left, right)
-    y = _pixels(edges(k), panel.up.limits, bottom, top)
-    for row in range(k.size):
-        for column in range(energy.size):
-            shade = shades[row, column]
-            color = style.GRID if np.isnan(shade) else palette[min(int(shade * _STEPS), _STEPS - 1)]
-            _fill(panel.sheet, x[column], y[row], x[column + 1], y[row + 1], color)
+    x = _pixels(edges(along), panel.across.limits, 0, right - left)
+    y = _pixels(edges(k), panel.up.limits, 0, top - bottom)
+    steps = np.minimum((np.nan_to_num(shades) * _STEPS).astype(np.int64), _STEPS - 1)
+    colors = np.where(
+        np.isnan(shades)[..., None], _bytes([style.GRID]), _bytes(palette(table))[steps]
+    )
+    image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
+    _paste(panel.sheet, left, bottom, image)
 
 
 def scale(sheet, frame, largest, table):
     """The colours beside the frame, from 0 to `largest`."""
     left, right = frame[2] + 25, frame[2] + 55
-    bounds = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), frame[1], frame[3])
-    for i, color in enumerate(colors(table)):
-        _fill(sheet, left, bounds[i], right, bounds[i + 1], color)
+    bounds = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), 0, frame[3] - frame[1])
+    column = np.repeat(_bytes(palette(table)), np.diff(bounds), axis=0)
+    _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
         y = frame[1] + tick / largest * (frame[3] - frame[1])
         sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
@@ -39,18 +44,34 @@ def scale(sheet, frame, largest, table):
         sheet.text(right + 4 * POINT, y, text, ha="left", va="center", size=_SIZE)
 
 
-def colors(name):
+def minor(panel, across=(), up=()):
+    """Short ticks without labels, at places in the axes' own limits."""
+    left, bottom, right, top = panel.frame
+    for tick in across:
+        low, high = panel.across.limits
+        x = left + (tick - low) / (high - low) * (right - left)
+        panel.sheet.draw([x, x], [bottom, bottom - _MINOR * POINT], color=style.FRAME, lw=0.5)
+    for tick in up:
+        low, high = panel.up.limits
+        y = bottom + (tick - low) / (high - low) * (top - bottom)
+        panel.sheet.draw([left, left - _MINOR * POINT], [y, y], color=style.FRAME, lw=0.5)
+
+
+def palette(name):
     """_STEPS colours of one of matplotlib's tables, as #rrggbb."""
     table = matplotlib.colormaps[name].colors
     rows = [table[(2 * i + 1) * len(table) // (2 * _STEPS)] for i in range(_STEPS)]
     return ["#" + "".join(f"{int(part * 255 + 0.5):02x}" for part in row) for row in rows]
 
 
-def _fill(sheet, left, bottom, right, top, color):
-    """A rectangle between whole pixels, as a line of its height."""
-    middle = (bottom + top) / 2
-    height = (top - bottom) / POINT
-    sheet.draw([left, right], [middle, middle], lw=height, color=color, zorder=0.6, snap=False)
+def _bytes(colors):
+    """(n, 3) red, green and blue of colours #rrggbb."""
+    return np.array([[int(c[at : at + 2], 16) for at in (1, 3, 5)] for c in colors], np.uint8)
+
+
+def _paste(sheet, left, bottom, image):
+    """An image (height, width, 3), lowest row first, pixel for pixel."""
+    sheet.figure.figimage(image, xo=left, yo=bottom, origin="lower", zorder=0.6)
 
 
 def _pixels(values, limits, start, end):
@@ -77,3 +98,19 @@ def ticks(low, high, count):
     first = int(np.ceil(low / step - 1e-9))
     last = int(np.floor(high / step + 1e-9))
     return [float(f"{i * step:.10g}") for i in range(first, last + 1)]
+
+
+def between(places, low, high):
+    """Minor ticks from low to high: halfway between round numbers in equal steps."""
+    if len(places) < 2:
+        return []
+    step = places[1] - places[0]
+    halves = [places[0] + (i - 0.5) * step for i in range(len(places) + 1)]
+    return [half for half in halves if low <= half <= high]
+
+
+def decades(low, high):
+    """Minor ticks of an axis of decades, from low to high: 2, 3, ... 9 times powers of ten."""
+    logs = log10(np.arange(2, 10))
+    found = [n + part for n in range(int(np.floor(low)), int(np.ceil(high))) for part in logs]
+    return [float(place) for place in found if low <= place <= high]
