@@ -26,6 +26,7 @@ class Contract(NamedTuple):
     data: dict  # scene -> stage -> the dataset it is drawn from
     expected: dict  # every result -> config.expected.Expected
     measured: tuple = ()  # names of published files that the contract leaves out
+    texts: tuple = ()  # files made from it, from the root
     on_request: bool = False  # made by a word of its own, not by every run
 
     def sources(self, scene):
@@ -64,6 +65,7 @@ def of_scenes(checked, variant):
             for scene, block in scenes.items()
         },
         expected=expected.of_scenes(checked["variants"], variant),
+        texts=("CLAIMS.md",) if variant == "claims" else (),
         on_request=not paper,
     )
 

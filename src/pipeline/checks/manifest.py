@@ -51,6 +51,7 @@ def build(root, contract):
     sources = {scene: contract.sources(scene) for scene in contract.config}
     return {
         "environment": versions(),
+        "texts": {path: file_hash(root / path) for path in contract.texts},
         "sources": {
             path: file_hash(root / path) for path in sorted(set().union(*sources.values()))
         },

@@ -36,6 +36,9 @@ def _verify(root, contract, against):
     except manifest.ContractError as error:
         committed, findings = None, [f"{error}: the layers cannot be compared"]
     findings += _sums(root, contract, committed)
+    for path, digest in (committed or {}).get("texts", {}).items():
+        if file_hash(root / path) != digest:
+            findings.append(f"{path}: not the committed one: {contract.command} writes it")
     stale = Currency(root, contract.expected).outdated()
     comparison = committed and Comparison(root, contract, committed, against)
     width = max(map(len, contract.drawn), default=0)
