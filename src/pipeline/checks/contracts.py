@@ -36,6 +36,14 @@ class Contract(NamedTuple):
         return sorted({file for path in results for file in self.expected[path].sources})
 
 
+# What makes the figures of each set of scenes.
+COMMANDS = {
+    places.PAPER: "./reproduce",
+    "claims": "./reproduce claims",
+    "proofs": "./reproduce prove --pictures",
+}
+
+
 def committed(checked):
     """The contracts of a checked config."""
     found = [of_scenes(checked, name) for name in places.PUBLISHED if checked["variants"][name]]
@@ -56,7 +64,7 @@ def of_scenes(checked, variant):
         what="figures",
         folder=folder,
         results=f"results/{variant}",
-        command="./reproduce" if paper else f"./reproduce {variant}",
+        command=COMMANDS[variant],
         drawn={name: drawing for name, (_, drawing) in files.items()},
         scenes={name: scene for name, (scene, _) in files.items()},
         config={scene: places.drawing(block) for scene, block in scenes.items()},
