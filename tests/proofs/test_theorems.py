@@ -378,7 +378,7 @@ FIELDS = {
 def test_no_leading_digit_may_change(name):
     every = list(leading_digits(THEOREMS[name].text(), FIELDS))
     assert every
-    if len(every) > 200:  # a fair part of it; all with -m slow
+    if len(every) > 200:  # a fair part of it; more with -m slow
         every = every[:: len(every) // 60]
     for number, text in every:
         assert THEOREMS[name].check(text).verdict == "not proved", number
@@ -387,7 +387,8 @@ def test_no_leading_digit_may_change(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", HORSESHOES)
 def test_no_leading_digit_of_a_horseshoe_may_change(name):
-    for number, text in leading_digits(THEOREMS[name].text(), FIELDS):
+    every = list(leading_digits(THEOREMS[name].text(), FIELDS))
+    for number, text in every[:: len(every) // 1500]:
         assert THEOREMS[name].check(text).verdict == "not proved", number
 
 
