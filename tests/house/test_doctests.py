@@ -7,7 +7,7 @@ import pkgutil
 import pytest
 
 import pseudorigid
-from pipeline.config import STAGES
+from pipeline.config.declared.stages import STAGES
 
 # What only the study's own packages bring.
 RIVALS = {"heyoka", "pynamicalsys"}
