@@ -68,7 +68,11 @@ def test_a_variant_s_own_axes_stay():
         ("-n", {"energy": 0.002}, ["variants: '-n'", "not begin with -"]),
         ("a b", {"energy": 0.002}, ["variants: 'a b'"]),
         ("", {"energy": 0.002}, ["variants: ''"]),
-        ("paper", {"energy": 0.002}, ["variants: 'paper'", "a name other than paper, claims, proofs, study"]),
+        (
+            "paper",
+            {"energy": 0.002},
+            ["variants: 'paper'", "a name other than paper, claims, proofs, study"],
+        ),
         ("study", {"energy": 0.002}, ["variants: 'study'"]),
         ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
         ("v", {}, ["variants.v: {}"]),
