@@ -1,5 +1,6 @@
 """Fixtures for the whole suite, and what is done once before it."""
 
+import os
 import subprocess
 import sys
 
@@ -7,6 +8,15 @@ import pytest
 from project import ROOT, Tree, fresh_tree, once
 
 from pipeline.records import sources
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config):
+    """A worker for each core, where nothing else is asked for (-n0, -p no:xdist)."""
+    option = config.option
+    asked = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
+    if not (asked or hasattr(config, "workerinput")):
+        option.numprocesses, option.dist = len(os.sched_getaffinity(0)), "worksteal"
 
 
 def pytest_configure(config):

@@ -57,7 +57,7 @@ def run(script, name, inputs, output, **params):
 
 def paper(names):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
-    scenes = config.load(ROOT / "config.yaml")["scenes"]
+    scenes = config.load(SHIPPED)["scenes"]
     serves = places.served({"paper": scenes})
     for scene in names or scenes:
         block = scenes[scene]

@@ -18,7 +18,7 @@ def compile_all():
     import numpy as np
 
     from pseudorigid.dynamics.ball import Ball
-    from pseudorigid.study import needs, states
+    from pseudorigid.study import figure_errors, states
     from pseudorigid.study.methods import counted
     from pseudorigid.sweep import cell
 
@@ -32,11 +32,8 @@ def compile_all():
     start = states.chaotic()
     for method in (counted.OURS, counted.scan_method(0.1, 1e-12), counted.engine_method(1e-3)):
         method.solve(states.BALL, *states.uniform(20))
-        method.orbit(states.BALL, start, [10, 20])
-        method.missed(states.BALL, start, 20)
-    for method in needs.METHODS[:2]:
-        how = method.kind, method.step, method.tolerance
-        needs._largest_exponent(*how, *start, 0.2, 0.04, 20)
+        method.orbit(states.BALL, start, 20)
+    figure_errors._growth(np.ones((3, 3, 3)))
 
 
 if __name__ == "__main__":

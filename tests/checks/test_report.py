@@ -11,6 +11,8 @@ from project import Tree, fresh_tree, shipped, small
 
 from pipeline import config
 from pipeline.checks import report
+from pipeline.config import places
+from pipeline.config.declared.kinds import KINDS
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
 
@@ -106,11 +108,11 @@ def test_every_kind_of_picture_has_a_caption_and_a_telling_number(finished):
     rows = report.numbers(
         scenes, lambda scene, stage: load(finished.path / served(scenes)[scene, stage])
     )
-    assert {block["picture"] for block in scenes.values()} == set(config.KINDS)
+    assert {block["picture"] for block in scenes.values()} == set(KINDS)
     for scene, block in scenes.items():
-        kind = config.KINDS[block["picture"]]
+        kind = KINDS[block["picture"]]
         assert kind.telling in {quantity for quantity, *_ in rows[scene]}
-        assert "What to see:" in kind.caption
+        assert "What to see:" in kind.caption()
         assert report.label(scene, block["picture"], rows[scene]).startswith(f"{scene}: ")
 
 
@@ -118,7 +120,7 @@ def served(scenes):
     """(scene, stage) -> dataset of the paper's scenes."""
     return {
         (scene, stage): path
-        for (_, scene, stage), path in config.served({config.PAPER: scenes}).items()
+        for (_, scene, stage), path in places.served({config.PAPER: scenes}).items()
     }
 
 

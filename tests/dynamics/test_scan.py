@@ -1,10 +1,8 @@
-"""The paper's own method: its map, the impacts it misses, and scenes that name it."""
+"""The paper's own method: its map, and the impacts it misses."""
 
 import numpy as np
 import pytest
-from conftest import ROOT
 
-from pipeline.records.artifacts import load
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.motion import motion
@@ -13,7 +11,6 @@ from pseudorigid.kernel.scan import scan
 
 BALL = Ball(0.2, 0.04)
 SEA = BALL.start(0.534522, 0.01)
-FINE = {"scan": 0.1, "tolerance": 1e-12}
 
 
 def scanned(step=0.1, tolerance=1e-12):
@@ -87,56 +84,3 @@ def test_a_nonsense_scan_is_refused(bad):
     for how in ({"step": bad}, {"tolerance": bad}):
         with pytest.raises(ValueError, match=f"{next(iter(how))} = .* is not allowed"):
             scanned(**how)
-
-
-@pytest.fixture(scope="module")
-def published(tmp_path_factory):
-    """A small tree whose Figures 3, 5 and 7 are by the paper's method."""
-    from conftest import fresh_tree
-
-    tree = fresh_tree(tmp_path_factory.mktemp("scan") / "as published")
-    for scene in ("fig3", "fig5"):
-        tree.edit(scene, method=FINE)
-    tree.edit("fig7", method={"scan": 1, "tolerance": 1e-3}, impacts=3000)
-    targets = [f"paper_figures/{scene}.png" for scene in ("fig3", "fig4", "fig5", "fig7")]
-    tree.result = tree.run(*targets)
-    assert tree.result.returncode == 0, tree.result.stdout
-    return tree
-
-
-def attributes(tree, name):
-    return load(tree.path / "results" / "paper" / f"{name}.nc").attrs
-
-
-def test_the_data_of_a_method_say_what_it_missed(published):
-    for name in ("motion_fig3", "orbits_fig5", "manifolds_fig5", "lyapunov_fig7"):
-        found = attributes(published, name)
-        assert '"method":{"scan":' in found["config"]
-        assert 0 <= found["impacts_missed"] < found["impacts"]
-    assert attributes(published, "lyapunov_fig7")["impacts"] == 9000
-    assert attributes(published, "lyapunov_fig7")["impacts_missed"] > 0
-    # periodic points are the certified map's; a scene without a method has no such words
-    for name in ("periodic_fig3", "motion_fig4"):
-        assert not {"impacts", "impacts_missed"} & set(attributes(published, name))
-        assert "method" not in attributes(published, name)["config"]
-
-
-def test_the_run_tells_it(published):
-    lines = [x for x in published.result.stdout.splitlines() if "fell through the floor" in x]
-    missed = attributes(published, "lyapunov_fig7")["impacts_missed"]
-    assert lines[-1] == (
-        f"fig7: {missed} of 9,000 impacts fell through the floor (scan 1, tolerance 0.001)"
-    )
-    assert [line.split(":")[0] for line in lines] == ["fig3", "fig5", "fig7"]
-
-
-def test_a_method_makes_its_own_data_alone(published):
-    published.edit("fig3", method=None)
-    planned = published.planned("paper_figures/fig3.png")
-    published.edit("fig3", method=FINE)
-    assert "results/paper/motion_fig3.nc" in planned
-    assert "results/paper/periodic_fig3.nc" not in planned
-
-
-def test_the_paper_s_own_scenes_are_certified():
-    assert "method:" not in (ROOT / "config.yaml").read_text().partition("variants:")[0]

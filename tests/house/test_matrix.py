@@ -3,7 +3,6 @@
 The probe computes tables, orbits, all stages and a figure of each kind; see matrix_probe.py.
 """
 
-import ast
 import json
 import math
 import os
@@ -11,17 +10,14 @@ import re
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from project import NO_CACHES, ROOT
 
-from pipeline import config
-from pipeline.records import sources
 from pseudorigid.kernel import arithmetic
 
-PROBE = Path(__file__).with_name("matrix_probe.py")
+PROBE = ROOT / "tests" / "matrix_probe.py"
 SWITCHES = {"library", "simd"}  # of the probe's answers those that the settings may change
 
 GLIBC = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4"}
@@ -77,38 +73,49 @@ def probe(folder, mode, environment, src=ROOT / "src", python=(sys.executable,))
     return json.loads(result.stdout)
 
 
-@pytest.fixture(scope="module")
-def answers(tmp_path_factory):
-    """Every probe of this file, name -> future; as many run at once as there are cores."""
-    folder = tmp_path_factory.mktemp("matrix")
-    fresh = {"NUMBA_CACHE_DIR": str(folder / "fresh")}
-    generic = {"NUMBA_CACHE_DIR": str(folder / "generic")} | GENERIC
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        jobs = {
-            # The two that compile come first, and the others find the code of the first.
-            "compiled here": pool.submit(probe, folder / "1", "compiled", fresh),
-            "compiled for all": pool.submit(probe, folder / "2", "compiled", generic),
-            "plain": pool.submit(probe, folder / "3", "short", {"NUMBA_DISABLE_JIT": "1"}),
-        }
-        for name, (source, edited) in edits().items():
-            copy = folder / name
-            shutil.copytree(sources.PACKAGE, copy / "pseudorigid", ignore=NO_CACHES)
-            file = copy / "pseudorigid" / "arithmetic.py"
-            assert file.read_text().count(source) == 1
-            file.write_text(file.read_text().replace(source, edited))
-            jobs[name] = pool.submit(probe, folder / f"{name} out", "sincos", {}, copy)
-        jobs["as it is"] = pool.submit(probe, folder / "as it is", "everything", {})
-        for name, environment in VARIANTS.items():
-            own = (
-                {"NUMBA_CACHE_DIR": str(folder / "own" / name)}
-                if "NUMBA_CPU_NAME" in environment
-                else {}
+@pytest.fixture
+def answer(shared):
+    """name -> the answer of that probe, run once for all tests."""
+
+    def ask(name):
+        def run(folder):
+            mode, environment, src = {
+                "compiled here": ("compiled", {"NUMBA_CACHE_DIR": str(folder)}, ROOT / "src"),
+                "compiled for all": ("compiled", own_code(folder), ROOT / "src"),
+                "plain": ("short", {"NUMBA_DISABLE_JIT": "1"}, ROOT / "src"),
+                "as it is": ("everything", {}, ROOT / "src"),
+            }.get(name) or (
+                ("sincos", {}, edited(folder / "src", name))
+                if name in edits()
+                else ("everything", settings(name, folder), ROOT / "src")
             )
-            jobs[name] = pool.submit(probe, folder / name, "everything", environment | own)
-        yield jobs
+            found = probe(folder / name, mode, environment, src)
+            (folder / "answer.json").write_text(json.dumps(found))
+
+        return json.loads((shared(f"matrix {name}", run) / "answer.json").read_text())
+
+    return ask
 
 
-NO_CACHES = shutil.ignore_patterns("__pycache__")
+def own_code(folder):
+    """Code compiled for any processor, apart from this one's."""
+    return GENERIC | {"NUMBA_CACHE_DIR": str(folder / "code")}
+
+
+def settings(name, folder):
+    """The environment of a variant."""
+    own = own_code(folder) if "NUMBA_CPU_NAME" in VARIANTS[name] else {}
+    return VARIANTS[name] | own
+
+
+def edited(src, name):
+    """A copy of the source with one of the edits."""
+    source, text = edits()[name]
+    shutil.copytree(ROOT / "src", src, ignore=NO_CACHES)
+    file = src / "pseudorigid" / "kernel" / "arithmetic.py"
+    assert file.read_text().count(source) == 1
+    file.write_text(file.read_text().replace(source, text))
+    return src
 
 
 def edits():
@@ -123,101 +130,49 @@ def edits():
     }
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
-def test_the_same_bytes(answers, variant):
-    expected, found = answers["as it is"].result(), answers[variant].result()
+# Each costs as much as a run of everything; the last one has all the others in it.
+SLOWLY = [
+    pytest.param(name, marks=[] if name == "all at once" else pytest.mark.slow) for name in VARIANTS
+]
+
+
+@pytest.mark.parametrize("variant", SLOWLY)
+def test_the_same_bytes(answer, variant):
+    expected, found = answer("as it is"), answer(variant)
     assert set(found) == set(expected)
     assert [name for name in found if found[name] != expected[name] and name not in SWITCHES] == []
 
 
-def test_plain_python_finds_the_compiled_bits(answers):
-    assert answers["plain"].result()["short"] == answers["as it is"].result()["short"]
+def test_plain_python_finds_the_compiled_bits(answer):
+    assert answer("plain")["short"] == answer("as it is")["short"]
 
 
 @pytest.mark.parametrize("edit", ["a constant", "the library"])
-def test_a_change_of_sincos_shows(answers, edit):
-    assert answers[edit].result()["table"] != answers["as it is"].result()["table"]
+def test_a_change_of_sincos_shows(answer, edit):
+    assert answer(edit)["table"] != answer("as it is")["table"]
 
 
-@pytest.mark.parametrize("variant", ["glibc without FMA and AVX2", "all at once"])
-def test_control_the_library_feels_the_switch(answers, variant):
-    if answers[variant].result()["library"] == answers["as it is"].result()["library"]:
+@pytest.mark.parametrize("variant", ["all at once"])
+def test_control_the_library_feels_the_switch(answer, variant):
+    if answer(variant)["library"] == answer("as it is")["library"]:
         pytest.skip("the C library's own sines do not change here: no FMA, or not glibc on x86-64")
 
 
-def test_control_numpy_feels_the_switch(answers):
-    before = answers["as it is"].result()["simd"]
+def test_control_numpy_feels_the_switch(answer):
+    before = answer("as it is")["simd"]
     if "X86_V3" not in before:
         pytest.skip("this processor has none of the SIMD that the switch takes away")
-    assert "X86_V3" not in answers["numpy without SIMD"].result()["simd"]
+    assert "X86_V3" not in answer("all at once")["simd"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("target", ["compiled here", "compiled for all"])
-def test_compiled_code_fuses_nothing_and_calls_no_library(answers, target):
-    found = answers[target].result()
+def test_compiled_code_fuses_nothing_and_calls_no_library(answer, target):
+    found = answer(target)
     calls = found.pop("__main__.calls_the_library")
     assert calls == ["llvm.sin.f64"]
     fused = found.pop("__main__.may_fuse")
-    if target == "compiled here" and "FMA3" in answers["as it is"].result()["simd"]:
+    if target == "compiled here" and "FMA3" in answer("as it is")["simd"]:
         assert any("fmadd" in name for name in fused)
     assert len(found) > 20
     assert {name: traces for name, traces in found.items() if traces} == {}
-
-
-# ---- the source of what reaches a file ----
-
-EXACT = {"sqrt", "floor", "ceil", "inf", "nan", "isnan", "isfinite", "copysign", "ulp", "nextafter"}
-INEXACT = re.compile(
-    r"(arc)?(sin|cos|tan)h?2?|a(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p|addexp2?)?|(float_)?power|"
-    r"cbrt|hypot|dot|vdot|inner|outer|matmul|tensordot|einsum|kron|convolve|correlate|polyfit|sinc|"
-    r"linalg|fft|deg2rad|rad2deg|angle|prange|vectorize|guvectorize"
-)
-
-
-def behind_the_figures():
-    """Every file of the project whose bits can reach a figure."""
-    files = {
-        file for stages in config.STAGES.values() for s in stages for file in sources.stage_code(s)
-    }
-    files |= {file for picture in config.STAGES for file in sources.drawing_code(picture)}
-    return sorted(files)
-
-
-def inexact(tree):
-    """Yield what has other bits on other machines, in a parsed module."""
-    for node in ast.walk(tree):
-        match node:
-            case ast.Attribute(value=ast.Name("math"), attr=name) if name not in EXACT:
-                yield f"math.{name}"
-            case ast.Attribute(value=ast.Name("np" | "numba" | "scipy"), attr=name):
-                if INEXACT.fullmatch(name):
-                    yield f"np.{name}"
-            case ast.ImportFrom(module="math" | "numpy" | "scipy" | "cmath"):
-                yield f"from {node.module}"
-            case ast.Import(names=names):
-                yield from (n.name for n in names if n.name.partition(".")[0] in ("scipy", "cmath"))
-            case ast.BinOp(op=ast.MatMult()) | ast.AugAssign(op=ast.MatMult()):
-                yield "@"
-            case ast.BinOp(left=left, op=ast.Pow(), right=right):
-                # Squares and powers of whole numbers are products; others go to pow.
-                whole = ast.unparse(right).lstrip("-").isdecimal()
-                if not (
-                    ast.unparse(left).isdecimal()
-                    or ast.unparse(right) == "2"
-                    or (whole and ast.unparse(left) in ("2.0", "10.0"))
-                ):
-                    yield ast.unparse(node)
-            case ast.keyword(arg="fastmath" | "parallel", value=value):
-                if ast.unparse(value) != "False":
-                    yield node.arg
-
-
-@pytest.mark.parametrize("file", behind_the_figures())
-def test_source_keeps_to_exact_arithmetic(file):
-    assert list(inexact(ast.parse((ROOT / file).read_text()))) == []
-
-
-def test_the_reading_of_the_source_finds_what_it_should():
-    text = "np.dot(a, b); a @ b; math.sin(a); a ** 0.5; np.hypot(a, b); f(fastmath=True)"
-    found = list(inexact(ast.parse(f"{text}; a**2; 2.0**-9; math.sqrt(a)")))
-    assert sorted(found) == sorted(["np.dot", "@", "math.sin", "a ** 0.5", "np.hypot", "fastmath"])

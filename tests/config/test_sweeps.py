@@ -1,0 +1,83 @@
+"""Sweeps of the config: their axes written out, and what is refused."""
+
+import numpy as np
+import pytest
+from documents import complaint, good
+from project import SHIPPED
+
+from pipeline import config
+from pseudorigid.sweep import grid
+
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+RANGE = {"from": 0.1, "to": 10, "count": 3}
+
+
+def document(**fields):
+    return good() | {"sweeps": {"a": SMALL | fields}}
+
+
+def check(**fields):
+    return config.check(document(**fields))["sweeps"]["a"]
+
+
+def test_axes_are_the_decimals_they_are_meant_to_be():
+    sweep = check(k={"from": 0.016, "to": 0.328, "count": 40}, energy=RANGE | {"spacing": "log"})
+    assert sweep["k"][:4] == [0.016, 0.024, 0.032, 0.04]
+    assert sweep["k"][23] == 0.2
+    assert sweep["energy"] == [0.1, 1.0, 10.0]
+    many = check(energy={"from": 0.1, "to": 40, "count": 40, "spacing": "log"})["energy"]
+    assert many[1] == 0.116606
+    assert many[-2] == 34.3037
+    ratios = np.array(many[1:]) / np.array(many[:-1])
+    assert ratios.max() / ratios.min() < 1 + 2e-5
+
+
+def test_the_shipped_sweeps_hold_the_papers_cases():
+    sweeps = config.load(SHIPPED)["sweeps"]
+    assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
+    assert sweeps["line"]["k"] == [0.2]
+    assert grid.cells(sweeps["plane"]) == 1600
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"k": []}, ["sweeps.a.k: []", "at least one"]),
+        ({"energy": RANGE | {"count": 1}}, ["sweeps.a.energy.count: 1", "from 2"]),
+        ({"energy": RANGE | {"count": 0}}, ["sweeps.a.energy.count: 0", "from 2"]),
+        ({"energy": RANGE | {"to": 0.1}}, ["sweeps.a.energy.to: 0.1", "above from = 0.1"]),
+        ({"energy": RANGE | {"spacing": "lg"}}, ["sweeps.a.energy.spacing: 'lg'", "even or log"]),
+        (
+            {"energy": {"from": 0, "to": 1, "count": 3, "spacing": "log"}},
+            ["sweeps.a.energy.from: 0", "> 0"],
+        ),
+        ({"energy": RANGE | {"cuont": 3}}, ["sweeps.a.energy.cuont", "did you mean count?"]),
+        ({"energy": [2, 1]}, ["sweeps.a.energy: [2, 1]", "increasing"]),
+        (
+            {"energy": {"from": 1, "to": 1.00001, "count": 90, "spacing": "log"}},
+            ["sweeps.a.energy: ", "differ in six digits"],
+        ),
+        ({"k": [0, 0.2]}, ["sweeps.a.k: 0", "0 < k <= 1"]),
+        ({"k": [0.2, 1.5]}, ["sweeps.a.k: 1.5", "0 < k <= 1"]),
+        ({"energy": [-2.5, 1]}, ["sweeps.a.energy: -2.5", "above -1/(2k) = -2.5"]),
+        ({"energy": [1, 1e10]}, ["sweeps.a.energy: 10000000000.0", "at most 1e+09"]),
+        ({"g": 0.1}, ["sweeps.a.g: 0.1", "0 < g < k = 0.1"]),
+        ({"g": 0.04}, ["sweeps.a.energy: 6.25", "below (k/2 - g)/g^2 = 6.25"]),
+        ({"starts": 0}, ["sweeps.a.starts: 0", "from 1"]),
+        ({"impacts": 99}, ["sweeps.a.impacts: 99", "from 100"]),
+        ({"block": 0}, ["sweeps.a.block: 0", "from 1"]),
+        ({"stars": 3}, ["sweeps.a.stars", "did you mean starts?"]),
+        ({"starts": 10**6, "impacts": 10**7}, ["sweeps.a.impacts: 10000000", "in a sweep"]),
+        (
+            {"energy": {"from": 1, "to": 9, "count": 10_000}},
+            ["sweeps.a.block: 2", "at least 4 cells"],
+        ),
+    ],
+)
+def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, words):
+    line = complaint(document(**fields))
+    assert all(word in line for word in words), line
+
+
+def test_sweeps_may_be_left_out():
+    assert config.check(good())["sweeps"] == {}

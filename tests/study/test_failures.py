@@ -1,0 +1,87 @@
+"""Where methods fail: the shares and counts against the judge that is not ours."""
+
+import numpy as np
+import pytest
+from judge import exact_map, judge
+from mpmath import mpf
+
+from pseudorigid.proofs import judge as proved
+from pseudorigid.study import failures, states
+from pseudorigid.study.methods.counted import OURS, engine_method, scan_method
+
+BALL = states.BALL
+SCAN = scan_method(0.5, 1e-12)
+
+
+def flown_past(method, columns):
+    """Which flights of a method end at another root than the mpmath judge's."""
+    tau, _ = method.solve(BALL, *columns)
+    true = [judge(BALL.k, BALL.g, *state).tau for state in zip(*columns, strict=True)]
+    return [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), true, strict=True)]
+
+
+@pytest.fixture(scope="module")
+def edges():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(failures, "DISTANCES", (0, 4))
+        patch.setattr(failures, "DEPTHS", (3, 9))
+        return failures.edges((OURS, SCAN), count=25)
+
+
+def test_shares_near_grazing_and_touching_are_those_of_the_judge(edges):
+    for j, side in enumerate(failures.SIDES):
+        for i, exponent in enumerate((0, 4)):
+            columns = states.grazing_at(exponent, side, 25)
+            assert edges["near"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
+        for i, exponent in enumerate((3, 9)):
+            columns = states.near_miss(side * 10.0**-exponent, 25)
+            assert edges["touch"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
+    assert not edges["near"].values[0].any()
+    assert not edges["touch"].values[0].any()
+    assert edges["touch"].values[1, 0].min() > 0.5  # a touch is shorter than its step
+
+
+def test_what_a_coarse_scan_misses_is_missed_by_the_judge_s_verdict():
+    """Along the chaotic orbit: each flight that is counted really ends at a later root."""
+    impacts = 60_000
+    columns, truth = failures.certified_orbit(BALL, states.chaotic(), impacts)
+    tau, _ = SCAN.solve(BALL, *columns)
+    suspects = np.abs(tau - truth) > 1e-6
+    late = flown_past(SCAN, columns[:, suspects])
+    data = failures.missed((SCAN, OURS), impacts)
+    assert data["missed"].values.tolist() == [sum(late), 0]
+    assert 5 < sum(late) == data.attrs["hard"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(failures, "ORBIT_METHODS", (OURS, SCAN))
+        patch.setattr(failures, "AGREE_STARTS", 1)
+        whole = failures.orbits(impacts)
+    assert whole["missed"].values.tolist() == [0, sum(late)]
+    assert whole["drift"].values[1].max() < 1e-9  # the energy shows nothing of it
+    assert np.all(np.diff(whole["drift"].values, axis=1) >= 0)
+
+
+def test_the_drift_is_the_largest_error_so_far():
+    start = states.chaotic()
+    track, _ = engine_method(1e-2).orbit(BALL, start, 300)
+    energy = [BALL.energy(*state) for state in track[:3].T.tolist()]
+    off = [abs(e / BALL.energy(*start) - 1) for e in energy]
+    expected = [max(off[: i + 1]) for i in range(300)]
+    assert failures.energy_drift(BALL, start, track) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_proved_orbit_is_that_of_sixty_digits():
+    state = states.chaotic()
+    rows = proved.orbit(BALL, state, 40)
+    exact = [mpf(float(a)) for a in state]
+    k, g = mpf(BALL.k), mpf(BALL.g)
+    for row in rows:
+        *exact, _ = exact_map(k, g, *exact)
+        assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
+
+
+def test_orbits_agree_until_they_do_not():
+    one = np.zeros((3, 10))
+    other = one.copy()
+    other[0, 4:] = other[1, 7:] = 2 * failures.SEPARATION
+    assert failures._agreement(one, other) == failures._agreement(other, one) == 7
+    assert failures._agreement(one, one) == 10

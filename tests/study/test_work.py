@@ -1,0 +1,65 @@
+"""Work and precision: the table's numbers against the judge that is not ours."""
+
+import numpy as np
+import pytest
+from judge import judge
+
+from pseudorigid.study import states, work
+from pseudorigid.study.methods.counted import METHODS, OURS, scan_method
+
+COUNT = 60
+SETS = (states.uniform, states.grazing)
+
+
+@pytest.fixture(scope="module")
+def truths():
+    """The flight times of both sets, by mpmath to 60 digits."""
+    k, g = states.BALL.k, states.BALL.g
+    return [
+        [judge(k, g, *state).tau for state in zip(*chosen(COUNT), strict=True)] for chosen in SETS
+    ]
+
+
+@pytest.fixture(scope="module")
+def table():
+    return work.counted(COUNT)
+
+
+@pytest.mark.parametrize("which", range(2))
+def test_each_number_is_that_of_the_independent_judge(table, truths, which):
+    columns, truth = SETS[which](COUNT), truths[which]
+    for i, method in enumerate(METHODS):
+        tau, count = method.solve(states.BALL, *columns)
+        off = np.array([float(abs(a - b) / b) for a, b in zip(tau.tolist(), truth, strict=True)])
+        wrong = np.array(
+            [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), truth, strict=True)]
+        )
+        found = table.isel(method=i, set=which)
+        assert found["name"] == method.name
+        # the table's truths are rounded to doubles
+        assert float(found["median"]) == pytest.approx(np.median(off), rel=1e-9, abs=2e-16)
+        right = off[~wrong]
+        assert float(found["worst"]) == pytest.approx(max(right, default=0), rel=1e-9, abs=2e-16)
+        assert float(found["wrong"]) == wrong.mean()
+        assert float(found["evaluations"]) == count.mean()
+
+
+def test_the_march_is_right_and_coarse_methods_are_not(table):
+    ours = table.isel(method=METHODS.index(OURS))
+    assert np.all(ours["wrong"] == 0)
+    assert np.all(ours["worst"] < 1e-15)
+    coarse = table.isel(method=METHODS.index(scan_method(0.5, 1e-3)))
+    assert np.all(coarse["median"] > 1e-5)
+    assert float(coarse["wrong"][1]) > 0.1  # near grazing flights are shorter than its step
+
+
+def test_another_root_is_wrong_and_an_inaccurate_one_is_not():
+    truth = np.array([4.0, 4.0, 0.5, 0.5, 0.5, 1.0])
+    tau = np.array([4.09, 4.11, 0.54, 0.56, np.nan, 1.0])
+    assert work.is_wrong(tau, truth).tolist() == [False, True, False, True, True, False]
+
+
+def test_seconds_have_their_quartiles():
+    data = work.measured([OURS, scan_method(0.1, 1e-12)], count=20, repetitions=3)
+    low, middle, high = (data[f"seconds{end}"].values for end in ("_low", "", "_high"))
+    assert np.all((low > 0) & (low <= middle) & (middle <= high))

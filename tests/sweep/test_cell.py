@@ -1,0 +1,174 @@
+"""A cell of a sweep, the fixed point's closed forms, and blocks that leave no trace in the data."""
+
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from project import ROOT
+
+from pipeline.records.artifacts import content_hash
+from pseudorigid import Ball, lyapunov_spectrum
+from pseudorigid.sweep import blocks, cell, fixed_point, follow, grid
+
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+
+
+def test_blocks_hold_each_cell_once_in_order():
+    for size in (1, 2, 4, 5, 6, 100):
+        sweep = SMALL | {"block": size}
+        count = len(grid.ranges(sweep))
+        cells = [pair for i in range(count) for pair in grid.block(sweep, i)["cells"]]
+        assert cells == [[k, e] for k in SMALL["k"] for e in SMALL["energy"]]
+        assert all(len(grid.block(sweep, i)["cells"]) <= size for i in range(count))
+
+
+@pytest.mark.parametrize("k", [0.02, 0.2, 1 / 3, 1.0])
+@pytest.mark.parametrize("e", [-0.4, 0.01, 0.625, 6.25, 40.0])
+def test_the_closed_forms_are_those_of_the_map(k, e):
+    theta = fixed_point.half_time(k, e)
+    assert fixed_point.energy(k, theta) == pytest.approx(e, rel=1e-12, abs=1e-12)
+    state = (fixed_point.place(k, theta), theta, theta / k)
+    ball = Ball(k=k, g=1.0)
+    assert ball.impact(*state) == pytest.approx((*state, 2 * theta), rel=1e-9, abs=1e-9)
+    (a, _), (_, d) = ball.chart_jacobian(*state)
+    assert fixed_point.trace(k, theta) == pytest.approx(a + d, rel=1e-8, abs=1e-8)
+
+
+def test_the_trace_falls_with_the_energy():
+    for k in (0.01, 0.2, 1.0):
+        traces = [fixed_point.trace(k, t) for t in np.linspace(0.05, 3.1, 400)]
+        assert np.all(np.diff(traces) < 0)
+
+
+def test_the_rotation_number_and_its_resonances():
+    assert fixed_point.rotation(0.0) == pytest.approx(0.25, abs=1e-15)
+    assert fixed_point.rotation(-1.0) == pytest.approx(1 / 3, abs=1e-15)
+    assert math.isnan(fixed_point.rotation(-2.1))
+    for k, q in ((0.05, 8), (0.2, 6), (0.3, 3)):
+        theta = fixed_point.half_time(k, fixed_point.resonance(k, 1, q))
+        assert fixed_point.rotation(fixed_point.trace(k, theta)) == pytest.approx(1 / q, rel=1e-9)
+
+
+def test_the_angle_is_that_of_the_vector():
+    rng = np.random.default_rng(3)
+    for a, b in [*rng.normal(size=(2000, 2)), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1)]:
+        assert follow.angle(float(a), float(b)) == pytest.approx(math.atan2(b, a), abs=1e-14)
+    assert follow.angle(0.0, 0.0) == 0.0
+
+
+def test_starts_are_even_in_area_and_have_the_energy():
+    k, e, count = 0.2, 6.25, 4000
+    x, v, w = cell._even(k, e, count)
+    assert Ball(k=k, g=1.0).energy(x, v, w) == pytest.approx(np.full(count, e))
+    y = (v - k * w) / math.sqrt((1 + k) * (2 * e + 1 / k))
+    x = (x - 1 / k) / math.sqrt((2 * e + 1 / k) / k)
+    assert y.min() >= 0
+    for left, width in ((-0.5, 0.5), (0.1, 0.3), (0.6, 0.2)):
+        part = np.mean((x > left) & (x < left + width) & (y < 0.4))
+        assert part == pytest.approx(width * 0.4 / (math.pi / 2), abs=6 / math.sqrt(count) / 10)
+
+
+def test_wilsons_interval():
+    assert cell.wilson(8, 10) == pytest.approx((0.4902, 0.9433), abs=1e-4)
+    assert cell.wilson(0, 10) == pytest.approx((0.0, 0.2775), abs=1e-4)
+    assert cell.wilson(10, 10) == pytest.approx((0.7225, 1.0), abs=1e-4)
+
+
+def test_fractions_are_the_simplest_ones_nearby():
+    turns, periods = cell.fractions(
+        np.array([1 / 6, 1 / 6 + 2e-5, 2 / 12, 3 / 23, 0.0, 0.41421356])
+    )
+    assert periods.tolist() == [6, 0, 6, 23, 1, 0]
+    assert turns.tolist() == [1, 0, 1, 3, 0, 0]
+
+
+def test_the_papers_case_has_its_six_islands_and_its_sea():
+    found = cell.cell(0.2, 6.25, 300, 4000)
+    assert (found["chain_turns"], found["chain_period"]) == (1, 6)
+    assert 0.14 < found["regular"] < 0.20
+    assert found["regular_low"] < 0.17 < found["regular_high"]
+    assert 0.215 < found["exponent"] < 0.25
+    assert abs(found["regular_strict"] - found["regular_lenient"]) < 0.01
+    assert found["trace"] == pytest.approx(0.8632851929828689, rel=1e-12)
+    assert 1 / found["rotation"] == pytest.approx(5.5876195834, rel=1e-9)
+
+
+def test_the_papers_small_energy_has_chains_of_ten_and_twelve():
+    found = cell.cell(0.2, 0.625, 300, 4000)
+    assert found["chains"][9] > 2
+    assert found["chains"][11] > 2
+    assert 0.64 < found["regular"] < 0.74
+
+
+def test_nothing_is_chaotic_near_rest():
+    found = cell.cell(0.2, -1.4, 40, 1000)
+    assert found["regular"] == 1.0
+    assert math.isnan(found["exponent"])
+    found = cell.cell(0.2, -2.49999999, 20, 400)  # where the fixed point itself hardly turns
+    assert found["rotation"] < 1e-4
+    assert found["chain_period"] == 0
+
+
+def test_the_exponent_is_that_of_the_spectrum():
+    ball, energy = Ball(k=0.2, g=0.04), 0.01
+    state = ball.start(0.6, energy)
+    count = 20_000
+    x, v, w = (np.full(3, value / ball.g) for value in state)
+    x[1] += 1e-9
+    x[2] += 2e-9
+    growth, winding = np.empty(3), np.empty(3)
+    weight = np.full(count, 1 / count)
+    follow.follow(x, v, w, ball.k, 4.0, 0.17, weight, growth, winding)
+    slow = lyapunov_spectrum(ball, state, count)["exponent"].values[-1, 0]
+    assert growth.mean() == pytest.approx(slow, rel=0.1)
+
+
+def joined(size):
+    """The dataset of the small sweep, computed in blocks of this size."""
+    sweep = SMALL | {"block": size}
+    parts = (blocks.compute(grid.block(sweep, i)) for i in range(len(grid.ranges(sweep))))
+    return blocks.join(grid.whole(sweep), parts)
+
+
+def test_the_cut_into_blocks_shows_nowhere():
+    assert len({content_hash(joined(size)) for size in (1, 2, 4, 6)}) == 1
+
+
+def test_the_dataset_holds_each_cell_in_its_place():
+    data = joined(4)
+    assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
+    assert set(data.data_vars) == set(cell.VARIABLES)
+    for k in SMALL["k"]:
+        for energy in SMALL["energy"]:
+            one = cell.cell(k, energy, SMALL["starts"], SMALL["impacts"])
+            here = data.sel(k=k, energy=energy)
+            for name, value in one.items():
+                assert np.array_equal(here[name].values, value, equal_nan=True)
+
+
+CODE = """
+from pipeline.records.artifacts import content_hash
+from pseudorigid.sweep import blocks
+block = {"cells": [[0.2, 6.25], [0.1, 0.3]], "starts": 20, "impacts": 2000}
+print(content_hash(blocks.compute(block)))
+"""
+
+
+@pytest.mark.slow
+def test_other_processors_give_the_same_bits(tmp_path):
+    found = set()
+    for extra in ({}, {"NUMBA_CPU_NAME": "generic", "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}):
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "PYTHONWARNINGS": "ignore"}
+        environment |= extra | {"NUMBA_CACHE_DIR": str(tmp_path / str(len(extra)))}
+        result = subprocess.run(
+            [sys.executable, "-c", CODE],
+            capture_output=True,
+            text=True,
+            env=environment,
+            check=True,
+        )
+        found.add(result.stdout)
+    assert len(found) == 1

@@ -1,0 +1,66 @@
+"""Scenes that name a method: their data say what it missed, and nothing else changes."""
+
+import pytest
+from project import Tree, fresh_tree, shipped, small
+
+from pipeline.records.artifacts import load
+
+FINE = {"scan": 0.1, "tolerance": 1e-12}
+
+
+def make(folder):
+    """Figures 3, 4, 5 and 7 of small scenes, three of them by the paper's method."""
+    document = small(shipped())
+    document["scenes"]["fig3"]["method"] = document["scenes"]["fig5"]["method"] = FINE
+    document["scenes"]["fig7"] |= {"method": {"scan": 1, "tolerance": 1e-3}, "impacts": 3000}
+    tree = fresh_tree(folder, document)
+    result = tree.run(*(f"paper_figures/{scene}.png" for scene in ("fig3", "fig4", "fig5", "fig7")))
+    assert result.returncode == 0, result.stdout
+    (folder / "said").write_text(result.stdout)
+
+
+@pytest.fixture(scope="module")
+def published(shared):
+    return Tree(shared("by the paper's method", make))
+
+
+def attributes(tree, name):
+    return load(tree.path / "results" / "paper" / f"{name}.nc").attrs
+
+
+def test_the_data_of_a_method_say_what_it_missed(published):
+    for name in ("motion_fig3", "orbits_fig5", "manifolds_fig5", "lyapunov_fig7"):
+        found = attributes(published, name)
+        assert '"method":{"scan":' in found["config"]
+        assert 0 <= found["impacts_missed"] < found["impacts"]
+    assert attributes(published, "lyapunov_fig7")["impacts"] == 9000
+    assert attributes(published, "lyapunov_fig7")["impacts_missed"] > 0
+    # periodic points are the certified map's; a scene without a method has no such words
+    for name in ("periodic_fig3", "motion_fig4"):
+        assert not {"impacts", "impacts_missed"} & set(attributes(published, name))
+        assert "method" not in attributes(published, name)["config"]
+
+
+def test_the_run_tells_it(published):
+    lines = [
+        x
+        for x in (published.path / "said").read_text().splitlines()
+        if "fell through the floor" in x
+    ]
+    missed = attributes(published, "lyapunov_fig7")["impacts_missed"]
+    assert lines[-1] == (
+        f"fig7: {missed} of 9,000 impacts fell through the floor (scan 1, tolerance 0.001)"
+    )
+    assert [line.split(":")[0] for line in lines] == ["fig3", "fig5", "fig7"]
+
+
+def test_a_method_makes_its_own_data_alone(published, tmp_path):
+    tree = published.copy(tmp_path / "without")
+    tree.edit("fig3", method=None)
+    planned = tree.planned("paper_figures/fig3.png")
+    assert "results/paper/motion_fig3.nc" in planned
+    assert "results/paper/periodic_fig3.nc" not in planned
+
+
+def test_the_paper_s_own_scenes_are_certified():
+    assert not [block for block in shipped()["scenes"].values() if "method" in block]

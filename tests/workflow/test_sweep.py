@@ -1,0 +1,207 @@
+"""Sweeps as they are run: what is told, refused and repaired, and that no fault shows in the bytes."""
+
+import hashlib
+import io
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from types import SimpleNamespace
+
+import pytest
+from project import ROOT, fresh_tree, of_scenes
+
+from pipeline.cli import sweeping
+from pipeline.cli.folder import UsageError
+from pipeline.records.artifacts import load
+from pseudorigid.sweep import cell
+
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+
+
+def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=30_000_000))
+    assert sweeping.shortage({}, 0) is None
+    assert sweeping.shortage(dict.fromkeys(range(300)), 1000) is None
+    line = sweeping.shortage(dict.fromkeys(range(300)), 10_000)
+    assert line == "the disk is full: about 34 MB are needed here, 30 are free"
+
+
+def test_names_come_before_options():
+    sweeps = {"plane": SMALL, "line": SMALL}
+    assert sweeping.chosen(sweeps, []) == (["plane", "line"], [])
+    assert sweeping.chosen(sweeps, ["line", "-c", "1"]) == (["line"], ["-c", "1"])
+    with pytest.raises(UsageError, match="no sweep lime: did you mean line"):
+        sweeping.chosen(sweeps, ["lime"])
+    with pytest.raises(UsageError, match="sweeps: missing, or empty"):
+        sweeping.chosen({}, [])
+
+
+def test_progress_tells_rate_and_time_to_finish(tmp_path, monkeypatch):
+    assert (
+        sweeping.line(10, (4, 400), (6, 600), 2.0)
+        == "sweep: 4 of 10 cells, 2 cells/s, 0 min 3 s to go"
+    )
+    assert sweeping.line(10, (4, 400), (0, 0), 2.0) == "sweep: 10 of 10 cells, 2 cells/s"
+    assert sweeping.line(10, (1, 100), (9, 1_000_000), 1.0).endswith("2 h 46 min to go")
+    monkeypatch.setattr(sweeping, "PAUSE", 0.01)
+    out = io.StringIO()
+    files = {str(tmp_path / name): (3, 30) for name in "ab"}
+    with sweeping.progress(files, 8, out):
+        (tmp_path / "a").write_text("")
+        time.sleep(0.1)
+        (tmp_path / "b").write_text("")
+    lines = out.getvalue().splitlines()
+    assert [text.split(",")[0] for text in lines] == ["sweep: 5 of 8 cells", "sweep: 8 of 8 cells"]
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the project with one small sweep."""
+    return fresh_tree(tmp_path / "a fresh clone", of_scenes("fig3", sweeps={"small": SMALL}))
+
+
+def set_sweep(tree, sweep):
+    tree.write(tree.document() | {"sweeps": {"small": sweep}})
+
+
+def made(tree):
+    """File -> (sha256, mtime) of the sweep's data."""
+    folder = tree.path / "results" / "sweep"
+    return {
+        str(file.relative_to(folder)): (
+            hashlib.sha256(file.read_bytes()).hexdigest(),
+            file.stat().st_mtime_ns,
+        )
+        for file in sorted(folder.rglob("*.nc"))
+    }
+
+
+def hashes(tree):
+    return {name: digest for name, (digest, _) in made(tree).items()}
+
+
+def swept(tree, *words):
+    result = tree.run("sweep", *words)
+    assert result.returncode == 0, result.stdout
+    return result.stdout
+
+
+def test_faults_are_repaired_and_nothing_else_is_done_again(tree):
+    out = swept(tree, "-c", "2")
+    assert "sweep: 6 of 6 cells" in out
+    before = made(tree)
+    assert len(before) == 4
+    swept(tree, "small", "-c", "1")
+    assert made(tree) == before
+
+    folder = tree.path / "results" / "sweep"
+    first, hurt, last = sorted(folder.glob("blocks/*.nc"))
+    whole = folder / "small.nc"
+    for file in (hurt, whole):
+        file.write_bytes(file.read_bytes()[:3000])
+    out = swept(tree, "-c", "1")
+    for file in (hurt, whole):
+        line = f"{file.relative_to(tree.path)}: changed after it was made: made again"
+        assert line in out
+    after = made(tree)
+    assert hashes(tree) == {name: digest for name, (digest, _) in before.items()}
+    for file in (first, last):
+        name = str(file.relative_to(folder))
+        assert after[name] == before[name]
+
+
+@pytest.mark.slow
+def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
+    swept(tree, "-c", "1")
+    before = hashes(tree)["small.nc"]
+    set_sweep(tree, SMALL | {"block": 4})
+    swept(tree, "-c", "1")
+    assert hashes(tree)["small.nc"] == before
+    set_sweep(tree, SMALL | {"energy": [0.3, 2.0, 7.0]})
+    shutil.rmtree(tree.path / ".snakemake")  # its memory of parameters
+    swept(tree, "-c", "1")
+    data = load(tree.path / "results" / "sweep" / "small.nc")
+    assert data["energy"].values.tolist() == [0.3, 2.0, 7.0]
+    one = cell.cell(0.1, 7.0, SMALL["starts"], SMALL["impacts"])
+    assert data.sel(k=0.1, energy=7.0)["exponent"] == one["exponent"]
+
+
+@pytest.mark.slow
+def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
+    swept(tree, "-c", "1")
+    wanted = hashes(tree)
+    folder = tree.path / "results" / "sweep"
+    shutil.rmtree(folder)
+    process = tree.start("sweep", "-c", "1", start_new_session=True)
+    while not list(folder.glob("blocks/*.nc")):
+        assert process.poll() is None
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    present = hashes(tree)
+    assert 0 < len(present) < 4
+    assert present.items() <= wanted.items()
+    swept(tree, "-c", "1")
+    assert hashes(tree) == wanted
+
+
+def test_mistakes_end_in_one_line_before_any_job(tree):
+    result = tree.run("sweep", "smal")
+    assert result.returncode == 1
+    assert result.stdout == "reproduce: no sweep smal: did you mean small? config.yaml has small\n"
+    set_sweep(tree, SMALL | {"energy": []})
+    result = tree.run("sweep")
+    assert result.returncode == 1
+    assert result.stdout.startswith("config.yaml: sweeps.small.energy: [] is not allowed")
+    assert not (tree.path / "results").exists()
+
+
+def test_slurm_where_there_is_none_is_one_line(tree):
+    result = tree.run("sweep", "--slurm", PATH="/nowhere")
+    assert result.returncode == 1
+    assert result.stdout == "reproduce: --slurm: there is no sbatch on this machine\n"
+
+
+@pytest.mark.slow
+def test_the_atlas_is_drawn_and_published(tree):
+    line = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
+    tree.write(tree.document() | {"sweeps": {"small": SMALL, "one": line}})
+    result = tree.run("atlas", "-c", "1")
+    assert result.returncode == 0, result.stdout
+    for name in ("small.png", "small.svg", "one.png", "one.svg"):
+        drawn = (tree.path / "results/sweep/figures" / name).read_bytes()
+        assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
+        assert drawn.startswith((b"\x89PNG", b"<?xml"))
+    before = made(tree)
+    assert tree.run("atlas", "-c", "1").returncode == 0
+    assert made(tree) == before
+
+
+def test_the_papers_figures_need_no_sweep(tree):
+    assert not [path for path in tree.planned() if "sweep" in path or "atlas" in path]
+
+
+def test_the_start_imports_nothing_heavy():
+    code = "import sys, pipeline.config, pipeline.cli.sweeping; print('numpy' in sys.modules)"
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    result = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
+    )
+    assert result.stdout == "False\n"
+
+
+def test_the_packages_for_slurm_are_pinned_hashed_and_those_of_the_lock():
+    text = (ROOT / "requirements" / "slurm.txt").read_text()
+    assert "://" not in text
+    entries = re.split(r"^(?=[a-z0-9])", text, flags=re.MULTILINE)[1:]
+    pins = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", text, re.MULTILINE))
+    lock = (ROOT / "requirements" / "lock.txt").read_text()
+    locked = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", lock, re.MULTILINE))
+    assert "snakemake-executor-plugin-slurm" in pins
+    assert len(entries) == len(pins)
+    assert all("--hash=sha256:" in entry for entry in entries)
+    assert all(version == locked.get(name, version) for name, version in pins.items())
