@@ -238,10 +238,22 @@ def judge(k, g, x, v, w):
         cosine, sine = mpmath.cos_sin(tau)
         slope = gap.slope(tau)
         state = (x * cosine - c * sine, b + g * tau, x * sine + c * cosine)
-        condition = math.inf if slope == 0 else 1.0
-        if tau > 0 and slope != 0:
-            condition = float(gap.terms(tau) / (tau * abs(slope)))
-    return Verdict(tau, slope, state, depth, rival, condition)
+        roundings = _condition(gap, tau)
+    return Verdict(tau, slope, state, depth, rival, roundings)
+
+
+def condition(k, g, x, v, w, tau):
+    """By how many roundings of its terms tau may be off: see Verdict."""
+    k, g, x, v, w = (mpf(float(a)) for a in (k, g, x, v, w))
+    with mpmath.workdps(_digits(g, x, v, w)):
+        return _condition(flight(k, g, x, v, w)[0], tau)
+
+
+def _condition(gap, tau):
+    slope = gap.slope(tau)
+    if slope == 0:
+        return math.inf
+    return float(gap.terms(tau) / (tau * abs(slope))) if tau > 0 else 1.0
 
 
 def _digits(g, x, v, w):

@@ -1,85 +1,65 @@
-"""Make every published figure in one process and print a JSON line of their hashes.
+"""Make published figures in one process and print a JSON line of their hashes.
 
     python tests/paper_probe.py [scene ...]
 
-Runs the scripts of the workflow without snakemake, whose jobs are processes of their own and would
-leave an emulator. Results go to a temporary folder.
+Without snakemake, whose jobs are processes of their own and would leave an emulator: each stage and
+each drawing by the function that its declaration names, data through files in a temporary folder.
 """
 
 import hashlib
 import json
-import os
-import runpy
 import sys
 import tempfile
+from importlib import import_module
 from pathlib import Path
-from types import SimpleNamespace
 
 from pipeline import config
-from pipeline.config import places
-from pipeline.records import provenance
+from pipeline.config import expected, places
+from pipeline.config.declared.stages import STAGES
+from pipeline.records import artifacts
+from pseudorigid import Ball
+from pseudorigid.figures.canvas.render import render
 
-ROOT = Path(__file__).resolve().parents[1]
-SCRIPTS = ROOT / "workflow" / "scripts"
-INPUTS = {"motion": ["periodic"], "manifolds": ["periodic"]}  # of a stage
-DATA = {  # of a picture, as the rules hand them to it
-    "portrait": ["orbits"],
-    "motion": ["motion"],
-    "tangle": ["orbits", "manifolds", "periodic"],
-    "closeup": ["manifolds"],
-    "exponents": ["lyapunov"],
-}
+SHIPPED = Path(__file__).with_name("scenes.yaml")
 
 
-class Files(list):
-    """A list of files, some with a name, as snakemake hands them to a script."""
-
-    code = ()
-
-
-def run(script, name, inputs, output, **params):
-    """Run a script of the workflow for one scene."""
-    given = Files(inputs)
-    given.periodic = given.data = inputs
-    made = Files([output])
-    made.record = provenance.record_path(output)
-    job = SimpleNamespace(
-        rule=Path(script).stem,
-        threads=1,
-        wildcards={"scene": name},
-        input=given,
-        output=made,
-        log=["log"],
-        params=SimpleNamespace(**params),
-    )
-    runpy.run_path(str(SCRIPTS / script), init_globals={"snakemake": job})
+def computed(name, block, inputs):
+    """The Dataset of a stage."""
+    stage = STAGES[name]
+    ball = Ball(**block["ball"])
+    fields = {key: block[key] for key in block.keys() - {"ball", "energy"}}
+    function = getattr(import_module(stage.module), stage.function)
+    return function(ball, block["energy"], *inputs, **fields)
 
 
-def paper(names):
+def paper(folder, names=()):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
-    scenes = config.load(SHIPPED)["scenes"]
-    serves = places.served({"paper": scenes})
-    for scene in names or scenes:
-        block = scenes[scene]
+    variants = config.load(SHIPPED)["variants"]
+    variants = {places.PAPER: variants[places.PAPER]}
+    figures = places.figures(variants).values()
+    wanted = [behind[-1] for scene, behind in figures if not names or scene in names]
+    results = expected.of_scenes(variants)
 
-        def data(stages, scene=scene):
-            return [serves["paper", scene, stage] for stage in stages]
+    def data(path):
+        """A dataset after a round through its file."""
+        file = Path(folder) / Path(path).name
+        if not file.exists():
+            block = results[path].config
+            stage = file.stem.rpartition("_")[0]
+            about = block["ball"] | {"energy": float(block["energy"]), "stage": stage}
+            artifacts.save(computed(stage, block, inputs(path)), file, block, **about)
+        return artifacts.load(file)
 
-        for stage, parameters in places.stages(block).items():
-            (output,) = data([stage])
-            if not Path(output).exists():
-                run(f"{stage}.py", scene, data(INPUTS.get(stage, [])), output, block=parameters)
-        for extension in block["formats"]:
-            if extension in places.SHOWN:
-                output = places.drawn(scene, extension)
-                drawing = places.drawing(block)
-                run("draw.py", scene, data(DATA[block["picture"]]), output, scene=drawing)
-                yield Path(output).name, hashlib.sha256(Path(output).read_bytes()).hexdigest()
+    def inputs(path):
+        return [data(used) for used in results[path].inputs]
+
+    for path in wanted:
+        block = results[path].config
+        kind = import_module(f"pseudorigid.figures.kinds.{block['picture']}")
+        picture = render(kind.draw(block, *inputs(path)), Path(path).suffix[1:])
+        yield Path(path).name, hashlib.sha256(picture).hexdigest()
 
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(SCRIPTS))
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        print(json.dumps(dict(paper(sys.argv[1:])), sort_keys=True))
-        os.chdir(ROOT)
+    with tempfile.TemporaryDirectory() as scratch:
+        print(json.dumps(dict(paper(scratch, sys.argv[1:])), sort_keys=True))

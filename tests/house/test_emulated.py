@@ -16,10 +16,9 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from project import ROOT
 from test_matrix import SWITCHES, probe
 
 from pipeline.checks import manifest
@@ -32,9 +31,11 @@ DEBIAN = """
     libtinfo6 libtirpc3 libuuid1 python3.11 python3.11-minimal zlib1g
 """
 WHEELS = """
-    attrs certifi cftime contourpy cycler deflate fonttools jsonschema jsonschema-specifications
-    kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging pandas pillow pyparsing
-    python-dateutil pyyaml referencing rpds-py six typing-extensions tzdata xarray
+    annotated-types attrs certifi cftime contourpy cycler deflate fonttools jsonschema
+    jsonschema-specifications kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging
+    pandas pillow pydantic
+    pydantic-core pyparsing python-dateutil pyyaml referencing rpds-py six typing-extensions
+    typing-inspection tzdata xarray
 """
 PLATFORMS = [f"manylinux_2_{minor}_aarch64" for minor in (28, 27, 26, 24, 17)]
 PLATFORMS += ["manylinux2014_aarch64"]
@@ -124,11 +125,11 @@ def test_the_published_figures(machine, tmp_path):
     command, environment = machine
     caches = {"NUMBA_CACHE_DIR": str(tmp_path), "MPLCONFIGDIR": str(tmp_path)}
     result = subprocess.run(
-        [*command, str(Path(__file__).with_name("paper_probe.py"))],
+        [*command, str(ROOT / "tests" / "paper_probe.py")],
         env=os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment,
         capture_output=True,
         text=True,
         check=False,
     )
     assert result.returncode == 0, result.stderr
-    assert json.loads(result.stdout) == manifest.read_sums(ROOT)
+    assert json.loads(result.stdout) == manifest.read_sums(ROOT, "paper_figures")

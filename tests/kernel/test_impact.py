@@ -1,17 +1,14 @@
 """The impact map: what it preserves, its inverse, scaling and Jacobian, and its machine code."""
 
-import math
-import re
-
-import numba
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from judge import exact_jacobian, judge
+from sections import BALL, section_states
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.kernel import arithmetic, flight, impact, lanes
+from pseudorigid.kernel import flight, impact
 
 # About 1.4 times the worst that was measured over 20,000 states a ball (by the judge: 300 and 40).
 ONE_ENERGY = 1.2e-15
@@ -22,19 +19,7 @@ JACOBIAN = 8e-16
 INVERSE = 1.4e-16
 ENERGY = 1e-11  # over a million impacts, relative; the worst of these orbits reaches 7.8e-12
 
-BALL = Ball(k=0.2, g=0.04)
 BALLS = (BALL, Ball(0.01, 0.003), Ball(1 / 3, 0.3), Ball(1.0, 1e-4), Ball(1.0, 1.0))
-
-
-def section_states(ball, count, seed=0, energy=None):
-    """States spread over the section's disk, by default at E/g^2 = 6.25 as in Figure 2."""
-    energy = 6.25 * ball.g**2 if energy is None else energy
-    rng = np.random.default_rng(seed)
-    centre, radius = ball.section(energy)
-    x, y = rng.uniform(-1.0, 1.0, (2, 2 * count))
-    keep = x * x + y * y < 0.999
-    height = radius * math.sqrt(ball.k * (1.0 + ball.k))
-    return ball.state_xy(centre + radius * x[keep][:count], height * y[keep][:count], energy)
 
 
 def sizes(ball, x, v, w):
@@ -248,52 +233,3 @@ def test_a_march_has_few_looks():
                 looks.append(flight.first_impact(x, b, c, -(b + c), g)[3])
     assert np.mean(looks) < 3.5
     assert max(looks) < 60
-
-
-# A fused multiply-add changes bits from processor to processor, and so does a library's sine.
-FUSED = re.compile(r"\bv?fn?m(?:add|sub)\w*|\bfml[as]\b|llvm\.fma|llvm\.fmuladd")
-LIBRARY = re.compile(
-    r"(?:callq?|bl|jmp|movabsq|leaq|ldr)\s[^\n]*?"
-    r"(?<![.\w])(?:sin|cos|sincos|tan|atan2?|asin|acos|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|fmod|cbrt)f?\b"
-    r"|@(?:llvm\.)?(?:sin|cos|sincos|tan|exp2?|log(?:2|10)?|pow)(?:\.f64)?\("
-)
-
-
-def code(function, *arguments):
-    """The machine and LLVM code of a kernel, compiled anew: numba cannot show what is cached."""
-    fresh = numba.njit(error_model="numpy")(function.py_func)
-    fresh(*arguments)
-    return "\n".join([*fresh.inspect_asm().values(), *fresh.inspect_llvm().values()])
-
-
-def test_machine_code_is_strict():
-    assert impact.steps.targetoptions["fastmath"] is False
-    assert not impact.steps.targetoptions.get("parallel")
-    state = section_states(BALL, 2)
-    for kernel, arguments in (
-        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), None)),
-        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2), None)),
-        (impact.history, (*state, 0.2, 0.04, np.empty((2, 1, 4)), None)),
-        (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
-        (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)), None)),
-        (arithmetic.log, (2.0,)),
-    ):
-        text = code(kernel, *arguments)
-        assert text.count("fmul double") > 10
-        assert not FUSED.findall(text), kernel
-        assert not LIBRARY.findall(text), kernel
-        assert not re.search(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)", text), kernel
-
-
-def test_the_search_of_machine_code_finds():
-    """A positive control of the test above."""
-
-    @numba.njit(fastmath=True)
-    def loose(a, b):
-        return math.sin(a) * b + math.log(b)
-
-    loose(1.0, 2.0)
-    text = "\n".join([*loose.inspect_asm().values(), *loose.inspect_llvm().values()])
-    assert LIBRARY.findall(text)
-    assert re.search(r"\bfmul (?:fast|reassoc|contract)", text)
-    assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")

@@ -1,4 +1,4 @@
-"""Sweeps as they are run: what is told, refused and repaired, and that no fault shows in the bytes."""
+"""Sweeps as they are run: what is told, refused and repaired; no fault shows in the bytes."""
 
 import hashlib
 import io
@@ -99,7 +99,7 @@ def test_faults_are_repaired_and_nothing_else_is_done_again(tree):
     assert made(tree) == before
 
     folder = tree.path / "results" / "sweep"
-    first, hurt, last = sorted(folder.glob("blocks/*.nc"))
+    first, hurt, last = sorted(folder.glob("small_*.nc"))
     whole = folder / "small.nc"
     for file in (hurt, whole):
         file.write_bytes(file.read_bytes()[:3000])
@@ -137,7 +137,7 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
     folder = tree.path / "results" / "sweep"
     shutil.rmtree(folder)
     process = tree.start("sweep", "-c", "1", start_new_session=True)
-    while not list(folder.glob("blocks/*.nc")):
+    while not list(folder.glob("small_*.nc")):
         assert process.poll() is None
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGKILL)

@@ -1,0 +1,26 @@
+"""Balls whose periodic orbits are looked for, and names."""
+
+import numpy as np
+
+NAMES = ("x", "xdot", "udot", "tau")
+# (k, g, energy), the last four with strongly stretched orbits
+SETTINGS = [
+    (0.2, 0.04, 0.01),
+    (0.2, 0.04, 0.001),
+    (0.2, 0.04, -0.00399),
+    (0.2, 0.04, 0.0599),
+    (0.05, 0.004, 0.003),
+    (0.01, 0.001, 0.0039),
+    (0.02, 0.009, -0.001),
+    (1 / 3, 0.03, 0.02),
+    (1.0, 0.3, -0.03),
+    (0.33, 0.1, 0.06),
+    (1.0, 0.1, 0.05),
+    (0.2, 0.02, 0.03),
+    (0.7, 0.2, 0.1),
+]
+PERIODS = range(1, 13)
+
+
+def points_of(orbits, i):
+    return np.stack([orbits[name].values[i] for name in NAMES])

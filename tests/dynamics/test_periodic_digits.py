@@ -1,0 +1,116 @@
+"""Periodic points and traces in 40 digits."""
+
+import mpmath
+import pytest
+from cycles import points_of
+from mpmath import mpf
+
+from pseudorigid import Ball, symmetric_orbits
+
+BALL = Ball(0.2, 0.04)
+
+
+def high_precision(ball, state, taus):
+    """P^n and its 3 x 3 Jacobian in 40 digits, from a state; `taus` are guesses of the flights."""
+    k, g = mpf(ball.k), mpf(ball.g)
+    x, v, w = state
+    product = mpmath.eye(3)
+    for guess in taus:
+        b = ((1 - k) * v - 2 * k * w) / (1 + k)
+        c = (-2 * v - (1 - k) * w) / (1 + k)
+        t = mpf(guess)
+        for _ in range(7):
+            cosine, sine = mpmath.cos_sin(t)
+            f = x + b * t + g * t * t / 2 - x * cosine + c * sine
+            slope = b + g * t + x * sine + c * cosine
+            t -= f / slope
+        cosine, sine = mpmath.cos_sin(t)
+        slope = b + g * t + x * sine + c * cosine
+        gradient = [(1 - cosine), t, sine]  # of f by x, b, c
+        dt = [-a / slope for a in gradient]
+        q = x * sine + c * cosine
+        p = x * cosine - c * sine
+        flight = mpmath.matrix(
+            [
+                [cosine - q * dt[0], -q * dt[1], -sine - q * dt[2]],
+                [g * dt[0], 1 + g * dt[1], g * dt[2]],
+                [sine + p * dt[0], p * dt[1], cosine + p * dt[2]],
+            ]
+        )
+        impact = mpmath.matrix(
+            [
+                [1, 0, 0],
+                [0, (1 - k) / (1 + k), -2 * k / (1 + k)],
+                [0, -2 / (1 + k), -(1 - k) / (1 + k)],
+            ]
+        )
+        product = flight * impact * product
+        x, v, w = p, b + g * t, q
+    return (x, v, w), product
+
+
+@pytest.mark.parametrize(
+    ("k", "g", "energy", "period"),
+    [
+        (0.2, 0.04, 0.01, 1),
+        (0.2, 0.04, 0.01, 6),
+        (0.2, 0.04, 0.01, 9),
+        (0.2, 0.04, 0.001, 10),
+        (0.2, 0.04, 0.001, 12),
+        (0.05, 0.004, 0.003, 5),
+        (1.0, 0.1, 0.05, 3),
+        (0.33, 0.1, 0.06, 11),
+    ],
+)
+def test_trace_and_points_in_forty_digits(k, g, energy, period):
+    """Newton's method in 40 digits moves a point by roundings only, and the trace there is the
+    same.
+    """
+    ball = Ball(k, g)
+    orbits = symmetric_orbits(ball, energy, period)
+    assert orbits.sizes["orbit"] > 0
+    with mpmath.workdps(40):
+        for i in range(orbits.sizes["orbit"]):
+            points = points_of(orbits, i)
+            z = mpmath.matrix([mpf(a) for a in points[:3, 0]])
+            for _ in range(4):
+                after, product = high_precision(ball, z, points[3])
+                x, v, w = z
+                # the orbit is one of a family: keep to this energy
+                missing = v * v / 2 + ball.k * w * w / 2 - ball.g * x + ball.k * x * x / 2
+                system = mpmath.matrix(4, 3)
+                system[:3, :] = product - mpmath.eye(3)
+                system[3, :] = mpmath.matrix([[mpf(ball.k) * x - ball.g, v, mpf(ball.k) * w]])
+                right = mpmath.matrix([*(a - b for a, b in zip(z, after, strict=True)), 0])
+                right[3] = mpf(energy) - missing
+                z += mpmath.lu_solve(system, right)
+            moved = max(abs(float(a - b)) for a, b in zip(z, points[:3, 0], strict=True))
+            trace = float(product[0, 0] + product[1, 1] + product[2, 2] - 1)
+            size = max(1.0, *(abs(float(a)) for a in product))
+            assert moved < 2e-15 * max(1.0, size / 50)
+            assert abs(trace - float(orbits["trace"][i])) < 2e-13 * size * size
+
+
+def test_the_trace_is_that_of_differences_in_forty_digits():
+    """A check of the Jacobian above itself: differences on the energy surface, no derivatives."""
+    orbits = symmetric_orbits(BALL, 0.01, 6)
+    k, g, energy = mpf(BALL.k), mpf(BALL.g), mpf(0.01)
+
+    def chart_map(x, y, taus):
+        s = mpmath.sqrt(((1 + k) * (2 * energy + 2 * g * x - k * x * x) - y * y) / k)
+        state = (x, (y + k * s) / (1 + k), (s - y) / (1 + k))
+        (x, v, w), _ = high_precision(BALL, state, taus)
+        return x, v - k * w
+
+    with mpmath.workdps(40):
+        h = mpf(10) ** -13
+        for i in range(3):
+            points = points_of(orbits, i)
+            x, y = mpf(points[0, 0]), mpf(points[1, 0]) - k * mpf(points[2, 0])
+            right, left = chart_map(x + h, y, points[3]), chart_map(x - h, y, points[3])
+            upper, lower = chart_map(x, y + h, points[3]), chart_map(x, y - h, points[3])
+            trace = (right[0] - left[0] + upper[1] - lower[1]) / (2 * h)
+            assert abs(float(trace) - float(orbits["trace"][i])) < 1e-12
+            det = (right[0] - left[0]) * (upper[1] - lower[1])
+            det -= (upper[0] - lower[0]) * (right[1] - left[1])
+            assert abs(float(det / (4 * h * h)) - 1) < 1e-12

@@ -1,0 +1,58 @@
+"""The machine code: every operation rounded once, in the order written, and no library called."""
+
+import math
+import re
+
+import numba
+import numpy as np
+from sections import BALL, section_states
+
+from pseudorigid.kernel import arithmetic, impact, lanes
+
+# A fused multiply-add changes bits from processor to processor, and so does a library's sine.
+FUSED = re.compile(r"\bv?fn?m(?:add|sub)\w*|\bfml[as]\b|llvm\.fma|llvm\.fmuladd")
+LIBRARY = re.compile(
+    r"(?:callq?|bl|jmp|movabsq|leaq|ldr)\s[^\n]*?"
+    r"(?<![.\w])(?:sin|cos|sincos|tan|atan2?|asin|acos|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|fmod|cbrt)f?\b"
+    r"|@(?:llvm\.)?(?:sin|cos|sincos|tan|exp2?|log(?:2|10)?|pow)(?:\.f64)?\("
+)
+
+
+def code(function, *arguments):
+    """The machine and LLVM code of a kernel, compiled anew: numba cannot show what is cached."""
+    fresh = numba.njit(error_model="numpy")(function.py_func)
+    fresh(*arguments)
+    return "\n".join([*fresh.inspect_asm().values(), *fresh.inspect_llvm().values()])
+
+
+def test_machine_code_is_strict():
+    assert impact.steps.targetoptions["fastmath"] is False
+    assert not impact.steps.targetoptions.get("parallel")
+    state = section_states(BALL, 2)
+    for kernel, arguments in (
+        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), None)),
+        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2), None)),
+        (impact.history, (*state, 0.2, 0.04, np.empty((2, 1, 4)), None)),
+        (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
+        (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)), None)),
+        (arithmetic.log, (2.0,)),
+    ):
+        text = code(kernel, *arguments)
+        assert text.count("fmul double") > 10
+        assert not FUSED.findall(text), kernel
+        assert not LIBRARY.findall(text), kernel
+        assert not re.search(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)", text), kernel
+
+
+def test_the_search_of_machine_code_finds():
+    """A positive control of the test above."""
+
+    @numba.njit(fastmath=True)
+    def loose(a, b):
+        return math.sin(a) * b + math.log(b)
+
+    loose(1.0, 2.0)
+    text = "\n".join([*loose.inspect_asm().values(), *loose.inspect_llvm().values()])
+    assert LIBRARY.findall(text)
+    assert re.search(r"\bfmul (?:fast|reassoc|contract)", text)
+    assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
