@@ -11,7 +11,8 @@ from project import ROOT
 
 from pipeline.records.artifacts import content_hash
 from pseudorigid import Ball, lyapunov_spectrum
-from pseudorigid.sweep import blocks, cell, fixed_point, follow, grid
+from pseudorigid.dynamics import fixed_point, follow
+from pseudorigid.sweep import blocks, cell, grid
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 

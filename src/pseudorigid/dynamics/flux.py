@@ -14,10 +14,10 @@ from flint import ctx
 from .actions import Law, Lobe, Saddle, first_crossing
 from .manifolds import trace_manifold
 from .orbits import orbit
-from .periodic import of_type, symmetric_orbits
+from .periodic import symmetric_orbits
 from .polygon import Polygon
 from .sea import sea_states
-from .variables import variables
+from .variables import of_type, variables
 
 SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
