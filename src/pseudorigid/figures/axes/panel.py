@@ -134,12 +134,11 @@ class Panel:
         self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
 
 
-def key(sheet, entries, top, columns):
+def key(sheet, entries, top, columns, left=_KEY[0], width=_KEY[1]):
     """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left.
 
     Without a marker it is a line, full or (hollow) dashed.
     """
-    left, width = _KEY
     for i, (text, color, marker, hollow) in enumerate(entries):
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * _SIZE * POINT

@@ -48,7 +48,7 @@ def draw(scene, clusters):
         (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4], False)
         for i, cut in enumerate(clusters["cut"].values)
     ]
-    key(sheet, entries, _LEFT, 75, _RIGHT - _LEFT, 4)
+    key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
 
 

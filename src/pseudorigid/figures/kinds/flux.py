@@ -43,7 +43,7 @@ def draw(scene, flux):
         ("stable", style.STABLE, "", False),
         ("unstable", style.UNSTABLE, "", False),
     ]
-    key(sheet, entries, _LEFT + 10, top - _WIDE - 130, _WIDE, 2)
+    key(sheet, entries, top - _WIDE - 130, 2, _LEFT + 10, _WIDE)
     _outer_lobe(sheet, (_LEFT, 105, 505, 420), flux)
     _inner_lobe(sheet, (680, 105, 1005, 420), flux)
     return sheet.figure

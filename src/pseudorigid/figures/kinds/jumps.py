@@ -54,7 +54,7 @@ def draw(scene, jumps, orbits):
         ("grazing rim", style.BLACK, "", False),
         ("symmetry lines", style.PURPLE, "", True),
     ]
-    key(sheet, entries, _AT + 10, frame[1] - 115, _WIDE, 2)
+    key(sheet, entries, frame[1] - 115, 2, _AT + 10, _WIDE)
     _label(sheet, frame, float(jumps["energy"].values[0]))
     _births(sheet, jumps, k, g)
     return sheet.figure

@@ -32,7 +32,7 @@ def draw(scene, last_curve):
     _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
     names = [f"rotation number {number:.6f}" for number in last_curve["rotation"].values]
     entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
-    key(sheet, entries, _LEFT, 855, _RIGHT - _LEFT, 2)
+    key(sheet, entries, 855, 2, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
 
 
