@@ -7,11 +7,13 @@ import xarray as xr
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures import atlas
 from pseudorigid.figures.axes import raster
-from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.render import pixels
+from pseudorigid.figures.canvas import render, style
 from pseudorigid.sweep import cell
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
+# The lower ends of the two panels of PLANE.
+LOWER = 320
+UPPER = LOWER + 3 * (atlas.HIGH // 3) + 195
 LINE = {"k": [0.2], "g": 0.04, "energy": [0.625 * i for i in range(1, 21)]}
 
 
@@ -34,20 +36,35 @@ def commonest(image, across, up):
 def test_a_cell_has_the_colour_of_its_value():
     share = np.linspace(0, 0.99, 12).reshape(3, 4)
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
-    image = pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
-    scale = raster.colors("viridis")
-    width, height = (atlas.RIGHT - atlas.LEFT) / 4, 500 / 3
+    image = render.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
+    scale = raster.palette("viridis")
+    width, height = atlas.WIDE / 4, atlas.HIGH // 3
     for row in range(3):
         for column in range(4):
-            at = int(atlas.LEFT + (column + 0.3) * width), int(825 + (row + 0.3) * height)
+            at = int(atlas.LEFT + (column + 0.3) * width), int(UPPER + (row + 0.3) * height)
             assert commonest(image, *at) == scale[int(share[row, column] * 64)]
-    at = int(atlas.LEFT + 3.3 * width), int(120 + 2.3 * height)
+    at = int(atlas.LEFT + 3.3 * width), int(LOWER + 2.3 * height)
     assert commonest(image, *at) == style.GRID  # no sea
+
+
+def test_cells_fill_whole_pixels():
+    """Where no curve is."""
+    sweep = PLANE | {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
+    share = np.random.default_rng(1).random((100, 160))
+    image = render.pixels(atlas.plane(sweep, dataset(sweep, regular=share)))[::-1]
+    scale = raster.palette("viridis")
+    upper = LOWER + 600 + (UPPER - LOWER - 3 * (atlas.HIGH // 3))
+    for row in range(100):
+        for column in range(0, 160, 7):
+            x, y = atlas.LEFT + 5 * column, upper + 6 * row
+            patch = image[y + 2 : y + 4, x + 2 : x + 4].reshape(-1, 3)
+            wanted = scale[int(share[row, column] * 64)]
+            assert all("#" + bytes(pixel).hex() == wanted for pixel in patch)
 
 
 def test_the_scales_are_sixty_four_colours_in_order():
     for name in ("viridis", "magma"):
-        colors = raster.colors(name)
+        colors = raster.palette(name)
         assert len(set(colors)) == 64
         light = [sum(int(c[at : at + 2], 16) for at in (1, 3, 5)) for c in colors]
         assert light[0] < light[20] < light[40] < light[63]
@@ -57,9 +74,9 @@ def test_a_resonance_is_drawn_where_the_closed_form_has_it():
     figure = atlas.plane(PLANE, dataset(PLANE))
     k = 0.2
     e = fixed_point.resonance(k, 1, 6)
-    across = atlas.LEFT + (np.log10(e) + 1.5) / 4 * (atlas.RIGHT - atlas.LEFT)
-    up = 825 + (k - 0.05) / 0.3 * 500
-    image = pixels(figure)[::-1]
+    across = atlas.LEFT + (np.log10(e) + 1.5) / 4 * atlas.WIDE
+    up = UPPER + (k - 0.05) / 0.3 * 3 * (atlas.HIGH // 3)
+    image = render.pixels(figure)[::-1]
     patch = image[int(up) - 3 : int(up) + 4, int(across) - 3 : int(across) + 4].reshape(-1, 3)
     assert patch.sum(axis=1).max() > 700
     away = image[int(up) - 3 : int(up) + 4, int(across) - 40 : int(across) - 33].reshape(-1, 3)
@@ -73,7 +90,7 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
     data = dataset(LINE, regular=np.linspace(0.9, 0.1, n), **dict.fromkeys(names, gap))
     figure = atlas.line(LINE, data)
     assert figure.get_size_inches()[0] == 3.5
-    assert np.array_equal(pixels(figure), pixels(atlas.line(LINE, data)))
+    assert np.array_equal(render.pixels(figure), render.pixels(atlas.line(LINE, data)))
 
 
 def test_no_sea_anywhere_can_be_drawn():
@@ -94,6 +111,27 @@ def test_no_sea_anywhere_can_be_drawn():
 )
 def test_ticks_are_round(low, high, count, wanted):
     assert raster.ticks(low, high, count) == wanted
+
+
+def test_minor_ticks_lie_between():
+    assert raster.between([0.0, 0.5, 1.0], 0.0, 1.2) == [0.25, 0.75]
+    assert raster.between([0.1, 0.2], 0.02, 0.28) == pytest.approx([0.05, 0.15, 0.25])
+    assert raster.between([0.1], 0.02, 0.28) == []
+    places = raster.decades(-1.1, 0.4)
+    assert 10 ** np.array(places) == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
+
+
+def test_names_that_would_touch_are_moved_apart():
+    assert atlas._apart([100.0, 300.0]) == [100.0, 300.0]
+    left, right = atlas._apart([100.0, 110.0])
+    assert right - left == atlas._NAME
+    assert left + right == 210.0
+
+
+def test_the_quotation_is_the_papers():
+    text = " ".join(atlas.QUOTATION)
+    quoted = "appear to be progressively destroyed as the total energy increases"
+    assert f"“{quoted}”" in text
 
 
 def test_edges_lie_halfway():

@@ -15,12 +15,12 @@ from mpmath import mp, mpf
 
 from pipeline.records.artifacts import content_hash
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
-from pseudorigid.dynamics import actions, last_curve, polygon, rotation, winding
-from pseudorigid.dynamics import clusters as clusters_module
-from pseudorigid.dynamics.clusters import clusters
-from pseudorigid.dynamics.flux import flux
-from pseudorigid.dynamics.jumps import jumps
-from pseudorigid.dynamics.spread import spread, stretches
+from pseudorigid.evidence import actions, last_curve, polygon, rotation, winding
+from pseudorigid.evidence import clusters as clusters_module
+from pseudorigid.evidence.clusters import clusters
+from pseudorigid.evidence.flux import flux
+from pseudorigid.evidence.jumps import jumps
+from pseudorigid.evidence.spread import spread, stretches
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
 SEA = (0.55, 0.68)
@@ -67,7 +67,7 @@ def test_cells_that_orbits_enter(spreading):
 
 
 def test_blocks_must_divide_an_orbit():
-    with pytest.raises(ValueError, match="impacts = 10 is no multiple"):
+    with pytest.raises(ValueError, match="length = 10 is no multiple"):
         spread(BALL, ENERGY, SEA, 2, 10, 4, [0.1], 4, 4, 4)
     with pytest.raises(ValueError, match="between"):
         spread(BALL, ENERGY, (0.7, 0.6), 2, 8, 4, [0.1], 4, 4, 4)
@@ -432,7 +432,7 @@ def test_rotation_numbers_outside_are_refused():
 SMALL = """
 from pipeline.records.artifacts import content_hash
 from pseudorigid import Ball
-from pseudorigid.dynamics import clusters, flux, jumps, last_curve, rotation, spread
+from pseudorigid.evidence import clusters, flux, jumps, last_curve, rotation, spread
 ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
 for found in (
     spread.spread(ball, 0.01, sea, 13, 2000, 4, [-0.44], 256, 8, 256),

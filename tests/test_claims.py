@@ -13,14 +13,15 @@ from pipeline.checks.claims import ledger
 from pipeline.checks.claims.ledger import CORRECTED, FALSE, HOLDS, NOT_COMPUTED, OPEN, PROVED
 from pipeline.checks.claims.render import render
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, periodic
-from pseudorigid.dynamics.clusters import clusters
+from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.dynamics.flux import flux
-from pseudorigid.dynamics.jumps import jumps
-from pseudorigid.dynamics.last_curve import last_curve
-from pseudorigid.dynamics.rotation import rotation
-from pseudorigid.dynamics.spread import spread
+from pseudorigid.dynamics.variables import of_type
+from pseudorigid.evidence.clusters import clusters
+from pseudorigid.evidence.flux import flux
+from pseudorigid.evidence.jumps import jumps
+from pseudorigid.evidence.last_curve import last_curve
+from pseudorigid.evidence.rotation import rotation
+from pseudorigid.evidence.spread import spread
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import VARIABLES, cells
 
@@ -45,7 +46,6 @@ def atlas(ks, energies, starts, impacts):
 def datasets():
     """All datasets that the checks need, smaller than the shipped ones."""
     one, six = (symmetric_orbits(BALL, HIGH, period) for period in (1, 6))
-    saddle = periodic.of_type(six, "hyperbolic")
     scan = ImpactMap((0.1, 1e-12))
     published = lyapunov.scene_exponents(
         Ball(0.2, 0.04, map=scan), HIGH, [0.6, 0.62, 0.65], 200_000, 10
@@ -58,11 +58,19 @@ def datasets():
             BALL, HIGH, STARTS_2, [1500, 2500, 3000, 3500, 4000, 3000, 2500, 25000]
         ),
         "fig3/periodic": one,
-        "fig3/motion": motion.motion(BALL, periodic.of_type(one, "elliptic"), 16),
+        "fig3/motion": motion.motion(BALL, of_type(one, "elliptic"), 16),
         "fig4/periodic": six,
-        "fig4/motion": motion.motion(BALL, periodic.of_type(six, "elliptic"), 60),
-        "fig6/manifolds": manifolds.window_manifolds(
-            BALL, HIGH, saddle, 0, window, {"distance": 0.1, "bend": 20}, 0.1
+        "fig4/motion": motion.motion(BALL, of_type(six, "elliptic"), 60),
+        "fig6/manifolds": manifolds.scene_manifolds(
+            BALL,
+            HIGH,
+            six,
+            6,
+            "hyperbolic",
+            {"distance": 0.1, "bend": 20},
+            point=0,
+            window=window,
+            length=0.1,
         ),
         "fig7/lyapunov": lyapunov.scene_exponents(BALL, HIGH, [0.6, 0.62, 0.65], 200_000, 4),
         "fig8/orbits": orbits.scene_orbits(

@@ -36,7 +36,7 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
     sweeps = config.load(SHIPPED)["sweeps"]
     assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
     assert sweeps["line"]["k"] == [0.2]
-    assert grid.cells(sweeps["plane"]) == 1600
+    assert grid.cells(sweeps["plane"]) == 160 * 160
 
 
 @pytest.mark.parametrize(

@@ -87,4 +87,4 @@ def test_box_knows_the_far_side():
     x = np.array([0.2, 0.2])
     state = {"x": ("point", x), "xdot": ("point", [0.1, -0.1]), "udot": ("point", [0.0, 0.0])}
     towards = xr.Dataset(state, attrs=ATTRS)
-    assert seen.near(towards).tolist() == [True, False]
+    assert seen.facing(towards).tolist() == [True, False]

@@ -210,10 +210,10 @@ def test_finished_orbits_of_a_scene_are_kept(tmp_path, monkeypatch):
 
     monkeypatch.setattr(follow.Run, "step", dies)
     with pytest.raises(KeyboardInterrupt):
-        true_scene_orbits(**arguments, folder=tmp_path)
+        true_scene_orbits(**arguments, folder=tmp_path / "kept")
     begun = []
     monkeypatch.setattr(follow.Run, "step", lambda run: (begun.append(run.impacts), step(run)))
-    assert true_scene_orbits(**arguments, folder=tmp_path).identical(whole)
+    assert true_scene_orbits(**arguments, folder=tmp_path / "kept").identical(whole)
     assert set(begun) == {30}
     assert list(tmp_path.iterdir()) == []
 

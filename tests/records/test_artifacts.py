@@ -12,6 +12,7 @@ from project import ROOT
 
 from pipeline.records import artifacts
 from pipeline.records.artifacts import ArtifactError, content_hash, load, save
+from pipeline.records.files import FileError
 
 CONFIG = {"starts": [0.5], "ball": {"k": 0.2, "g": 0.04}}
 ABOUT = {"stage": "orbits", "k": 0.2, "g": 0.04, "energy": 0.01}
@@ -87,7 +88,7 @@ def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
     here = os.path.dirname(__file__)
     for seed in ("1", "2"):
         environment = {**os.environ, "PYTHONHASHSEED": seed, "TZ": "Asia/Tokyo"}
-        environment["PYTHONPATH"] = os.pathsep.join([here, str(ROOT / "src")])
+        environment["PYTHONPATH"] = os.pathsep.join([here, str(ROOT / "tests"), str(ROOT / "src")])
         path = tmp_path / f"{seed}.nc"
         run = subprocess.run(
             [sys.executable, "-c", code, path],
@@ -129,7 +130,7 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypa
         raise OSError("disk full")
 
     monkeypatch.setattr(artifacts, "_write", half)
-    with pytest.raises(OSError, match="disk full"):
+    with pytest.raises(FileError, match="cannot be written: disk full"):
         saved(dataset(), path)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]

@@ -32,7 +32,7 @@ def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
         "a.py": "def f():\n    from .inner import b\n",
         "inner/__init__.py": "HERE = 1",
         "inner/b.py": "from ..c import value\nimport os, pseudorigid.d",
-        "c.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from . import unused",
+        "c.py": "import math",
         "d.py": "from . import a\nfrom .inner import HERE",
         "unused.py": "",
         "lazy.py": "from . import Ball",

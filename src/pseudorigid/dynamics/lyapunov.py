@@ -73,6 +73,13 @@ def scene_exponents(ball, energy, starts, impacts, records):
         How many impacts of each; where they differ `exponent` is NaN at the records of others.
     records : int
         How many records of each orbit.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> found = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
+    >>> bool(abs(found["exponent"].values[-1].sum()) < 0.01)
+    True
     """
     states = np.array([start_state(ball, energy, start) for start in starts])
     if isinstance(impacts, list) and len(set(impacts)) > 1:

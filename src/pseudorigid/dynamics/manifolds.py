@@ -159,6 +159,15 @@ def scene_manifolds(
     xarray.Dataset
         x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0 or 1),
         saddle and side. With a window the attributes window_x, window_xdot, point_x, point_xdot.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> six = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)
+    >>> outer = {"outer": {"length": 0.1}}
+    >>> how = {"distance": 0.05, "bend": 30}
+    >>> scene_manifolds(Ball(k=0.2, g=0.04), 0.01, six, 6, "hyperbolic", how, outer).sizes["branch"]
+    12
     """
     orbit = of_type(periodic, type, period)
     if window is None:

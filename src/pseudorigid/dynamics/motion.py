@@ -46,6 +46,13 @@ def motion(ball, orbit, duration):
     Returns:
         Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
         where position = -strain exactly; impact_t and impact_position on `impact`.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> one = of_type(symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1), "elliptic")
+    >>> motion(Ball(k=0.2, g=0.04), one, 16).sizes["impact"]
+    6
     """
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:

@@ -61,6 +61,12 @@ def scene_orbits(ball, energy, starts, impacts):
     -------
     xarray.Dataset
         x, xdot, udot, tau on `point`; start and row_size on `orbit`.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
+    5
     """
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
     states = [start_state(ball, energy, start) for start in starts]

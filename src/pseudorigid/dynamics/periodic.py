@@ -58,6 +58,12 @@ def symmetric_orbits(ball, energy, period):
     ------
     ValueError
         An energy below the bound or a period below 1.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
+    ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """
     period = whole_number("period", period)
     _, radius = ball.section(energy)

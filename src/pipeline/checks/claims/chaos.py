@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pseudorigid.dynamics.rotation import regular
-from pseudorigid.dynamics.spread import stretches
+from pseudorigid.evidence.rotation import regular
+from pseudorigid.evidence.spread import stretches
 
 from . import ledger
 from .ledger import CORRECTED, FALSE, HOLDS, Verdict, formula

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pseudorigid.dynamics.rotation import island, regular
+from pseudorigid.evidence.rotation import island, regular
 
 from . import ledger
 from .ledger import CORRECTED, HOLDS, NOT_COMPUTED, OPEN, PROVED, Verdict, formula

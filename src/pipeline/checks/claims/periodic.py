@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pseudorigid.dynamics.rotation import plateaus, regular
+from pseudorigid.evidence.rotation import plateaus, regular
 
 from . import ledger
 from .ledger import CORRECTED, FALSE, HOLDS, OPEN, PROVED, Verdict

@@ -31,10 +31,13 @@ def run(word, arguments, start) -> int:
         with locked():
             return figures.make(load(ROOT / "config.yaml"), "proofs", [])
     if given.impacts:
-        from ..proving import impacts
+        from ...checks.proving import impacts
 
         with locked(), interruptible():
-            return impacts(load(ROOT / "config.yaml"))
+            try:
+                return impacts(load(ROOT / "config.yaml"))
+            except ValueError as error:  # a file that is missing or damaged, named
+                raise UsageError(str(error)) from None
     from pseudorigid.proofs import THEOREMS, search_certificate
 
     for name in given.name:

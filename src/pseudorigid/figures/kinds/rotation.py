@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...dynamics.rotation import island, plateaus, regular
+from ...evidence.rotation import island, plateaus, regular
 from ..axes.panel import Axis, Panel
 from ..axes.raster import ticks
 from ..canvas import style

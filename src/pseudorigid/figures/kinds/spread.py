@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...dynamics.spread import stretches
+from ...evidence.spread import stretches
 from ..axes.panel import Axis, Panel, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet

@@ -13,7 +13,16 @@ def scene_horseshoe(ball, energy, connection):
 
 
 def scene_twist(ball, energy, energies):
-    """`twist_data` at these energies, decimals as they are written."""
+    """`twist_data` at these energies, decimals as they are written.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> scene_twist(Ball(k=0.3, g=0.04), 0.01, [0.01])
+    Traceback (most recent call last):
+    ...
+    ValueError: no theorem at k = 0.3, g = 0.04, E = 0.01: they are at k = 1/5, g = 1/25, E = 1/100
+    """
     _check(ball, energy)
     return twist_data([str(value) for value in energies])
 

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from . import fixed_point
-from .ball import Ball
-from .follow import CENTRE, EXPECTED, KEPT, VECTOR, follow
+from ..dynamics import fixed_point
+from ..dynamics.ball import Ball
+from ..dynamics.follow import CENTRE, EXPECTED, KEPT, VECTOR, follow
 
 
 def fixed(ball, energy):

@@ -10,11 +10,11 @@ import math
 import numpy as np
 import xarray as xr
 
+from ..dynamics.follow import angle
+from ..dynamics.orbits import orbit
+from ..dynamics.variables import variables
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
-from .follow import angle
-from .orbits import orbit
-from .variables import variables
 from .winding import fixed, winding
 
 # A bracket of the symmetric flight begins so wide, in section radii, and grows up to the other.
@@ -50,6 +50,13 @@ def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
     ------
     ValueError
         A convergent with no orbit between the two places.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> found = last_curve(Ball(k=0.2, g=0.04), 0.01, [[0, 5, 1, 15]], 0, (-0.2, -0.03), 100, 10)
+    >>> found["period"].values.tolist()
+    [[95.0]]
     """
     quotients = [[int(a) for a in noble] for noble in nobles]
     rows = [_one(ball, energy, noble, convergents, between, impacts, drawn) for noble in quotients]

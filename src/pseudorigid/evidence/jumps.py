@@ -11,10 +11,10 @@ import math
 import numpy as np
 import xarray as xr
 
+from ..dynamics.variables import variables
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
 from ..kernel.law import rebound, transfer
-from .variables import variables
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
@@ -54,6 +54,12 @@ def jumps(ball, energy, energies, sides):
     References
     ----------
     The paper's section 3 calls the map (28) a diffeomorphism; that holds up to E = g^2 (1 + k/2).
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> jumps(Ball(k=0.2, g=0.04), 0.01, [0.001], 40).sizes["energy"]
+    2
     """
     if sides % 4:
         raise ValueError(f"sides = {sides} is not allowed: a multiple of four")

@@ -8,9 +8,9 @@ runs that it is made of.
 import numpy as np
 import xarray as xr
 
-from .lyapunov import lyapunov_spectrum
+from ..dynamics.lyapunov import lyapunov_spectrum
+from ..dynamics.variables import variables
 from .sea import sea_states
-from .variables import variables
 
 # A chunk of impacts of all orbits that is held in memory at once.
 _CHUNK = 4000
@@ -56,6 +56,13 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     References
     ----------
     Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> found = spread(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 2, 8, 4, [0.1], 4, 4, 4)
+    >>> found["exponent"].dims
+    ('block', 'orbit', 'index')
     """
     if length % blocks:
         raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")

@@ -13,11 +13,11 @@ import math
 import numpy as np
 import xarray as xr
 
+from ..dynamics.variables import variables
 from ..kernel import impact as kernel
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
 from .sea import sea_states
-from .variables import variables
 
 _BINS = 8  # of each coordinate, alike in count, for the cells of the correlation ratio
 _MEASURES = {
@@ -58,6 +58,13 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     ------
     ValueError
         A cut that leaves an orbit with fewer clusters than lags + 2.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> found = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)
+    >>> found.sizes["cut"]
+    2
     """
     _, *states = sea_states(ball, energy, between, orbits)
     out = np.empty((orbits, impacts + 1, 4))

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from .variables import variables
+from ..dynamics.variables import variables
 from .winding import fixed, winding
 
 GROWN = 6.0  # ln of a tangent vector's growth over a chaotic orbit's second half, at least
@@ -38,6 +38,13 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
         of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
         detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
         impacts and detail_impacts.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> found = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)
+    >>> found.sizes["start"]
+    10
     """
     all_energies = np.array([energy, *energies], dtype=float)
     middle = (np.arange(starts) + 0.5) / starts

@@ -11,13 +11,13 @@ import numpy as np
 import xarray as xr
 from flint import ctx
 
+from ..dynamics.manifolds import trace_manifold
+from ..dynamics.orbits import orbit
+from ..dynamics.periodic import symmetric_orbits
+from ..dynamics.variables import of_type, variables
 from .actions import Law, Lobe, Saddle, first_crossing
-from .manifolds import trace_manifold
-from .orbits import orbit
-from .periodic import symmetric_orbits
 from .polygon import Polygon
 from .sea import sea_states
-from .variables import of_type, variables
 
 SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
@@ -61,6 +61,14 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     ------
     ValueError
         No hyperbolic orbit of that period, an odd period, or a branch that does not meet y = 0.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 20, (0.55, 0.68), 2, 100)
+    Traceback (most recent call last):
+    ...
+    ValueError: period = 5 is not allowed: an even number
     """
     if period % 2:
         raise ValueError(f"period = {period} is not allowed: an even number")
