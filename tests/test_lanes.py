@@ -78,18 +78,18 @@ def test_few_flights_leave_their_lane(monkeypatch):
     row = np.zeros(lanes.SIZE)
     head, low = impact.transfer(BALL.k)
     for i in range(lanes.LANES):
-        lanes._board(row, i, *(a[i] for a in states), 10**6, BALL.k, BALL.g, head, low)
+        lanes._begin_orbit(row, i, *(a[i] for a in states), 10**6, BALL.k, BALL.g, head, low)
     left, then = 0, np.zeros(lanes.SIZE)
     for _ in range(3000):
-        lanes._look(row, BALL.k, BALL.g, head, low)
+        lanes._gaps(row, BALL.k, BALL.g, head, low)
         lanes._march(row, BALL.g)
         lanes._land(row)
         lanes._follow(row, BALL.g)
-        left += lanes._arrive(row, then, BALL.k, BALL.g, head, low)
+        left += lanes._end_flights(row, then, BALL.k, BALL.g, head, low)
         row, then = then, row
         for i in range(lanes.LANES):
             if row[lanes.ODD + i]:
-                lanes._attend(row, i, BALL.k, BALL.g, head, low)
+                lanes._step_alone(row, i, BALL.k, BALL.g, head, low)
     done = np.sum(10**6 - row[lanes.LEFT : lanes.LEFT + lanes.LANES])
     assert done > 1000 * lanes.LANES
     assert left < 0.05 * done

@@ -54,11 +54,11 @@ def test_balls_that_are_none(bad):
     ],
 )
 def test_caps_raise(words, state):
-    """With the cap at one look a flight ends in an error; with the real one in an impact."""
+    """With the cap at one evaluation a flight ends in an error; with the real one in an impact."""
     assert BALL.time_to_impact(*state) > 0.0
     code = (
         "from pseudorigid import Ball\nfrom pseudorigid.kernel import flight\n"
-        "flight.MOST_LOOKS = 1\n"
+        "flight.MOST_EVALUATIONS = 1\n"
         f"try: print(Ball(0.2, 0.04).impact{state})\nexcept ArithmeticError as e: print(e)"
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}

@@ -103,8 +103,8 @@ def test_convex_gap(g, share):
     for phase in range(8):
         angle = 0.25 * math.pi * phase + 0.1
         x, c = share * g * math.cos(angle), share * g * math.sin(angle)
-        for launch in (1e-9, 1e-3, 1.0, 100.0):
-            v, w = before(0.2, -abs(c) - g * launch, c)
+        for offset in (1e-9, 1e-3, 1.0, 100.0):
+            v, w = before(0.2, -abs(c) - g * offset, c)
             state = (0.2, g, x, v, w)
             assert v + w > 0.0
             assert error(state) <= TAU, [a.hex() for a in state]

@@ -223,13 +223,13 @@ def test_loops_agree_with_single_steps():
         assert np.array_equal(out[:, i].T, one)
 
 
-def test_a_march_has_few_looks():
-    """O(1) looks a flight, also at thousands of vibrations: a crawl or a scan would show here."""
-    looks = []
+def test_a_march_has_few_evaluations():
+    """O(1) a flight, also at thousands of vibrations: a crawl or a scan would show here."""
+    evaluations = []
     for g in (1e-4, 1e-2, 1.0):
         rng = np.random.default_rng(10)
         for x, b, c in rng.uniform(-1.0, 1.0, (4000, 3)):
             if b + c < 0:
-                looks.append(flight.first_impact(x, b, c, -(b + c), g)[3])
-    assert np.mean(looks) < 3.5
-    assert max(looks) < 60
+                evaluations.append(flight.first_impact(x, b, c, -(b + c), g)[3])
+    assert np.mean(evaluations) < 3.5
+    assert max(evaluations) < 60

@@ -22,9 +22,9 @@ import math
 from .arithmetic import quadrant, quarter_turns
 from .compiled import jit
 
-# A flight takes 2 or 3 looks, a hard one some tens; past this cap something is wrong, and it
+# A flight takes 2 or 3 evaluations, a hard one some tens; past this cap something is wrong, and it
 # raises.
-MOST_LOOKS = 10_000
+MOST_EVALUATIONS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
 _NO_SPEED = 1e-140
@@ -42,7 +42,7 @@ def amplitude_bound(x, c):
 
 
 @jit
-def launch(x, c, s, g, amplitude):
+def first_step(x, c, s, g, amplitude):
     """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above
     f/t.
     """
@@ -56,19 +56,19 @@ def launch(x, c, s, g, amplitude):
 
 
 @jit
-def soar(x, b, g, amplitude):
-    """(rise, fast, leave): no impact at t < leave where t fast >= rise, as there
+def impact_free_time(x, b, g, amplitude):
+    """(rise, rate, free): no impact at t < free where t rate >= rise, as there
     f < b t + g t^2/2 + x + A < 0.
     """
     square = b * b - 2.0 * g * (x + amplitude)
     if not (b < 0.0 and square > 0.0):
         return 0.0, 0.0, 0.0
-    fast = math.sqrt(square) - b
-    return 2.0 * (x + amplitude), fast, fast * (1.0 / g)
+    rate = math.sqrt(square) - b
+    return 2.0 * (x + amplitude), rate, rate * (1.0 / g)
 
 
 @jit
-def look(t, x, b, c, s, g, trigonometry):
+def gap(t, x, b, c, s, g, trigonometry):
     """f, f', f'', P, Q at t, from `quadrant` of t. Up to t = pi/4 the terms of f that cancel at 0
     are left out by hand.
     """
@@ -174,7 +174,7 @@ def newton(f, df, ddf, p, q):
 
 
 @jit
-def turn(p, q, h):
+def rotated(p, q, h):
     """P and Q a small step h later."""
     h2 = h * h
     h4 = h2 * h2
@@ -186,31 +186,31 @@ def turn(p, q, h):
 @jit
 def _first_impact(x, b, c, s, g):
     amplitude = amplitude_bound(x, c)
-    t = launch(x, c, s, g, amplitude)
+    t = first_step(x, c, s, g, amplitude)
     if g + x > 0.0 and amplitude * t <= _SLACK * (g + x):  # t to a rounding; maybe 0
-        p, q = turn(x, c, t)
+        p, q = rotated(x, c, t)
         return t, p, q, 0
     if s < _NO_SPEED * amplitude:  # its square would underflow; it moves no tau by 1e-70
         s = 0.0
-        t = launch(x, c, s, g, amplitude)
+        t = first_step(x, c, s, g, amplitude)
     if t == 0.0:
         return 0.0, x, c, 0
-    rise, fast, leave = soar(x, b, g, amplitude)
-    if t < leave and t * fast >= rise:
-        t = leave
-    f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
-    looks = 1
+    rise, rate, free = impact_free_time(x, b, g, amplitude)
+    if t < free and t * rate >= rise:
+        t = free
+    f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
+    evaluations = 1
     low = t
     while f < 0.0 and not rises_to_its_root(-f, df, ddf, q, g, amplitude):
         after = t + _march(-f, df, ddf, q, g, amplitude)
         if after == t:
-            return t, p, q, looks
+            return t, p, q, evaluations
         t = after
-        if t < leave and t * fast >= rise:
-            t = leave
-        f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
-        looks += 1
-        if looks > MOST_LOOKS:
+        if t < free and t * rate >= rise:
+            t = free
+        f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
+        evaluations += 1
+        if evaluations > MOST_EVALUATIONS:
             raise ArithmeticError("the march to the next impact does not end")
         low = t
     high = math.inf
@@ -219,17 +219,17 @@ def _first_impact(x, b, c, s, g):
         if not near:
             h = newton(f, df, ddf, p, q)
         elif last:
-            p, q = turn(p, q, h)
-            return t + h, p, q, looks
+            p, q = rotated(p, q, h)
+            return t + h, p, q, evaluations
         after = t + h
         if not low < after < high:
             after = 0.5 * (low + high)
         if after in (t, low, high):
             break
         t = after
-        f, df, ddf, p, q = look(t, x, b, c, s, g, quadrant(t))
-        looks += 1
-        if looks > MOST_LOOKS:
+        f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
+        evaluations += 1
+        if evaluations > MOST_EVALUATIONS:
             raise ArithmeticError("the landing on the next impact does not end")
         if f < 0.0:
             low = t
@@ -238,18 +238,18 @@ def _first_impact(x, b, c, s, g):
     # a double root, to rounding: at the top f' = 0, the impact is grazing
     if df < 0.0 and ddf < 0.0:
         h = -df / ddf
-        p, q = turn(p, q, h)
-        return t + h, p, q, looks
-    return t, p, q, looks
+        p, q = rotated(p, q, h)
+        return t + h, p, q, evaluations
+    return t, p, q, evaluations
 
 
 @jit
 def first_impact(x, b, c, s, g):
     """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
 
-    Returns (tau, P, Q, looks): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q there,
-    and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN for
-    input that is not finite. Raises ArithmeticError at MOST_LOOKS.
+    Returns (tau, P, Q, evaluations): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q
+    there, and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN
+    for input that is not finite. Raises ArithmeticError at MOST_EVALUATIONS.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
     s = max(s, 0.0)  # it may be 0 to rounding, of either sign
@@ -263,5 +263,5 @@ def first_impact(x, b, c, s, g):
         d *= HUGE
     while size * d >= HUGE:
         d /= HUGE
-    tau, p, q, looks = _first_impact(x * d, b * d, c * d, s * d, g * d)
-    return tau, p / d, q / d, looks
+    tau, p, q, evaluations = _first_impact(x * d, b * d, c * d, s * d, g * d)
+    return tau, p / d, q / d, evaluations

@@ -18,25 +18,25 @@ rebound = jit(law.rebound)
 
 @jit
 def next_impact(x, b, c, s, g, how):
-    """The flight from x with velocities b, c, s = -(b + c): (tau, P, Q, looks, missed).
+    """The flight from x with velocities b, c, s = -(b + c): (tau, P, Q, evaluations, missed).
 
-    looks: evaluations of the gap by the march; missed: 1 where the scan flew past an impact.
+    evaluations: evaluations of the gap by the march; missed: 1 where the scan flew past an impact.
     """
     if how is None:
-        tau, p, q, looks = first_impact(x, b, c, s, g)
-        return tau, p, q, looks, 0
+        tau, p, q, evaluations = first_impact(x, b, c, s, g)
+        return tau, p, q, evaluations, 0
     tau, p, q, missed = scanned_impact(x, b, c, s, g, how)
     return tau, p, q, 0, missed
 
 
 @jit
 def step(x, v, w, k, g, head, low, how):
-    """(x', v', w', tau, looks, missed): the state just before the next impact, eq. (28)."""
+    """(x', v', w', tau, evaluations, missed): the state just before the next impact, eq. (28)."""
     b, c, s = rebound(v, w, k, head, low)
-    tau, p, q, looks, missed = next_impact(x, b, c, s, g, how)
+    tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, how)
     v = b + g * tau
     # on the section to the last bit, also where the impact grazes
-    return p, v, max(q, -v), tau, looks, missed
+    return p, v, max(q, -v), tau, evaluations, missed
 
 
 @jit

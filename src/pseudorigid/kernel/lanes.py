@@ -1,6 +1,6 @@
 """Many orbits at once: the steps of `impact`, in SIMD lanes.
 
-Each of LANES orbits is a lane. A round takes one look at the gap for every lane, whatever its
+Each of LANES orbits is a lane. A round evaluates the gap once for every lane, whatever its
 flight has come to, with the functions and so the bits of `flight.first_impact`. What that function
 decides by a branch is here a choice between two values, in loops that the compiler turns into
 vector instructions: no `if`, every choice before the first store, and each loop short enough for
@@ -17,42 +17,44 @@ from .compiled import jit
 from .flight import (
     HUGE,
     amplitude_bound,
-    launch,
-    look,
+    first_step,
+    gap,
+    impact_free_time,
     newton,
     rises_to_its_root,
+    rotated,
     series,
-    soar,
     stride,
     sure_stride,
-    turn,
 )
 from .impact import rebound, step, transfer
 
 LANES = 32
 FEW = 12  # fewer orbits than this are faster one after the other
 # The state of a lane, the flight that led there, and how many impacts are left; of the flight under
-# way the time to look at, 1 once it is close to its root, the bracket then, the times between which
-# it can jump, and how many looks it took.
-X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, FAST, LEAVE, LOOKS = (i * LANES for i in range(13))
-# What a look shows; the next time by the march and 1 if that is a plain step of it; the step to the
-# root and 1 if it is the last; then the next time, 1 for an impact there, 1 to leave the lane to
-# `_attend`.
+# way the time to evaluate at, 1 once it is close to its root, the bracket then, what
+# `impact_free_time` gave, and how many evaluations it took.
+X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, RATE, FREE, EVALUATIONS = (
+    i * LANES for i in range(13)
+)
+# What an evaluation gives; the next time by the march and 1 if that is a plain step of it; the step
+# to the root and 1 if it is the last; then the next time, 1 for an impact there, 1 for a lane left
+# to `_step_alone`.
 F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
 AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
 SIZE = 29 * LANES
-# What is left to `impact.step`: flights of more looks, and of shorter times or lower speeds.
-_PATIENCE = 50.0
+# What is left to `impact.step`: flights of more evaluations, and of shorter times or lower speeds.
+_MOST_EVALUATIONS = 50.0
 _TINY = 1e-15
 
 
 @jit
-def _look(lanes, k, g, head, low):
+def _gaps(lanes, k, g, head, low):
     for i in range(LANES):
         x, v, w, t = lanes[X + i], lanes[V + i], lanes[W + i], lanes[T + i]
         b, c, s = rebound(v, w, k, head, low)
         s = max(s, 0.0)
-        f, df, ddf, p, q = look(t, x, b, c, s, g, narrow_quadrant(t))
+        f, df, ddf, p, q = gap(t, x, b, c, s, g, narrow_quadrant(t))
         lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i] = f, df, ddf, p, q
         lanes[B + i], lanes[C + i], lanes[S + i], lanes[A + i] = b, c, s, amplitude_bound(x, c)
 
@@ -62,12 +64,12 @@ def _march(lanes, g):
     for i in range(LANES):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
         t, amplitude = lanes[T + i], lanes[A + i]
-        rise, fast, leave = lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i]
+        rise, rate, free = lanes[RISE + i], lanes[RATE + i], lanes[FREE + i]
         sure = sure_stride(-f, df, g, amplitude)
         bounded = stride(-f, df, ddf, q, g, amplitude, 2.0 * sure)
         ahead = t + max(sure, bounded)
         marches = (bounded < 2.0 * sure) & (ahead != t)
-        ahead = leave if (ahead < leave) & (ahead * fast >= rise) else ahead
+        ahead = free if (ahead < free) & (ahead * rate >= rise) else ahead
         lanes[AHEAD + i] = ahead
         lanes[MARCHES + i] = 1.0 if marches else 0.0
 
@@ -89,7 +91,7 @@ def _follow(lanes, g):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
         t, amplitude = lanes[T + i], lanes[A + i]
         was_landing, low, high = lanes[LANDING + i] != 0.0, lanes[LOW + i], lanes[HIGH + i]
-        looks, h, ahead = lanes[LOOKS + i], lanes[STEP + i], lanes[AHEAD + i]
+        evaluations, h, ahead = lanes[EVALUATIONS + i], lanes[STEP + i], lanes[AHEAD + i]
         marches, last = lanes[MARCHES + i] != 0.0, lanes[LAST + i] != 0.0
         below = f < 0.0
         landing = was_landing | (not below) | rises_to_its_root(-f, df, ddf, q, g, amplitude)
@@ -97,7 +99,9 @@ def _follow(lanes, g):
         high = (high if below else t) if was_landing else math.inf
         after = t + h
         lands = (df > 0.0) & (f != 0.0) & (last | ((low < after) & (after < high) & (after != t)))
-        usual = (t > _TINY) & (t < WIDE) & (lanes[S + i] > _TINY) & (looks < _PATIENCE)
+        usual = (
+            (t > _TINY) & (t < WIDE) & (lanes[S + i] > _TINY) & (evaluations < _MOST_EVALUATIONS)
+        )
         plain = (lands if landing else marches) & usual
         flag = 1.0 if landing else 0.0
         done = 1.0 if landing & last else 0.0
@@ -105,39 +109,39 @@ def _follow(lanes, g):
         following = after if landing else ahead
         lanes[NEXT + i], lanes[DONE + i], lanes[ODD + i] = following, done, odd
         lanes[LANDING + i], lanes[LOW + i], lanes[HIGH + i] = flag, low, high
-        lanes[LOOKS + i] = looks + 1.0
+        lanes[EVALUATIONS + i] = evaluations + 1.0
 
 
 @jit
-def _arrive(lanes, then, k, g, head, low):
+def _end_flights(lanes, then, k, g, head, low):
     """The next state where a flight has ended, and the flight from there; how many lanes want
-    `_attend`.
+    `_step_alone`.
     """
     wanting = 0
     for i in range(LANES):
         x, v, w, tau, t = (lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i], lanes[T + i])
-        rise, fast, leave = lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i]
-        looks, left = lanes[LOOKS + i], lanes[LEFT + i]
+        rise, rate, free = lanes[RISE + i], lanes[RATE + i], lanes[FREE + i]
+        evaluations, left = lanes[EVALUATIONS + i], lanes[LEFT + i]
         landing, after, odd = lanes[LANDING + i], lanes[NEXT + i], lanes[ODD + i]
         low_end, high_end = lanes[LOW + i], lanes[HIGH + i]
         moved = (lanes[DONE + i] != 0.0) & (odd == 0.0) & (left > 0.0)
-        p, q = turn(lanes[P + i], lanes[Q + i], lanes[STEP + i])
+        p, q = rotated(lanes[P + i], lanes[Q + i], lanes[STEP + i])
         v1 = lanes[B + i] + g * after
         q = max(q, -v1)
         b, c, s = rebound(v1, q, k, head, low)
         amplitude = amplitude_bound(p, c)
-        first = launch(p, c, max(s, 0.0), g, amplitude)
-        rise1, fast1, leave1 = soar(p, b, g, amplitude)
-        first = leave1 if (first < leave1) & (first * fast1 >= rise1) else first
+        first = first_step(p, c, max(s, 0.0), g, amplitude)
+        rise1, rate1, free1 = impact_free_time(p, b, g, amplitude)
+        first = free1 if (first < free1) & (first * rate1 >= rise1) else first
         x, v, w, tau = (p, v1, q, after) if moved else (x, v, w, tau)
         t = first if moved else (after if odd == 0.0 else t)
-        rise, fast, leave = (rise1, fast1, leave1) if moved else (rise, fast, leave)
-        landing, looks = (0.0, 0.0) if moved else (landing, looks)
+        rise, rate, free = (rise1, rate1, free1) if moved else (rise, rate, free)
+        landing, evaluations = (0.0, 0.0) if moved else (landing, evaluations)
         left = left - 1.0 if moved else left
         odd = 1.0 if (odd != 0.0) & (left > 0.0) | moved & (left == 0.0) else 0.0
         then[X + i], then[V + i], then[W + i], then[TAU + i] = x, v, w, tau
-        then[RISE + i], then[FAST + i], then[LEAVE + i], then[T + i] = rise, fast, leave, t
-        then[LANDING + i], then[LOOKS + i], then[LEFT + i] = landing, looks, left
+        then[RISE + i], then[RATE + i], then[FREE + i], then[T + i] = rise, rate, free, t
+        then[LANDING + i], then[EVALUATIONS + i], then[LEFT + i] = landing, evaluations, left
         then[ODD + i] = odd
         then[LOW + i], then[HIGH + i] = low_end, high_end
         wanting += int(odd)
@@ -145,37 +149,37 @@ def _arrive(lanes, then, k, g, head, low):
 
 
 @jit
-def _take_off(lanes, i, k, g, head, low):
+def _begin_flight(lanes, i, k, g, head, low):
     """Begin the flight of lane i from its state."""
     x = lanes[X + i]
     b, c, s = rebound(lanes[V + i], lanes[W + i], k, head, low)
     amplitude = amplitude_bound(x, c)
-    t = launch(x, c, max(s, 0.0), g, amplitude)
-    rise, fast, leave = soar(x, b, g, amplitude)
-    if t < leave and t * fast >= rise:
-        t = leave
-    lanes[T + i], lanes[RISE + i], lanes[FAST + i], lanes[LEAVE + i] = t, rise, fast, leave
+    t = first_step(x, c, max(s, 0.0), g, amplitude)
+    rise, rate, free = impact_free_time(x, b, g, amplitude)
+    if t < free and t * rate >= rise:
+        t = free
+    lanes[T + i], lanes[RISE + i], lanes[RATE + i], lanes[FREE + i] = t, rise, rate, free
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
     usual = 1.0 / HUGE < size < HUGE  # or the unit of length has to be changed
-    lanes[LOOKS + i] = 0.0 if usual else math.inf
+    lanes[EVALUATIONS + i] = 0.0 if usual else math.inf
     lanes[LANDING + i] = 0.0
 
 
 @jit
-def _attend(lanes, i, k, g, head, low):
+def _step_alone(lanes, i, k, g, head, low):
     """Do the whole flight of lane i on its own, and begin the next."""
     x, v, w, tau, _, _ = step(lanes[X + i], lanes[V + i], lanes[W + i], k, g, head, low, None)
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, tau
     lanes[LEFT + i] -= 1.0
-    _take_off(lanes, i, k, g, head, low)
+    _begin_flight(lanes, i, k, g, head, low)
 
 
 @jit
-def _board(lanes, i, x, v, w, impacts, k, g, head, low):
+def _begin_orbit(lanes, i, x, v, w, impacts, k, g, head, low):
     """Give lane i a new orbit."""
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, math.nan
     lanes[LEFT + i] = impacts
-    _take_off(lanes, i, k, g, head, low)
+    _begin_flight(lanes, i, k, g, head, low)
 
 
 @jit
@@ -194,23 +198,23 @@ def steps(x, v, w, k, g, impacts, tau, out):
     """
     head, low = transfer(k)
     lanes, then = np.zeros(SIZE), np.zeros(SIZE)
-    boarded = min(x.size, LANES)
-    orbit = np.arange(boarded)
+    begun = min(x.size, LANES)
+    orbit = np.arange(begun)
     for i in range(LANES):
         j = min(i, x.size - 1)  # a lane without an orbit repeats the last one, with nothing left
-        _board(lanes, i, x[j], v[j], w[j], impacts if i < x.size else 0, k, g, head, low)
-    flying = boarded
+        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts if i < x.size else 0, k, g, head, low)
+    flying = begun
     while flying > 0:
-        _look(lanes, k, g, head, low)
+        _gaps(lanes, k, g, head, low)
         _march(lanes, g)
         _land(lanes)
         _follow(lanes, g)
-        wanting = _arrive(lanes, then, k, g, head, low)
+        wanting = _end_flights(lanes, then, k, g, head, low)
         lanes, then = then, lanes
         if wanting > 0:
             for i in range(LANES):
                 if lanes[ODD + i] != 0.0 and lanes[LEFT + i] > 0.0:
-                    _attend(lanes, i, k, g, head, low)
+                    _step_alone(lanes, i, k, g, head, low)
         if out.size > 0:
             _store(lanes, orbit, impacts, out)
         if wanting > 0:
@@ -220,9 +224,9 @@ def steps(x, v, w, k, g, impacts, tau, out):
                     x[j], v[j], w[j] = lanes[X + i], lanes[V + i], lanes[W + i]
                     tau[j] = lanes[TAU + i]
                     flying -= 1
-                    if boarded < x.size:
-                        j = boarded
+                    if begun < x.size:
+                        j = begun
                         orbit[i] = j
-                        _board(lanes, i, x[j], v[j], w[j], impacts, k, g, head, low)
-                        boarded += 1
+                        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts, k, g, head, low)
+                        begun += 1
                         flying += 1

@@ -38,7 +38,7 @@ class Gap:
         sine, cosine = t.sin_cos()
         return self.g * t - self.s + self.c * (cosine - 1) + self.x * sine
 
-    def look(self, t):
+    def at(self, t):
         """f, f' and f'' at t."""
         sine, cosine = t.sin_cos()
         x, c, gt = self.x, self.c, self.g * t
@@ -143,7 +143,7 @@ def _march(gap, after):
     for _ in range(_MOST_STEPS):
         if far is not None and far[0] < t < far[1]:
             t = far[1]
-        height, slope, curve = gap.look(t)
+        height, slope, curve = gap.at(t)
         if not height < 0:
             break
         if slope > 0:
