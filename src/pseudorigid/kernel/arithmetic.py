@@ -80,8 +80,9 @@ def _reduce(t):
 
 @jit
 def _reduce_wide(t):
-    """The same for any finite t > 0, n modulo 4: an exact product with the digits of 2/pi that
-    matter.
+    """t - n pi/2 for any finite t > 0, n modulo 4.
+
+    By an exact product with those digits of 2/pi that matter.
     """
     bits = np.float64(t).view(np.int64)
     mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000
@@ -190,7 +191,23 @@ def quarter_turns(a, b, n):
 
 @jit
 def sincos(t):
-    """(sin t, cos t) of a double, each within 0.8 ulp; NaN where t is not finite."""
+    """Sine and cosine of a double, with the same bits on every machine.
+
+    Parameters
+    ----------
+    t : float
+        Angle in radians.
+
+    Returns
+    -------
+    sine, cosine : float
+        Each within 0.8 ulp; NaN where t is not finite.
+
+    References
+    ----------
+    The argument is reduced below WIDE as in Cody and Waite, Software Manual for the Elementary
+    Functions (1980), above it as in Payne and Hanek, SIGNUM Newsletter 18 (1983).
+    """
     sine, cosine, _, _, n = quadrant(t)
     cosine, sine = quarter_turns(cosine, sine, n)
     return sine, cosine
@@ -198,7 +215,17 @@ def sincos(t):
 
 @jit
 def sincos_each(t):
-    """`sincos` of each element of the array t (n,), as two arrays."""
+    """`sincos` of each element of an array.
+
+    Parameters
+    ----------
+    t : ndarray, shape (n,)
+        Angles in radians.
+
+    Returns
+    -------
+    sine, cosine : ndarray, shape (n,)
+    """
     sine = np.empty(t.size)
     cosine = np.empty(t.size)
     for i in range(t.size):
@@ -229,13 +256,33 @@ def _log(a, exponent):
 
 @jit
 def narrow_log(a):
-    """`log` for a normal number above 0, without a branch."""
+    """`log` for a normal number above 0, without a branch.
+
+    Parameters
+    ----------
+    a : float
+        From 2**-1022 up, finite: others are not looked for.
+
+    Returns
+    -------
+    float
+    """
     return _log(a, 0.0)
 
 
 @jit
 def log(a):
-    """Natural logarithm of a double, within 0.8 ulp; -inf at 0, NaN below, inf at inf."""
+    """Natural logarithm of a double, with the same bits on every machine.
+
+    Parameters
+    ----------
+    a : float
+
+    Returns
+    -------
+    float
+        Within 0.8 ulp; -inf at 0, NaN below, inf at inf.
+    """
     if not a > 0.0:
         return -math.inf if a == 0.0 else math.nan
     if a == math.inf:

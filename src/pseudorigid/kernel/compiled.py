@@ -28,10 +28,20 @@ _CACHE = _cache()
 
 
 def jit(function):
-    """Compile on first use.
+    """Compile a function on its first call, with strict arithmetic.
 
     No fastmath, no parallel: every + - * / and sqrt is rounded once, in the order written.
     error_model="numpy" turns 1/0 into inf, as the processor does, instead of a Python exception.
+
+    Parameters
+    ----------
+    function : callable
+        Of numbers, tuples and arrays, in the part of Python that numba compiles.
+
+    Returns
+    -------
+    callable
+        The same, compiled for each set of argument types, without the interpreter's lock.
     """
     others = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _CACHE

@@ -27,7 +27,9 @@ from .compiled import jit
 MOST_EVALUATIONS = 10_000
 # What a last step may leave of tau: a tenth of a rounding.
 _SLACK = 1e-17
+# A contact speed below this share of A counts as 0: its square would underflow.
 _NO_SPEED = 1e-140
+# Sizes from 1/HUGE to HUGE have fourth powers that neither over- nor underflow.
 HUGE = 2.0**200
 # 1/3!, 1/4!, ...: a product costs a third of a division
 _R3, _R4, _R5, _R6, _R7 = (1.0 / n for n in (6.0, 24.0, 120.0, 720.0, 5040.0))
@@ -43,8 +45,9 @@ def amplitude_bound(x, c):
 
 @jit
 def first_step(x, c, s, g, amplitude):
-    """A first time at or before the root: that of -s + (g + x) t/2 + A t^2/6, which lies above
-    f/t.
+    """A first time at or before the root.
+
+    That of -s + (g + x) t/2 + A t^2/6, which lies above f/t.
     """
     h = 0.5 * (g + x)
     root = math.sqrt(h * h + (2.0 / 3.0) * s * amplitude)
@@ -57,8 +60,12 @@ def first_step(x, c, s, g, amplitude):
 
 @jit
 def impact_free_time(x, b, g, amplitude):
-    """(rise, rate, free): no impact at t < free where t rate >= rise, as there
-    f < b t + g t^2/2 + x + A < 0.
+    """A time up to which no impact happens, for long flights.
+
+    Returns
+    -------
+    rise, rate, free : float
+        No impact at t < free where t rate >= rise, as there f < b t + g t^2/2 + x + A < 0.
     """
     square = b * b - 2.0 * g * (x + amplitude)
     if not (b < 0.0 and square > 0.0):
@@ -69,8 +76,23 @@ def impact_free_time(x, b, g, amplitude):
 
 @jit
 def gap(t, x, b, c, s, g, trigonometry):
-    """f, f', f'', P, Q at t, from `quadrant` of t. Up to t = pi/4 the terms of f that cancel at 0
-    are left out by hand.
+    """The gap and its derivatives at a time after an impact.
+
+    Up to t = pi/4 the terms of f that cancel at 0 are left out by hand.
+
+    Parameters
+    ----------
+    t : float
+        Time since the impact (1/omega).
+    x, b, c, s, g : float
+        The flight, as for `first_impact`.
+    trigonometry : tuple
+        `quadrant` of t.
+
+    Returns
+    -------
+    f, df, ddf, p, q : float
+        f, f', f'', P and Q.
     """
     sine, cosine, sine_tail, cosine_tail, n = trigonometry
     a, d = quarter_turns(x, c, n)  # while sine and cosine are under way
@@ -142,8 +164,15 @@ def _march(depth, df, ddf, q, g, amplitude):
 
 @jit
 def series(f, df, ddf, p, q, t, amplitude):
-    """The step from t to the root nearby by the inverse series of f to fourth order, whether the
-    series holds, and whether what it leaves is below the rounding of tau.
+    """The step to the root nearby, by the inverse series of f to fourth order.
+
+    Returns
+    -------
+    h : float
+    holds : bool
+        Whether the series holds.
+    last : bool
+        Whether what it leaves is below the rounding of tau.
     """
     inverse = 1.0 / df
     u = -f * inverse
@@ -159,8 +188,9 @@ def series(f, df, ddf, p, q, t, amplitude):
 
 @jit
 def newton(f, df, ddf, p, q):
-    """The same farther off: the parabola's root, and one Newton step on the sixth-order Taylor
-    polynomial.
+    """The step to the root where `series` does not hold.
+
+    The parabola's root, and one Newton step on the sixth-order Taylor polynomial.
     """
     root = math.sqrt(max(0.0, df * df - 2.0 * ddf * f))
     inverse = 1.0 / root if root > 0.0 else 0.0  # of the parabola's slope at h
@@ -245,11 +275,37 @@ def _first_impact(x, b, c, s, g):
 
 @jit
 def first_impact(x, b, c, s, g):
-    """The flight from x with velocities b, c just after an impact, s = -(b + c) >= 0.
+    """The time of the next impact, certified to be the first.
 
-    Returns (tau, P, Q, evaluations): the smallest t > 0 with f(t) = 0, then x' = P and udot' = Q
-    there, and how often the gap was evaluated. tau = 0 where the ball does not leave the floor; NaN
-    for input that is not finite. Raises ArithmeticError at MOST_EVALUATIONS.
+    Parameters
+    ----------
+    x : float
+        Position at the impact before (R).
+    b, c : float
+        xdot (R omega) and udot (omega) just after it, eq. (25).
+    s : float
+        -(b + c) >= 0, the contact speed before it; 0 where rounding makes it negative.
+    g : float
+        Gravity, eq. (20).
+
+    Returns
+    -------
+    tau : float
+        The smallest t > 0 with f(t) = 0, in 1/omega; 0 where the ball does not leave the floor, NaN
+        for input that is not finite.
+    p, q : float
+        P(tau), the position there, and Q(tau), udot there.
+    evaluations : int
+        How often the gap was evaluated.
+
+    Raises
+    ------
+    ArithmeticError
+        At MOST_EVALUATIONS.
+
+    References
+    ----------
+    Eq. (21) with (26); the paper has "a variant of the bisection method" for its smallest root.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
     s = max(s, 0.0)  # it may be 0 to rounding, of either sign

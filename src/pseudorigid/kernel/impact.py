@@ -18,9 +18,22 @@ rebound = jit(law.rebound)
 
 @jit
 def next_impact(x, b, c, s, g, how):
-    """The flight from x with velocities b, c, s = -(b + c): (tau, P, Q, evaluations, missed).
+    """The flight after an impact, by the march or by the scan.
 
-    evaluations: evaluations of the gap by the march; missed: 1 where the scan flew past an impact.
+    Parameters
+    ----------
+    x, b, c, s, g : float
+        As for `flight.first_impact`.
+    how : None or (float, float)
+
+    Returns
+    -------
+    tau, p, q : float
+        Time of flight, position and udot at its end.
+    evaluations : int
+        Of the gap, by the march.
+    missed : int
+        1 where the scan flew past an impact.
     """
     if how is None:
         tau, p, q, evaluations = first_impact(x, b, c, s, g)
@@ -31,7 +44,27 @@ def next_impact(x, b, c, s, g, how):
 
 @jit
 def step(x, v, w, k, g, head, low, how):
-    """(x', v', w', tau, evaluations, missed): the state just before the next impact, eq. (28)."""
+    """The impact map, eq. (28): one impact and the flight after it.
+
+    Parameters
+    ----------
+    x, v, w : float
+        State just before the impact: position (R), xdot (R omega), udot (omega).
+    k, g : float
+        The ball.
+    head, low : float
+        `transfer` of k.
+    how : None or (float, float)
+
+    Returns
+    -------
+    x, v, w : float
+        The state just before the next impact.
+    tau : float
+        The flight's time (1/omega).
+    evaluations, missed : int
+        As from `next_impact`.
+    """
     b, c, s = rebound(v, w, k, head, low)
     tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, how)
     v = b + g * tau
@@ -41,11 +74,26 @@ def step(x, v, w, k, g, head, low, how):
 
 @jit
 def flight_derivatives(x, b, c, s, g, tau, trigonometry):
-    """sin tau, cos tau, and the derivatives of tau by x, s and c, from f = 0.
+    """Sine and cosine of a flight's time, and how it depends on the flight's beginning.
 
-    tau_x = -(1 - cos tau)/f', tau_s = tau/f', tau_c = -(sin tau - tau)/f', where s = v + w and c
-    are varied separately: so nothing cancels where tau is small. f' is the speed v' + w' of the
-    impact. `trigonometry` is `quadrant` of tau.
+    s = v + w and c are varied separately: so nothing cancels where tau is small.
+
+    Parameters
+    ----------
+    x, b, c, s, g : float
+        As for `flight.first_impact`.
+    tau : float
+        The flight's time (1/omega).
+    trigonometry : tuple
+        `quadrant` of tau.
+
+    Returns
+    -------
+    sine, cosine : float
+        Of tau.
+    tau_x, tau_s, tau_c : float
+        Derivatives from f = 0: -(1 - cos tau)/f', tau/f' and -(sin tau - tau)/f', where f' is the
+        speed v' + w' of the next impact.
     """
     sine, cosine, sine_tail, cosine_tail, n = trigonometry
     cosine, sine = quarter_turns(cosine, sine, n)
@@ -60,7 +108,26 @@ def flight_derivatives(x, b, c, s, g, tau, trigonometry):
 
 @jit
 def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c):
-    """A tangent vector carried over one impact and flight: J times (dx, dv, dw)."""
+    """A tangent vector carried over one impact and flight: J times (dx, dv, dw), eq. (33).
+
+    Parameters
+    ----------
+    dx, dv, dw : float
+        The vector at the state before.
+    k, g : float
+        The ball.
+    head, low : float
+        `transfer` of k.
+    p, q : float
+        Position and udot just before the next impact.
+    sine, cosine, tau_x, tau_s, tau_c : float
+        As from `flight_derivatives`.
+
+    Returns
+    -------
+    dx, dv, dw : float
+        The vector at the next state.
+    """
     db, dc, ds = rebound(dv, dw, k, head, low)
     dtau = tau_x * dx + tau_s * ds + tau_c * dc
     return (
@@ -72,7 +139,21 @@ def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c
 
 @jit
 def step_with_flight(x, v, w, k, g, head, low, how):
-    """One step, what `tangent` needs to carry vectors along with it, and missed."""
+    """One `step`, and what `tangent` needs to carry vectors along with it.
+
+    Parameters
+    ----------
+    x, v, w, k, g, head, low, how
+        As for `step`.
+
+    Returns
+    -------
+    x, v, w, tau : float
+        The state just before the next impact, and the flight's time.
+    sine, cosine, tau_x, tau_s, tau_c : float
+        As from `flight_derivatives`.
+    missed : int
+    """
     b, c, s = rebound(v, w, k, head, low)
     p, v, q, tau, _, missed = step(x, v, w, k, g, head, low, how)
     sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, g, tau, quadrant(tau))
@@ -81,7 +162,25 @@ def step_with_flight(x, v, w, k, g, head, low, how):
 
 @jit
 def steps(x, v, w, k, g, impacts, tau, how):
-    """Advance the states x, v, w (n,) in place by `impacts`; tau (n,) is the last flight's."""
+    """Advance states by a number of impacts, in place.
+
+    Parameters
+    ----------
+    x, v, w : ndarray, shape (n,)
+        States just before an impact; overwritten.
+    k, g : float
+        The ball.
+    impacts : int
+        At least 0.
+    tau : ndarray, shape (n,)
+        The last flights' times are written here.
+    how : None or (float, float)
+
+    Returns
+    -------
+    int
+        Impacts missed.
+    """
     head, low = transfer(k)
     missed = 0
     for i in range(x.size):
@@ -95,7 +194,18 @@ def steps(x, v, w, k, g, impacts, tau, how):
 
 @jit
 def steps_back(x, v, w, k, g, impacts, tau, how):
-    """`steps` towards the past: F^-1 = R F R, where R reverses the velocities after an impact."""
+    """`steps` towards the past: F^-1 = R F R, where R reverses the velocities after an impact.
+
+    Parameters
+    ----------
+    x, v, w, k, g, impacts, tau, how
+        As for `steps`; tau are the flights from the states reached to those after them.
+
+    Returns
+    -------
+    int
+        Impacts missed.
+    """
     head, low = transfer(k)
     missed = 0
     for i in range(x.size):
@@ -111,7 +221,23 @@ def steps_back(x, v, w, k, g, impacts, tau, how):
 
 @jit
 def history(x, v, w, k, g, out, how):
-    """The same with every impact kept: out (n, impacts, 4) holds x, v, w and tau."""
+    """`steps` with every impact kept.
+
+    Parameters
+    ----------
+    x, v, w : ndarray, shape (n,)
+        States just before an impact; overwritten by the last ones.
+    k, g : float
+        The ball.
+    out : ndarray, shape (n, impacts, 4)
+        x, v, w and tau of every impact, the start excluded, are written here.
+    how : None or (float, float)
+
+    Returns
+    -------
+    int
+        Impacts missed.
+    """
     head, low = transfer(k)
     missed = 0
     for i in range(x.size):
@@ -126,7 +252,25 @@ def history(x, v, w, k, g, out, how):
 
 @jit
 def jacobians(x, v, w, k, g, impacts, out, how):
-    """The Jacobian of `impacts` impacts at each state (n,), by the chain rule: out (n, 3, 3)."""
+    """The Jacobian of the map's iterate at each state, eq. (33), by the chain rule.
+
+    Parameters
+    ----------
+    x, v, w : ndarray, shape (n,)
+        States just before an impact.
+    k, g : float
+        The ball.
+    impacts : int
+        Of the iterate.
+    out : ndarray, shape (n, 3, 3)
+        Row i, column j: the derivative of the i-th new variable by the j-th old one.
+    how : None or (float, float)
+
+    Returns
+    -------
+    int
+        Impacts missed.
+    """
     head, low = transfer(k)
     missed = 0
     for i in range(x.size):

@@ -29,7 +29,7 @@ from .flight import (
 )
 from .impact import rebound, step, transfer
 
-LANES = 32
+LANES = 32  # four turns of a loop with vectors of eight doubles, eight with vectors of four
 FEW = 12  # fewer orbits than this are faster one after the other
 # The state of a lane, the flight that led there, and how many impacts are left; of the flight under
 # way the time to evaluate at, 1 once it is close to its root, the bracket then, what
@@ -43,7 +43,8 @@ X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, RATE, FREE, EVALUATIONS = (
 F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
 AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
 SIZE = 29 * LANES
-# What is left to `impact.step`: flights of more evaluations, and of shorter times or lower speeds.
+# What is left to `impact.step`: flights of more evaluations, where 2 or 3 are usual, and of times
+# or speeds near the rounding of numbers of order one.
 _MOST_EVALUATIONS = 50.0
 _TINY = 1e-15
 
@@ -114,8 +115,9 @@ def _follow(lanes, g):
 
 @jit
 def _end_flights(lanes, then, k, g, head, low):
-    """The next state where a flight has ended, and the flight from there; how many lanes want
-    `_step_alone`.
+    """The next state where a flight has ended, and the flight from there.
+
+    Returns how many lanes want `_step_alone`.
     """
     wanting = 0
     for i in range(LANES):
@@ -193,8 +195,20 @@ def _store(lanes, orbit, impacts, out):
 
 @jit
 def steps(x, v, w, k, g, impacts, tau, out):
-    """Advance the states x, v, w (n,), n >= 1, in place by `impacts` >= 1; tau (n,) is the last
-    flight's. Where `out` (n, impacts, 4) is not empty it holds x, v, w and tau at every impact.
+    """Advance states by a number of impacts in place, with the bits of `impact.steps`.
+
+    Parameters
+    ----------
+    x, v, w : ndarray, shape (n,)
+        States just before an impact, n >= 1; overwritten.
+    k, g : float
+        The ball.
+    impacts : int
+        At least 1.
+    tau : ndarray, shape (n,)
+        The last flights' times are written here.
+    out : ndarray, shape (n, impacts, 4)
+        x, v, w and tau of every impact are written here, unless it is empty.
     """
     head, low = transfer(k)
     lanes, then = np.zeros(SIZE), np.zeros(SIZE)

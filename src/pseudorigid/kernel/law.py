@@ -5,6 +5,16 @@ def transfer(k):
     """2/(1 + k) as a sum of a 26-bit number and a double.
 
     With one rounded constant every impact would add the same relative error of 1e-16 to the energy.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+
+    Returns
+    -------
+    head, low : float
+        The first 26 bits, and the rest rounded to a double.
     """
     total = 1.0 + k
     missing = k - (total - 1.0)
@@ -18,9 +28,23 @@ def transfer(k):
 
 
 def rebound(v, w, k, head, low):
-    """Velocities (b, c) just after an impact, eq. (25), and s = v + w = -(b + c), exact.
+    """Velocities just after an impact, eq. (25).
 
-    (head, low) is `transfer(k)`. Numbers or arrays.
+    Parameters
+    ----------
+    v, w : float, ndarray or sympy.Expr
+        xdot (R omega) and udot (omega) just before the impact.
+    k : float or sympy.Symbol
+        Euler inertia, eq. (5).
+    head, low : float or sympy.Expr
+        2/(1 + k) in two parts, as from `transfer`.
+
+    Returns
+    -------
+    b, c : same as v, w
+        xdot and udot just after the impact.
+    s : same
+        v + w, the contact point's speed, which the impact reverses: b + c = -s, without rounding.
     """
     s = v + w
     e = s * head + s * low

@@ -1,6 +1,7 @@
-"""A reading of the paper's way to the next impact, for comparison: steps of constant length until
-the gap changes sign, then bisection (the paper, which gives no step: "a variant of the bisection
-method").
+"""A reading of the paper's way to the next impact, for comparison.
+
+Steps of constant length until the gap changes sign, then bisection (the paper, which gives no step:
+"a variant of the bisection method").
 
 A scan can step over an impact. The ball then passes through the floor, and its energy does not
 show it; so every flight is also computed by the certified march, and those that came too late are
@@ -13,9 +14,11 @@ from .arithmetic import sincos
 from .compiled import jit
 from .flight import first_impact
 
-# A flight takes some 3 time units; a scan that needs more steps than this gives up.
+# A scan that needs more steps than this gives up: a flight takes some 3 time units, so that steps
+# of 1e-7 are still within it.
 MOST = 50_000_000
-# Where the ball all but touches the floor, the first impact is known to the root of a rounding.
+# An impact later than the certified one by more than the tolerance and this was missed. Where the
+# ball all but touches the floor, the first impact is known to the root of a rounding, 1e-8.
 TOUCH = 1e-6
 
 
@@ -28,10 +31,24 @@ def gap(t, x, b, c, g):
 
 @jit
 def scan(x, b, c, g, step, tolerance):
-    """(tau, evaluations) of the flight from x with velocities b, c.
+    """The time of the next impact by steps and bisection, not certified.
 
-    The bisection ends with a bracket no longer than the tolerance, or of neighbouring doubles. NaN
-    where the gap does not change sign within MOST steps, and for input that is not finite.
+    Parameters
+    ----------
+    x, b, c, g : float
+        Position at the impact before (R), velocities just after it, and gravity.
+    step : float
+        Length of a step in time (1/omega).
+    tolerance : float
+        The bisection ends with a bracket no longer than this, or of neighbouring doubles.
+
+    Returns
+    -------
+    tau : float
+        The bracket's middle (1/omega); NaN where the gap does not change sign within MOST steps,
+        and for input that is not finite.
+    evaluations : int
+        How often the gap was evaluated.
     """
     if not abs(x) + abs(b) + abs(c) + g < math.inf:
         return math.nan, 0
@@ -60,10 +77,26 @@ def scan(x, b, c, g, step, tolerance):
 
 @jit
 def scanned_impact(x, b, c, s, g, how):
-    """The flight from x with velocities b, c, s = -(b + c): (tau, P, Q, missed).
+    """The flight after an impact by the scan, held against the certified one.
 
-    `how` is (step, tolerance); missed is 1 where an earlier impact was flown past. Raises
-    ArithmeticError where the scan ends without an impact.
+    Parameters
+    ----------
+    x, b, c, s, g : float
+        As for `flight.first_impact`.
+    how : (float, float)
+        Step and tolerance (1/omega).
+
+    Returns
+    -------
+    tau, p, q : float
+        The scan's time of flight, position and udot at its end.
+    missed : int
+        1 where an earlier impact was flown past.
+
+    Raises
+    ------
+    ArithmeticError
+        Where the scan ends without an impact.
     """
     step, tolerance = how
     tau, count = scan(x, b, c, g, step, tolerance)

@@ -26,14 +26,40 @@ SINE, COSINE, TAU_X, TAU_S, TAU_C = (i * STRETCH * GROUP for i in range(5))
 
 @jit
 def room():
-    """The arrays that `stretch` fills: states and flights."""
+    """The arrays that `stretch` fills.
+
+    Returns
+    -------
+    states : ndarray, shape (4 (STRETCH + 1) GROUP,)
+        Rows of GROUP orbits: of each of X, V, W and TAU that before the stretch, then one an
+        impact.
+    flights : ndarray, shape (5 STRETCH GROUP,)
+        Rows of GROUP orbits: of each number from `flight_derivatives` one an impact.
+    """
     return np.empty(4 * (STRETCH + 1) * GROUP), np.empty(5 * STRETCH * GROUP)
 
 
 @jit
 def stretch(x, v, w, k, g, impacts, states, flights, how):
-    """Advance the states x, v, w (n,), n <= GROUP, in place by `impacts` <= STRETCH, and fill the
-    arrays of `room`. Returns the impacts missed, as in `impact`.
+    """Advance orbits by a few impacts, and keep what tangent vectors need.
+
+    Parameters
+    ----------
+    x, v, w : ndarray, shape (n,)
+        States just before an impact, n <= GROUP; overwritten by the last ones.
+    k, g : float
+        The ball.
+    impacts : int
+        At most STRETCH.
+    states, flights : ndarray
+        From `room`; overwritten.
+    how : None or (float, float)
+        As in `impact`.
+
+    Returns
+    -------
+    int
+        Impacts missed.
     """
     n = x.size
     states[X : X + n], states[V : V + n], states[W : W + n] = x, v, w
@@ -82,7 +108,23 @@ def _derive_wide(states, flights, row, n, k, g, head, low):
 
 @jit
 def carried(dx, dv, dw, k, g, head, low, states, flights, at):
-    """The tangent vector (dx, dv, dw) of orbit i carried over impact j; at = j GROUP + i."""
+    """A tangent vector of one orbit carried over one impact of a stretch.
+
+    Parameters
+    ----------
+    dx, dv, dw : float
+        The vector.
+    k, g, head, low : float
+        The ball, and `transfer` of k.
+    states, flights : ndarray
+        As `stretch` filled them.
+    at : int
+        j GROUP + i for orbit i and impact j of the stretch, from 0.
+
+    Returns
+    -------
+    dx, dv, dw : float
+    """
     return tangent(
         dx, dv, dw, k, g, head, low, states[X + GROUP + at], states[W + GROUP + at],
         flights[SINE + at], flights[COSINE + at],
