@@ -10,7 +10,24 @@ from .ensemble import ImpactMap
 
 
 def whole_number(name, value):
-    """`value` as an int of at least 1; ValueError, naming it, otherwise."""
+    """A number that must be whole, as an int.
+
+    Parameters
+    ----------
+    name : str
+        What the message calls it.
+    value : int or float
+
+    Returns
+    -------
+    int
+        At least 1.
+
+    Raises
+    ------
+    ValueError
+        For anything else.
+    """
     number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
     if number and 1 <= value < math.inf and value == int(value):
         return int(value)
@@ -40,10 +57,21 @@ class Ball:
     ValueError
         k or g outside its range; from methods, a state with xdot + udot < 0.
 
+    Notes
+    -----
+    Positions are in R, xdot in R omega, udot in omega, energies in m omega^2 R^2, eqs. (15)-(20).
+
     References
     ----------
     Equations are those of Kanso and Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid
     foundation".
+
+    Examples
+    --------
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> x, xdot, udot, tau = ball.impact(*ball.start(0.5, 0.01))
+    >>> abs(ball.energy(x, xdot, udot) - 0.01) < 1e-15
+    True
     """
 
     k: float
@@ -60,13 +88,29 @@ class Ball:
             object.__setattr__(self, name, float(value))
 
     def energy(self, x, xdot, udot):
-        """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
+        """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2.
+
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        float or array
+            In m omega^2 R^2.
+        """
         x, xdot, udot = _floats(x, xdot, udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
     def energy_bounds(self):
-        """(lowest, highest) energy: at rest on the floor, -g^2/(2k), and k/2 - g, eq. (31)."""
+        """The lowest energy there is, and the paper's highest.
+
+        Returns
+        -------
+        lowest, highest : float
+            -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1.
+        """
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     def section(self, energy):
@@ -77,10 +121,12 @@ class Ball:
         Parameters
         ----------
         energy : float
+            In m omega^2 R^2.
 
         Returns
         -------
         centre, radius : float
+            In R.
 
         Raises
         ------
@@ -109,7 +155,7 @@ class Ball:
         Raises
         ------
         ValueError
-            The energy surface has no such point with xdot + udot >= 0.
+            The energy surface has no such point with xdot + udot >= 0, or another branch.
         """
         if branch not in (1, -1):
             raise ValueError(f"branch = {branch!r} is not allowed: 1 or -1")
@@ -156,10 +202,16 @@ class Ball:
         fraction : float or array
             From -1 to 1.
         energy : float
+            In m omega^2 R^2.
 
         Returns
         -------
         x, xdot, udot : float or array
+
+        Raises
+        ------
+        ValueError
+            A fraction beyond the rim, or an energy below the lowest.
         """
         centre, radius = self.section(energy)
         (f,) = _floats(fraction)
@@ -170,16 +222,33 @@ class Ball:
         return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
     def reflect(self, x, xdot, udot):
-        """The reversor R, (x, y) -> (x, -y): velocities after the impact, eq. (25), reversed."""
+        """The reversor R, (x, y) -> (x, -y): velocities after the impact, eq. (25), reversed.
+
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        x, xdot, udot : float or array
+            R undoes itself, and R F R is the inverse of the impact map F.
+        """
         x, xdot, udot = self.on_section(x, xdot, udot)
         b, c, _ = rebound(xdot, udot, self.k, *transfer(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
     def time_to_impact(self, x, xdot, udot):
-        """Time tau to the next impact: the smallest positive root of eq. (21) with (26).
+        """Time to the next impact: the smallest positive root of eq. (21) with (26).
 
-        0 where the ball does not leave the floor (at rest on it, or on the rim xdot + udot = 0 and
-        pressed down).
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        float or array
+            In 1/omega; 0 where the ball does not leave the floor (at rest on it, or on the rim
+            xdot + udot = 0 and pressed down).
         """
         return self.impact(x, xdot, udot)[3]
 
@@ -196,7 +265,7 @@ class Ball:
         Returns
         -------
         x, xdot, udot, tau : float or array
-            The state just before the next impact, and the flight time.
+            The state just before the next impact, and the flight time (1/omega), eq. (27).
         """
         return self._once(self.map.steps, x, xdot, udot)
 
@@ -210,7 +279,7 @@ class Ball:
         Returns
         -------
         x, xdot, udot, tau : float or array
-            The state just before the previous impact, and the flight time since.
+            The state just before the previous impact, and the flight time since (1/omega).
         """
         return self._once(self.map.steps_back, x, xdot, udot)
 
@@ -247,11 +316,12 @@ class Ball:
         x, xdot, udot : float
             One state.
         impacts : int
+            Of the map's iterate.
 
         Returns
         -------
         tuple
-            Two rows of two numbers; the determinant is 1.
+            Two rows of two numbers; the determinant is 1, eq. (42).
         """
         k, g = self.k, self.g
         s, y = xdot + udot, xdot - k * udot
@@ -264,7 +334,21 @@ class Ball:
         return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
     def on_section(self, x, xdot, udot):
-        """The state as arrays of one shape; ValueError where xdot + udot < 0, eq. (22)."""
+        """The state as arrays of one shape.
+
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
+        Returns
+        -------
+        x, xdot, udot : ndarray
+
+        Raises
+        ------
+        ValueError
+            Where xdot + udot < 0, eq. (22).
+        """
         x, xdot, udot = _floats(x, xdot, udot)
         if np.any(xdot < -udot):  # a sum would warn of inf - inf
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
@@ -273,10 +357,14 @@ class Ball:
     def columns(self, x, xdot, udot):
         """States for a loop that advances them in place.
 
+        Parameters
+        ----------
+        x, xdot, udot : float or array
+
         Returns
         -------
-        columns : list
-            Copies of the three arrays, (n,).
+        columns : list of ndarray, shape (n,)
+            Copies of the three.
         shape : tuple
             What they were before.
         """

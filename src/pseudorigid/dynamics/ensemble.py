@@ -1,5 +1,6 @@
-"""The map of many states: orbits in SIMD lanes and on all cores, each with the bits it has alone;
-and, state by state, the way back and the Jacobian.
+"""The map of many states: orbits in SIMD lanes and on all cores, each with the bits it has alone.
+
+And, state by state, the way back and the Jacobian.
 """
 
 import math
@@ -13,14 +14,31 @@ from ..kernel import impact, lanes
 
 
 def threads() -> int:
-    """How many threads to use: OMP_NUM_THREADS, or one for each core of this process."""
+    """How many threads to use.
+
+    Returns
+    -------
+    int
+        OMP_NUM_THREADS, or one for each core of this process.
+    """
     given = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, int(given)) if given.isdigit() else len(os.sched_getaffinity(0))
 
 
 def shared(work, *arrays):
-    """The sum of what `work` returns for the pieces of the arrays, cut along their first axis, the
-    orbits: one piece a thread.
+    """Do work on pieces of arrays, one piece a thread.
+
+    Parameters
+    ----------
+    work : callable
+        Takes the pieces, returns a number.
+    *arrays : ndarray
+        Cut along their first axis, the orbits.
+
+    Returns
+    -------
+    int
+        The sum of what `work` returns.
     """
     workers = min(threads(), len(arrays[0]) // lanes.LANES)
     if workers < 2:
@@ -33,15 +51,27 @@ def shared(work, *arrays):
 class ImpactMap:
     """The impact map over arrays of states, and how many impacts it computed and missed so far.
 
-    Args:
-        scan: None for the certified march, which misses none; or (step, tolerance), each above 0
-            and finite: steps in time of constant length until the gap changes sign, then
-            bisection until the bracket is no longer than the tolerance.
+    Methods take states x, v, w (n,), that is x (R), xdot (R omega) and udot (omega) just before an
+    impact, and the ball's k and g.
 
-    States are x, v, w (n,), advanced in place.
+    Parameters
+    ----------
+    scan : (float, float), optional
+        None for the certified march, which misses no impact; or step and tolerance (1/omega), each
+        above 0 and finite: steps in time of constant length until the gap changes sign, then
+        bisection until the bracket is no longer than the tolerance.
 
-    Raises:
-        ValueError: a step or tolerance out of range.
+    Attributes
+    ----------
+    how : None or (float, float)
+        `scan`, as the kernel's functions take it.
+    impacts, missed : int
+        Computed so far, and of these the ones that came after an impact that was flown past.
+
+    Raises
+    ------
+    ValueError
+        A step or tolerance out of range.
     """
 
     def __init__(self, scan=None):
@@ -60,23 +90,59 @@ class ImpactMap:
         return self.how is None
 
     def steps(self, x, v, w, k, g, impacts, tau):
-        """Advance the states by `impacts`; tau (n,) is the last flight's.
+        """Advance states in place; the memory does not grow with `impacts`.
 
-        The memory does not grow with `impacts`.
+        Parameters
+        ----------
+        x, v, w : ndarray, shape (n,)
+            Overwritten.
+        k, g : float
+        impacts : int
+        tau : ndarray, shape (n,)
+            The last flights' times (1/omega) are written here.
         """
         self._share(x, v, w, k, g, impacts, tau, np.empty((x.size, 0, 4)))
 
     def history(self, x, v, w, k, g, out):
-        """Every impact of the states: out (n, impacts, 4) holds x, v, w and tau."""
+        """Advance states in place and keep every impact.
+
+        Parameters
+        ----------
+        x, v, w : ndarray, shape (n,)
+            Overwritten.
+        k, g : float
+        out : ndarray, shape (n, impacts, 4)
+            x, v, w and tau of each impact are written here, the start excluded.
+        """
         self._share(x, v, w, k, g, out.shape[1], np.empty(x.size), out)
 
     def steps_back(self, x, v, w, k, g, impacts, tau):
-        """`steps` towards the past."""
+        """`steps` towards the past: F^-1 = R F R.
+
+        Parameters
+        ----------
+        x, v, w : ndarray, shape (n,)
+            Overwritten.
+        k, g : float
+        impacts : int
+        tau : ndarray, shape (n,)
+            The times (1/omega) of the flights that the states reached begin are written here.
+        """
         missed = impact.steps_back(x, v, w, k, g, impacts, tau, self.how)
         self.count(impacts * x.size, missed)
 
     def jacobians(self, x, v, w, k, g, impacts, out):
-        """The Jacobian of `impacts` impacts at each state, which stays: out (n, 3, 3)."""
+        """The Jacobian of `impacts` impacts at each state, eq. (33).
+
+        Parameters
+        ----------
+        x, v, w : ndarray, shape (n,)
+            They stay.
+        k, g : float
+        impacts : int
+        out : ndarray, shape (n, 3, 3)
+            Row i, column j: the derivative of the i-th new variable by the j-th old one.
+        """
         missed = impact.jacobians(x, v, w, k, g, impacts, out, self.how)
         self.count(impacts * x.size, missed)
 

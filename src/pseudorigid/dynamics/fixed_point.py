@@ -1,4 +1,4 @@
-"""The symmetric fixed point in closed form, in units where g = 1.
+"""The symmetric fixed point in closed form, in units where g = 1: lengths in g R.
 
 With theta = tau/2 on (0, pi): v = theta, w = theta/k, x = theta cot(theta)/k, and
 
@@ -23,37 +23,113 @@ def bent(theta):
 
 
 def energy(k, theta):
-    """E/g^2 of the fixed point with this half time of flight; rises with theta from -1/(2k)."""
+    """The fixed point's energy, from half its time of flight.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    theta : float
+        tau/2 (1/omega), 0 < theta < pi.
+
+    Returns
+    -------
+    float
+        E/g^2, which rises with theta from -1/(2k).
+    """
     b = bent(theta)
     return ((1.0 + k) * theta * theta + b * b - 1.0) / (2.0 * k)
 
 
 def half_time(k, e):
-    """theta at the energy `e` = E/g^2 > -1/(2k)."""
+    """Half the fixed point's time of flight, from its energy.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    e : float
+        E/g^2 > -1/(2k).
+
+    Returns
+    -------
+    float
+        theta = tau/2 (1/omega), between 0 and pi, to the last bit.
+    """
     return _root(lambda theta: energy(k, theta) < e, math.pi)
 
 
 def place(k, theta):
-    """x of the fixed point; its y is 0."""
+    """Where the fixed point is on the symmetry line y = 0.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    theta : float
+        Half the time of flight (1/omega).
+
+    Returns
+    -------
+    float
+        x in g R.
+    """
     return (1.0 - bent(theta)) / k
 
 
 def trace(k, theta):
-    """Trace of the Jacobian in the chart; falls with theta from 2."""
+    """Trace of the map's Jacobian at the fixed point, in the chart (x, y = xdot - k udot).
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    theta : float
+        Half the time of flight (1/omega).
+
+    Returns
+    -------
+    float
+        Falls with theta from 2; elliptic above -2.
+    """
     sine, cosine = sincos(2.0 * theta)
     shear = bent(theta) * (2.0 * theta - sine) / (theta * (1.0 + k))
     return 2.0 * (1.0 + k * (cosine - shear)) / (1.0 + k)
 
 
 def rotation(trace):
-    """The rotation number, 0 to 1/2, of an elliptic fixed point with this trace; NaN beyond."""
+    """The rotation number of an elliptic fixed point.
+
+    Parameters
+    ----------
+    trace : float
+        2 cos(2 pi rho).
+
+    Returns
+    -------
+    float
+        rho, turns an impact, 0 to 1/2; NaN where the trace is beyond 2 or -2.
+    """
     if not -2.0 <= trace <= 2.0:
         return math.nan
     return _root(lambda rho: 2.0 * sincos(2.0 * math.pi * rho)[1] > trace, 0.5)
 
 
 def resonance(k, turns, impacts):
-    """E/g^2 at which the rotation number is turns/impacts, at most 1/2: the first on the way up."""
+    """The energy at which the fixed point's rotation number is a given fraction.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    turns, impacts : int
+        The fraction turns/impacts, at most 1/2.
+
+    Returns
+    -------
+    float
+        E/g^2, the first on the way up.
+    """
     wanted = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
     return energy(k, _root(lambda theta: trace(k, theta) > wanted, math.pi))
 

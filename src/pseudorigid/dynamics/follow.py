@@ -34,14 +34,24 @@ _DX, _DV, _DW = ((VECTOR + i) * GROUP for i in range(3))
 _GROWN, _SIZE, _CENTRE, _EXPECTED = (i * GROUP for i in (GROWN, SIZE, CENTRE, EXPECTED))
 _P, _Q, _TURN = ((KEPT + i) * GROUP for i in range(3))
 _ROWS = (KEPT + 3) * GROUP
-_LEAST, _MOST = 1e-50, 1e50  # of a tangent vector's length
+# A tangent vector's length beyond these is made 1: the impact after neither over- nor underflows.
+_LEAST, _MOST = 1e-50, 1e50
 
 
 @jit
 def angle(across, up):
-    """The angle of the vector (across, up), in (-pi, pi], to 1e-14; 0 for the vector 0.
+    """The angle of a vector in the plane.
 
     Choices instead of branches, for vector instructions.
+
+    Parameters
+    ----------
+    across, up : float
+
+    Returns
+    -------
+    float
+        Radians in (-pi, pi], to 1e-14; 0 for the vector 0.
     """
     a, b = abs(across), abs(up)
     large = max(a, b)
@@ -144,15 +154,33 @@ def _group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, 
 
 @jit
 def follow(orbits, k, start, stop, turning, growing, turned, growth):
-    """Follow orbits, in units where g = 1, from impact `start` to `stop`.
+    """Follow orbits, in units where g = 1: lengths in g R.
 
-    orbits (KEPT, n): the rows named above, in place. A tangent vector along the energy surface is
-    carried along; NaN from an exactly grazing impact on, where the map has no derivative.
+    A tangent vector along the energy surface is carried along; NaN from an exactly grazing impact
+    on, where the map has no derivative.
 
-    turned (m, n): the turns around the centre, summed over the windows `turning`, m pairs of first
-    impact and length, with the weights (t (1 - t))^3, t from 0 to 1 over the window. A turn is
-    taken within half a turn of the one expected. growth (m, n): the logarithm of the tangent
-    vector's length, summed over the windows `growing`.
+    Parameters
+    ----------
+    orbits : ndarray, shape (KEPT, n)
+        A row for each quantity named above, a column an orbit; advanced in place.
+    k : float
+        Euler inertia, eq. (5).
+    start, stop : int
+        The impacts to be done, counted from the orbits' beginning.
+    turning, growing : ndarray of int, shape (m, 2)
+        Windows: first impact and length.
+    turned : ndarray, shape (m, n)
+        Added to: the turns around the centre, summed over each window of `turning` with the weights
+        (t (1 - t))^3, t from 0 to 1 over the window. A turn is taken within half a turn of the one
+        expected.
+    growth : ndarray, shape (m, n)
+        Added to: the logarithm of the tangent vector's length, summed over each window of
+        `growing`.
+
+    References
+    ----------
+    The weights are those of a weighted Birkhoff average: Das, Saiki, Sander and Yorke, Quantitative
+    quasiperiodicity, Nonlinearity 30 (2017), whose bump is exp(-1/(t (1 - t))).
     """
     count = orbits.shape[1]
     for first in range(0, count, GROUP):

@@ -24,19 +24,39 @@ from .variables import orbit_dims
 def lyapunov_spectrum(ball, state, impacts, records=400):
     """Lyapunov exponents an impact, and how they converge.
 
-    Args:
-        ball: a Ball.
-        state: (x, xdot, udot) just before an impact, scalars or arrays that broadcast.
-        impacts: how many impacts, at least 1.
-        records: after how many equal stretches the exponents so far are kept.
+    Parameters
+    ----------
+    ball : Ball
+    state : (x, xdot, udot)
+        Just before an impact, scalars or arrays that broadcast.
+    impacts : int
+        How many impacts, at least 1.
+    records : int
+        After how many equal stretches the exponents so far are kept, at least 1.
 
-    Returns:
-        Dataset of exponent, dims (impact, ..., index), largest first; its last entry the final
-        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`.
-        NaN from a grazing impact on, where the map has no derivative.
+    Returns
+    -------
+    xarray.Dataset
+        exponent, dims (impact, ..., index), largest first, nats an impact; its last entry the final
+        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`,
+        of more `orbit_0`, ... NaN from a grazing impact on, where the map has no derivative.
 
-    Raises:
-        ValueError: a state with xdot + udot < 0, impacts < 1 or records < 1.
+    Raises
+    ------
+    ValueError
+        A state with xdot + udot < 0, impacts < 1 or records < 1.
+
+    References
+    ----------
+    Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks; Benettin, Galgani,
+    Giorgilli and Strelcyn, Meccanica 15 (1980).
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> lyapunov_spectrum(ball, ball.start(0.6, 0.01), 1000, 10)["exponent"].dims
+    ('impact', 'index')
     """
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
@@ -67,12 +87,28 @@ def scene_exponents(ball, energy, starts, impacts, records):
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     starts : list
         Where its orbits start, each as in `starts.start_state`.
     impacts : int or list of int
         How many impacts of each; where they differ `exponent` is NaN at the records of others.
     records : int
         How many records of each orbit.
+
+    Returns
+    -------
+    xarray.Dataset
+        exponent (impact, orbit, index) as from `lyapunov_spectrum`; start on `orbit`, and start_x
+        and start_xdot where a start is a point.
+
+    Raises
+    ------
+    ValueError
+        A start off the section, impacts < 1 or records < 1.
+
+    References
+    ----------
+    Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks, and Figure 7.
 
     Examples
     --------
@@ -115,8 +151,10 @@ _A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
 
 @jit
 def _advance(frames, n, k, g, head, low, states, flights, row):
-    """Carry the frames of some orbits over an impact, make them orthonormal and multiply up their
-    lengths. Returns whether one of these nears the end of what a double holds.
+    """Carry the frames of some orbits over an impact, and make them orthonormal.
+
+    Their lengths are multiplied up. Returns whether one of these nears the end of what a double
+    holds.
     """
     far = 0
     row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
@@ -147,6 +185,7 @@ def _advance(frames, n, k, g, head, low, states, flights, row):
 
 @jit
 def _held(length):
+    """Whether a length is far from the ends of what a double holds."""
     return (length > 1e-100) & (length < 1e100)
 
 

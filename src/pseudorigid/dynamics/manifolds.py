@@ -24,15 +24,17 @@ from .variables import of_type, variables
 
 # End of the first segment in section radii: it misses the branch by about its square.
 START = 1e-6
-# A bend counts while a neighbouring side is longer than this share of the distance allowed.
+# A bend counts while a neighbouring side is longer than this share of the distance allowed: else a
+# corner of the line would be refined without end.
 FINEST = 1e-3
-# Outside a window the line is followed with sides of this length, in section radii.
+# Outside a window the line is followed with sides of this length, in section radii: that of the
+# paper's whole branches.
 COARSE = 0.01
-FRESH = 16  # points of an image to begin with
+FRESH = 16  # points of an image to begin with; where they are too few, more are inserted
 MOST_IMAGES = 400  # of a multiplier of at least WEAK; else so many that they grow as much
-WEAK = 1.5
-KNOWN = 0.1
-MOST_VERTICES = 3_000_000
+WEAK = 1.5  # takes 35 images from START to the section's size; smaller multipliers take more
+KNOWN = 0.1  # more would be seen
+MOST_VERTICES = 3_000_000  # of a branch: 72 MB
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 
@@ -51,31 +53,51 @@ def trace_manifold(
 ):
     """One branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
 
-    Args:
-        ball: a Ball.
-        energy: the energy of the orbit.
-        orbit: Dataset of one orbit, x, xdot, udot on `point`, as from variables.of_type. An inverse
-            hyperbolic one is traced under P^2n.
-        saddle: index of the point.
-        stable: the stable branch instead of the unstable one.
-        side: "outer", which leaves the point away from the middle of the orbit, or "inner".
-        length: arc length in (x, xdot, udot), in section radii.
-        distance: largest side of the polyline, in section radii, or within a window in units of
-        its size.
-        bend: largest bend from side to side, degrees, where a side is longer than FINEST *
-        distance.
-        window: (x_low, x_high, xdot_low, xdot_high); then only what passes through it is kept.
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        The energy of the orbit (m omega^2 R^2).
+    orbit : xarray.Dataset
+        One orbit, x, xdot, udot on `point`, as from `variables.of_type`. An inverse hyperbolic one
+        is traced under P^2n.
+    saddle : int
+        Index of the point.
+    stable : bool
+        The stable branch instead of the unstable one.
+    side : {"outer", "inner"}
+        "outer" leaves the point away from the middle of the orbit.
+    length : float
+        Arc length in (x, xdot, udot), in section radii.
+    distance : float
+        Largest side of the polyline, in section radii, or within a window in units of its size.
+    bend : float
+        Largest bend from side to side, in degrees, where a side is longer than FINEST * distance.
+    window : (x_low, x_high, xdot_low, xdot_high), optional
+        In R and R omega: only what passes through it is kept.
 
-    Returns:
-        Dataset of x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where
-        the line is interrupted, by the window's edge or by a jump of the map. Attribute
-        start_error: by how much, in section radii, the image of the first segment misses it; ended:
-        the length, in section radii, where a branch is no longer known to rounding, if that is
-        before `length`.
+    Returns
+    -------
+    xarray.Dataset
+        x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where the line is
+        interrupted, by the window's edge or by a jump of the map. Attribute start_error: by how
+        much, in section radii, the image of the first segment misses it; ended: the length, in
+        section radii, where a branch is no longer known to rounding, if that is before `length`.
 
-    Raises:
-        ValueError: an orbit that is not hyperbolic or not of this energy, an argument out of
-            range, or a branch of more than MOST_VERTICES points or MOST_IMAGES images.
+    Raises
+    ------
+    ValueError
+        An orbit that is not hyperbolic or not of this energy, an argument out of range, or a branch
+        of more than MOST_VERTICES points or MOST_IMAGES images.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> six = of_type(symmetric_orbits(ball, 0.01, 6), "hyperbolic")
+    >>> branch = trace_manifold(ball, 0.01, six, length=0.1, distance=0.05, bend=30)
+    >>> sorted(branch.data_vars)
+    ['udot', 'x', 'xdot']
     """
     points = np.stack(
         [np.asarray(orbit[name].values, dtype=float) for name in ("x", "xdot", "udot")]
@@ -142,23 +164,39 @@ def scene_manifolds(
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     periodic : xarray.Dataset
         Orbits of this period, as from `symmetric_orbits`.
-    period, type
+    period : int
+        Of the orbit.
+    type : {"hyperbolic", "inverse hyperbolic"}
         Of the orbit.
     resolution : mapping
         `distance` and `bend` of `trace_manifold`.
     branches : mapping, optional
         {side: {"length": L}}, in section radii: whole branches.
-    point, window, length : optional
-        Instead: the index of a point, a window {"x": [a, b], "xdot": [a, b]} relative to it, and
-        how far the branches are followed, in section radii.
+    point : int, optional
+        Instead of branches: the index of the point that a window shows.
+    window : mapping, optional
+        {"x": [a, b], "xdot": [a, b]}, relative to that point, in section radii.
+    length : float, optional
+        How far the branches are followed then, in section radii.
 
     Returns
     -------
     xarray.Dataset
         x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0 or 1),
-        saddle and side. With a window the attributes window_x, window_xdot, point_x, point_xdot.
+        saddle and side. Attributes start_error and ended of `trace_manifold`, of all branches the
+        worst; with a window window_x, window_xdot, point_x, point_xdot.
+
+    Raises
+    ------
+    ValueError
+        No such orbit, or what `trace_manifold` refuses.
+
+    References
+    ----------
+    Kanso and Papadopoulos, Figures 5 and 6.
 
     Examples
     --------

@@ -29,7 +29,43 @@ def _flights(ball, orbit):
 
 
 def scene_motion(ball, energy, periodic, period, type, duration):
-    """`motion` of a scene: along the orbit of this period and type among those found."""
+    """`motion` of a scene: along the orbit of this period and type among those found.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        Of the orbits; they carry it themselves.
+    periodic : xarray.Dataset
+        Orbits of this period, as from `symmetric_orbits`.
+    period : int
+        Of the orbit.
+    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
+        Of the orbit.
+    duration : float
+        The length of time (1/omega).
+
+    Returns
+    -------
+    xarray.Dataset
+        As from `motion`.
+
+    Raises
+    ------
+    ValueError
+        No such orbit, or too long a duration.
+
+    References
+    ----------
+    Kanso and Papadopoulos, eq. (26), Figures 3 and 4.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
+    6
+    """
     return motion(ball, of_type(periodic, type, period), duration)
 
 
@@ -39,20 +75,24 @@ def motion(ball, orbit, duration):
     The orbit's own points are repeated; a map that is not certified, for which they are no orbit,
     follows the first one impact by impact.
 
-    Args:
-        orbit: Dataset of one orbit with x, xdot, udot, tau on `point`, as from variables.of_type.
-        duration: the length of time.
+    Parameters
+    ----------
+    ball : Ball
+    orbit : xarray.Dataset
+        One orbit, x, xdot, udot, tau on `point`, as from `variables.of_type`.
+    duration : float
+        The length of time (1/omega).
 
-    Returns:
-        Dataset of t, position (x) and strain (u) on `sample`, both ends of each flight included,
-        where position = -strain exactly; impact_t and impact_position on `impact`.
+    Returns
+    -------
+    xarray.Dataset
+        On `sample` t (1/omega), position (x, in R) and strain (u), both ends of each flight
+        included, where position = -strain exactly; impact_t and impact_position on `impact`.
 
-    Examples
-    --------
-    >>> from pseudorigid import Ball, symmetric_orbits
-    >>> one = of_type(symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1), "elliptic")
-    >>> motion(Ball(k=0.2, g=0.04), one, 16).sizes["impact"]
-    6
+    Raises
+    ------
+    ValueError
+        A duration of more than MOST_FLIGHTS flights.
     """
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:

@@ -11,20 +11,34 @@ from .variables import orbit_dims, variables
 def orbit(ball, state, impacts, keep="all"):
     """The orbit of a state, or of many, under the impact map, eq. (28).
 
-    Args:
-        ball: a Ball.
-        state: (x, xdot, udot) just before an impact, scalars or arrays that broadcast.
-        impacts: how many impacts, at least 1.
-        keep: "all", or "last" for the final state alone, in memory that does not grow with
-        `impacts`.
+    Parameters
+    ----------
+    ball : Ball
+    state : (x, xdot, udot)
+        Just before an impact, scalars or arrays that broadcast.
+    impacts : int
+        How many impacts, at least 1.
+    keep : {"all", "last"}
+        "last" for the final state alone, in memory that does not grow with `impacts`.
 
-    Returns:
-        Dataset of x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded;
-        tau is the flight that ends there. A state of one dimension has the dim `orbit`, of more
+    Returns
+    -------
+    xarray.Dataset
+        x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded; tau is the
+        flight that ends there (1/omega). A state of one dimension has the dim `orbit`, of more
         `orbit_0`, ... With keep="last" there is no dim `impact`.
 
-    Raises:
-        ValueError: a state with xdot + udot < 0, impacts < 1, or another `keep`.
+    Raises
+    ------
+    ValueError
+        A state with xdot + udot < 0, impacts < 1, or another `keep`.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> orbit(ball, ball.start([0.5, -0.2], 0.01), 3)["x"].dims
+    ('impact', 'orbit')
     """
     if keep not in ("all", "last"):
         raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
@@ -51,7 +65,7 @@ def scene_orbits(ball, energy, starts, impacts):
     ----------
     ball : Ball
     energy : float
-        The energy of all of them.
+        The energy of all of them (m omega^2 R^2).
     starts : list
         Where they start, each as in `starts.start_state`.
     impacts : int or list of int
@@ -60,7 +74,17 @@ def scene_orbits(ball, energy, starts, impacts):
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot, tau on `point`; start and row_size on `orbit`.
+        x, xdot, udot, tau on `point`; on `orbit` start and row_size, and start_x and start_xdot
+        where a start is a point.
+
+    Raises
+    ------
+    ValueError
+        A start off the section.
+
+    References
+    ----------
+    Kanso and Papadopoulos, eq. (28), Figures 2 and 8.
 
     Examples
     --------
@@ -79,7 +103,23 @@ def scene_orbits(ball, energy, starts, impacts):
 
 
 def ragged_orbits(pieces, starts, states, impacts):
-    """The Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot, tau."""
+    """The Dataset of `scene_orbits` from the orbits' arrays.
+
+    Parameters
+    ----------
+    pieces : list of ndarray, shape (4, impacts)
+        x, xdot, udot, tau of each orbit, the start excluded.
+    starts : list
+        As for `scene_orbits`.
+    states : list of (x, xdot, udot)
+        The starts' states.
+    impacts : list of int
+        How many impacts of each.
+
+    Returns
+    -------
+    xarray.Dataset
+    """
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data["row_size"] = (
         "orbit",

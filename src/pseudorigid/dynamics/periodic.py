@@ -46,18 +46,24 @@ def symmetric_orbits(ball, energy, period):
     -------
     xarray.Dataset
         On (orbit, point), the orbits in the order of |multiplier|: x, xdot, udot just before each
-        impact, tau the flight from that point to the next. On orbit: type, elliptic, hyperbolic or
-        inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface; multiplier, its
-        eigenvalue of largest modulus, for an elliptic orbit that modulus, 1; rotation_number, the
-        argument of the multiplier over 2 pi, 0 to 1/2; total_time, the sum of tau. Length 0 where
-        none is found. The first point lies on a symmetry line, unless the orbit is too sensitive
-        there to be closed. Attribute resolution: the cells of each line; unsolved: how many orbits
-        were seen, but close to no better than CLOSURE allows.
+        impact, tau the flight from that point to the next (1/omega). On orbit: type, elliptic,
+        hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface;
+        multiplier, its eigenvalue of largest modulus, for an elliptic orbit that modulus, 1;
+        rotation_number, the argument of the multiplier over 2 pi, 0 to 1/2; total_time, the sum of
+        tau. Length 0 where none is found. The first point lies on a symmetry line, unless the orbit
+        is too sensitive there to be closed. Attribute resolution: the cells of each line; unsolved:
+        how many orbits were seen, but close to no better than CLOSURE allows.
 
     Raises
     ------
     ValueError
         An energy below the bound or a period below 1.
+
+    References
+    ----------
+    R. De Vogelaere, On the structure of symmetric periodic solutions of conservative systems, in
+    Contributions to the Theory of Nonlinear Oscillations IV (1958): one-dimensional searches on
+    symmetry lines.
 
     Examples
     --------

@@ -10,9 +10,15 @@ def start_state(ball, energy, start):
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     start : float or mapping
         A fraction of the section's radius along y = 0, from -1 to 1; or a point with x and
         either xdot or y = xdot - k udot.
+
+    Returns
+    -------
+    x, xdot, udot : float
+        Of two states with this xdot, that with the larger udot.
 
     Raises
     ------
@@ -27,9 +33,20 @@ def start_state(ball, energy, start):
 
 
 def start_variables(starts, states):
-    """Dataset variables on `orbit`: `start`, NaN where it is a point, and then start_x, start_xdot.
+    """Dataset variables that say where orbits start.
 
-    `states` (orbit, 3) are those of `starts`.
+    Parameters
+    ----------
+    starts : list
+        Each as for `start_state`.
+    states : sequence of (x, xdot, udot)
+        The starts' states.
+
+    Returns
+    -------
+    dict
+        On `orbit`: start, the fraction, NaN where it is a point; where one is, start_x and
+        start_xdot.
     """
     fractions = [np.nan if isinstance(start, dict) else start for start in starts]
     text = "start along y = 0, in section radii from the centre"

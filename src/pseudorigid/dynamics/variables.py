@@ -11,7 +11,21 @@ NAMES = {
 
 
 def variables(dims, values, names=NAMES):
-    """Dataset variables from arrays: {name: (dims, array, attributes)}."""
+    """Variables of a Dataset, dimensionless, each with what it means.
+
+    Parameters
+    ----------
+    dims : str or tuple of str
+        The same of all.
+    values : iterable of array
+    names : dict of str to str
+        Name and meaning of each, in the order of `values`.
+
+    Returns
+    -------
+    dict
+        {name: (dims, array, attributes)}.
+    """
     return {
         name: (dims, array, {"long_name": names[name], "units": "1"})
         for name, array in zip(names, values, strict=True)
@@ -24,8 +38,25 @@ def orbit_dims(shape):
 
 
 def of_type(orbits, kind, period=None):
-    """The first orbit of this type, a Dataset on `point`; ValueError, saying what there is, where
-    there is none, or where the orbits have another period than `period`.
+    """The first orbit of a type among those of `symmetric_orbits`.
+
+    Parameters
+    ----------
+    orbits : xarray.Dataset
+        On (orbit, point), with type.
+    kind : {"elliptic", "hyperbolic", "inverse hyperbolic"}
+    period : int, optional
+        What the orbits' period must be.
+
+    Returns
+    -------
+    xarray.Dataset
+        On `point`.
+
+    Raises
+    ------
+    ValueError
+        Where there is none, saying what there is, or where the orbits have another period.
     """
     if period not in (None, orbits.sizes["point"]):
         raise ValueError(f"orbits of period {orbits.sizes['point']}, not {period}")
@@ -40,7 +71,18 @@ def of_type(orbits, kind, period=None):
 
 
 def final_exponents(lyapunov):
-    """The exponents of each orbit at its last record, (orbit, index), of a history of exponents."""
+    """The exponents of each orbit at its last record.
+
+    Parameters
+    ----------
+    lyapunov : xarray.Dataset
+        exponent (impact, orbit, index), as from `lyapunov_spectrum`; NaN beyond an orbit's end.
+
+    Returns
+    -------
+    ndarray, shape (orbit, index)
+        Nats an impact.
+    """
     exponent = lyapunov["exponent"].values
     there = ~np.isnan(exponent[:, :, 0])
     last = exponent.shape[0] - 1 - np.argmax(there[::-1], axis=0)
