@@ -148,6 +148,7 @@ def _lines(ball, energy, period):
             xdot, udot, _ = rebound(-g * theta, -a * sine, k, *transfer(k))
             state = np.where(xdot + udot >= 0.0, (a * cosine, xdot, udot), np.nan)
             tau = ball.time_to_impact(*state)
+            # no earlier impact has ended the flight; where it grazes tau is good to 1e-8
             return np.where(np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta), state, np.nan)
 
         yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, symmetric_flight

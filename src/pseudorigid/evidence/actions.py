@@ -13,8 +13,8 @@ from flint import arb, ctx
 _NEWTON = 30  # steps at most; each doubles the digits
 _SCANNED = 64  # parameters of an unstable segment at which a crossing is looked for
 _FIRST = 1e-6  # where that segment ends, in the plane (x, y)
-_MOST_IMAGES = 60
-_CROSSED = 160  # bits of the parameter at which an orbit meets y = 0
+_MOST_IMAGES = 60  # by then a branch of a multiplier above 1.26 has grown from there to order one
+_CROSSED = 160  # bits of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
 _GOOD = 0.75  # of the working precision, which a solution by Newton's method must have
 
 
@@ -25,13 +25,22 @@ class Saddle:
     ----------
     law : Law
     state : (float, float, float)
-        The point to double precision.
+        x, xdot, udot of the point to double precision.
     period : int
+        Of the orbit, in impacts.
 
     Attributes
     ----------
     x, y, multiplier, ex, ey : arb
-        Rounded to the working precision.
+        The point, the orbit's multiplier and the direction, of length 1, rounded to the working
+        precision.
+
+    Raises
+    ------
+    ValueError
+        An orbit that is elliptic or inverse hyperbolic.
+    ArithmeticError
+        Where Newton's method does not find the point.
     """
 
     def __init__(self, law, state, period):
@@ -78,7 +87,7 @@ class Law:
     ball : Ball
         Its k and g are taken as the decimals they print as; it proposes the flight times.
     energy : float
-        Taken as the decimal it prints as.
+        Taken as the decimal it prints as (m omega^2 R^2).
     """
 
     def __init__(self, ball, energy):
@@ -86,11 +95,32 @@ class Law:
         self.k, self.g, self.energy = (arb(repr(float(a))) for a in (ball.k, ball.g, energy))
 
     def chart(self, state):
-        """(x, y) of a state, or of a tangent."""
+        """The point of the chart under a state, or under a tangent.
+
+        Parameters
+        ----------
+        state : (arb, arb, arb)
+            x, xdot, udot.
+
+        Returns
+        -------
+        x, y : arb
+            y = xdot - k udot.
+        """
         return state[0], state[1] - self.k * state[2]
 
     def lift(self, x, y, dx, dy):
-        """The state at (x, y) of the energy surface and the tangent over (dx, dy)."""
+        """The state over a point of the chart, and the tangent over one of its directions.
+
+        Parameters
+        ----------
+        x, y, dx, dy : arb
+
+        Returns
+        -------
+        state, tangent : (arb, arb, arb)
+            x, xdot, udot.
+        """
         k, g = self.k, self.g
         s = (((1 + k) * (2 * self.energy + 2 * g * x - k * x * x) - y * y) / k).sqrt()
         ds = ((1 + k) * (g - k * x) * dx - y * dy) / (k * s)
@@ -98,7 +128,24 @@ class Law:
         return state, (dx, (dy + k * ds) / (1 + k), (ds - dy) / (1 + k))
 
     def flight(self, state, tangent):
-        """(state, tangent, action) after one impact and flight."""
+        """One impact and the flight after it.
+
+        Parameters
+        ----------
+        state, tangent : (arb, arb, arb)
+
+        Returns
+        -------
+        state, tangent : (arb, arb, arb)
+            At the next impact, eqs. (28) and (33).
+        action : arb
+            The integral of xdot^2 + k udot^2 over the flight (omega R^2).
+
+        Raises
+        ------
+        ArithmeticError
+            Where the working precision does not enclose the time of flight.
+        """
         k, g = self.k, self.g
         x, v, w = state
         dx, dv, dw = tangent
@@ -167,6 +214,11 @@ class Heteroclinic:
         Of its flights.
     tangent : (arb, arb)
         Of the branch at y = 0.
+
+    Raises
+    ------
+    ArithmeticError
+        Where Newton's method does not find the crossing.
     """
 
     def __init__(self, saddle, sign, parameter, impacts):
@@ -193,12 +245,28 @@ class Heteroclinic:
         self.tangent = law.chart(tangent)
 
     def sine(self):
-        """Sine of the angle from the unstable arc to the stable one, its mirror image."""
+        """Sine of the angle from the unstable arc to the stable one, its mirror image.
+
+        Returns
+        -------
+        arb
+        """
         x, y = self.tangent
         return -2 * x * y / (x * x + y * y)
 
     def action(self, flight):
-        """Action of a flight, of those after y = 0 by reversal of time."""
+        """Action of one flight of the orbit.
+
+        Parameters
+        ----------
+        flight : int
+            From 0 to 2 impacts - 1; those after y = 0 by reversal of time.
+
+        Returns
+        -------
+        arb
+            In omega R^2.
+        """
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
@@ -223,6 +291,15 @@ class Lobe:
     area : arb
         A ball around what the orbits give; their starts on the branch's tangent instead of the
         branch change it by the cube of their distance from the saddle.
+
+    Raises
+    ------
+    ValueError
+        A branch that does not meet y = 0.
+
+    References
+    ----------
+    MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
     """
 
     def __init__(self, saddle, sign, nearer):
@@ -261,6 +338,14 @@ def _under(one, other):
 
 def first_crossing(saddle, sign, impacts):
     """Where a branch first meets y = 0 after `impacts` + m periods, in doubles.
+
+    Parameters
+    ----------
+    saddle : Saddle
+    sign : int
+        The side of the branch.
+    impacts : int
+        Done before the first look.
 
     Returns
     -------

@@ -19,7 +19,9 @@ from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
 from .sea import sea_states
 
-_BINS = 8  # of each coordinate, alike in count, for the cells of the correlation ratio
+# Of each coordinate, alike in count, for the cells of the correlation ratio: so few that each of
+# the 64 cells holds many clusters.
+_BINS = 8
 _MEASURES = {
     "correlation": "correlation of what begins a cluster with what begins a later one",
     "dependence": "share of the variance explained by the cell in which the earlier one began",
@@ -33,10 +35,13 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     ----------
     ball : Ball
     energy : float
-    between, orbits, impacts
-        Orbits evenly over that part of y = 0, in section radii from the centre, and their length.
+        In m omega^2 R^2.
+    between : (float, float)
+        The orbits start evenly over this part of y = 0, in section radii from the centre.
+    orbits, impacts : int
+        How many orbits, and how many impacts each has.
     cuts : sequence of float
-        A flight longer than that parts two clusters.
+        A flight longer than that (1/omega) parts two clusters.
     lags : int
         Clusters are compared with the next, the next but one, ... up to this many later.
     resamples, seed : int
@@ -44,7 +49,7 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         flights (bin) and bin_edge: the histogram of flight times. On cut: count, the clusters;
         cluster_impacts, impacts in one; cluster_time, from its first impact to its last;
         period, from one cluster's first impact to the next one's, their means over all orbits,
@@ -57,7 +62,12 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     Raises
     ------
     ValueError
-        A cut that leaves an orbit with fewer clusters than lags + 2.
+        A cut that leaves an orbit with fewer clusters than lags + 2, or `between` off the section.
+
+    References
+    ----------
+    Kanso and Papadopoulos, section 4.1, of clusters in the sea: "completely uncorrelated". Their
+    strain between impacts is eq. (26).
 
     Examples
     --------

@@ -32,19 +32,21 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     period : int
         Of the orbit, even.
     distance : float
         Largest side of the polygons, in section radii.
     grid : int
         The flux is also counted over grid x grid points of the section's bounding rectangle.
-    between, orbits, impacts
-        And along so many orbits of the sea, each of that length, which start evenly over that part
-        of y = 0, in section radii.
+    between : (float, float)
+        And along orbits of the sea, which start evenly over this part of y = 0, in section radii.
+    orbits, impacts : int
+        How many of these, and how many impacts each has.
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         On side, inner and outer. From actions, in balls: area of the lobe, area_error, and digits,
         the area as text with the digits that two starts and two precisions have in common; saddle
         and target, the indices of the points of the orbit that the branch leaves and meets. On
@@ -55,12 +57,17 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         inside, and sea_out, the share of its impacts that leave. For pictures: outline_x, outline_y
         (side, corner), of the region; branch_x, branch_y (side, vertex), of the unstable branch
         from a lobe's one end to the mirror image of its other, whose own mirror image in y = 0 is
-        the stable branch. Attributes: section, its area; multiplier, of the orbit.
+        the stable branch. Attributes: section, its area; multiplier, of the orbit. Areas are those
+        of (x, y), which the map keeps, eq. (42), in omega R^2.
 
     Raises
     ------
     ValueError
         No hyperbolic orbit of that period, an odd period, or a branch that does not meet y = 0.
+
+    References
+    ----------
+    MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
 
     Examples
     --------

@@ -27,7 +27,7 @@ def jumps(ball, energy, energies, sides):
     ----------
     ball : Ball
     energy : float
-        The first of the energies.
+        The first of the energies (m omega^2 R^2).
     energies : sequence of float
         The others.
     sides : int
@@ -35,16 +35,16 @@ def jumps(ball, energy, energies, sides):
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         On energy: radius, of the section along y = 0, and length, of the curve in the plane
         (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
         much it differs from what half as many sides give, and what the ends left out make. On
         (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
         under the map, where the inverse jumps. The map jumps on the mirror image (x, -y). On one
         side of it the next impact is near (rim_x, -rim_y), on the other near the image of that,
-        the point with the same index counted
-        from the end. flight_x, flight_y (half_time, branch): the symmetry line Fix RP of flights
-        symmetric in time, NaN where a flight is not the first to end.
+        the point with the same index counted from the end. flight_x, flight_y (half_time, branch):
+        the symmetry line Fix RP of flights symmetric in time, NaN where a flight is not the first
+        to end. Attribute first_energy: from where on there are such curves, g^2 (1 + k/2).
 
     Raises
     ------
@@ -134,6 +134,7 @@ def _symmetric_flights(ball, energy, points):
         good = v + w >= 0.0
         state = [np.where(good, column, math.nan) for column in (a * cosine, v, w)]
         tau = ball.time_to_impact(*state)
+        # no earlier impact has ended the flight; where it grazes tau is good to 1e-8
         first = np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta)
         found.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
     return np.array(found).transpose(1, 2, 0)

@@ -17,7 +17,8 @@ from ..kernel import impact as kernel
 from ..kernel.compiled import jit
 from .winding import fixed, winding
 
-# A bracket of the symmetric flight begins so wide, in section radii, and grows up to the other.
+# A bracket of the symmetric flight begins so wide, in section radii, a thousand roundings, and
+# grows up to the other.
 _NARROW, _WIDE = 1e-13, 1e-3
 
 
@@ -28,6 +29,7 @@ def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     nobles : sequence of sequences of int
         Continued fractions up to where nothing but ones follows, [0, a1, a2, ...].
     convergents : int
@@ -40,7 +42,7 @@ def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         On (noble, convergent): turns and period, of the convergent; place, of its orbit's point on
         y = 0, in section radii; residue; closure, by how much the orbit misses its start, in
         section radii. On noble: rotation, the number itself; orbit_rotation and orbit_exponent, of
@@ -50,6 +52,10 @@ def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
     ------
     ValueError
         A convergent with no orbit between the two places.
+
+    References
+    ----------
+    Greene, A method for determining a stochastic transition, J. Math. Phys. 20 (1979).
 
     Examples
     --------
@@ -94,7 +100,20 @@ def _one(ball, energy, noble, convergents, between, impacts, drawn):
 
 
 def fractions(noble, count):
-    """(p, q) of the convergents of a noble number, from that of the given quotients on."""
+    """Convergents of a noble number, from that of the given quotients on.
+
+    Parameters
+    ----------
+    noble : sequence of int
+        [a0, a1, ...], followed by ones.
+    count : int
+        How many, at least one.
+
+    Returns
+    -------
+    list of (int, int)
+        p, q of p/q.
+    """
     before, last = (1, 0), (noble[0], 1)
     for quotient in noble[1:]:
         before, last = last, _next(before, last, quotient)
@@ -110,7 +129,17 @@ def _next(before, last, quotient):
 
 
 def value(noble):
-    """The number [a0, a1, ..., 1, 1, 1, ...]."""
+    """The number [a0, a1, ..., 1, 1, 1, ...].
+
+    Parameters
+    ----------
+    noble : sequence of int
+        [a0, a1, ...].
+
+    Returns
+    -------
+    float
+    """
     number = 0.5 * (math.sqrt(5.0) + 1.0)
     for quotient in reversed(noble):
         number = quotient + 1.0 / number

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..kernel.compiled import jit
 
-_SLABS = 2048
+_SLABS = 2048  # a point is held against the sides of its slab alone
 
 
 class Polygon:
@@ -12,8 +12,8 @@ class Polygon:
 
     Parameters
     ----------
-    vertices : ndarray (2, n)
-        In order; the last is joined to the first.
+    vertices : ndarray, shape (2, n)
+        x and y, in order; the last is joined to the first.
     """
 
     def __init__(self, vertices):
@@ -38,7 +38,18 @@ class Polygon:
         return abs(0.5 * float(np.sum(self.x * self.after_y - self.after_x * self.y)))
 
     def holds(self, x, y):
-        """Whether points of any shape are inside."""
+        """Which points are inside.
+
+        Parameters
+        ----------
+        x, y : ndarray
+            Of one shape.
+
+        Returns
+        -------
+        ndarray of bool
+            Of that shape.
+        """
         inside = np.zeros(np.shape(x), dtype=np.bool_)
         slabs = self._slab(y).ravel()
         shape = self.x, self.y, self.after_x, self.after_y, self.sides, self.begin

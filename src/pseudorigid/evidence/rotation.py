@@ -6,7 +6,9 @@ import xarray as xr
 from ..dynamics.variables import variables
 from .winding import fixed, winding
 
-GROWN = 6.0  # ln of a tangent vector's growth over a chaotic orbit's second half, at least
+# ln of a tangent vector's growth over a chaotic orbit's second half, at least; over a regular one's
+# it about doubles, ln 2.
+GROWN = 6.0
 LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
 
 
@@ -17,7 +19,7 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     ----------
     ball : Ball
     energy : float
-        The first of the energies.
+        The first of the energies (m omega^2 R^2).
     energies : sequence of float
         The others.
     starts : int
@@ -32,12 +34,17 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         On (energy, start): place, the start in section radii from the centre; rotation, turns an
         impact around the fixed point, a weighted Birkhoff average; exponent, over the second half
         of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
         detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
         impacts and detail_impacts.
+
+    References
+    ----------
+    Kanso and Papadopoulos, section 4.2, whether the map is a twist map; the average is that of
+    `winding.winding`.
 
     Examples
     --------
@@ -78,17 +85,39 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
 
 
 def regular(exponent, impacts):
-    """Which orbits of so many impacts are regular, by the growth of a tangent vector.
+    """Which orbits are regular, by the growth of a tangent vector over their second half.
 
-    The exponent of a regular one is about ln 2 over half their number, or less.
+    The exponent of a regular one is about ln 2 over half their number of impacts, or less.
+
+    Parameters
+    ----------
+    exponent : ndarray
+        Nats an impact, as from `rotation`.
+    impacts : int
+        Of each orbit.
+
+    Returns
+    -------
+    ndarray of bool
     """
     return exponent * (0.5 * impacts) < GROWN
 
 
 def island(dataset, row):
-    """How many starts from the fixed point on lie in the main island, at the energy of that row.
+    """How many starts from the fixed point on lie in the main island.
 
     It ends where two neighbouring starts are chaotic: a layer inside it may hold one.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As from `rotation`.
+    row : int
+        Of its energies.
+
+    Returns
+    -------
+    int
     """
     chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
     both = chaotic[:-1] & chaotic[1:]
@@ -100,8 +129,8 @@ def plateaus(place, turns, most=100, few=3):
 
     Parameters
     ----------
-    place, turns : ndarray (n,)
-        Of regular orbits, in order.
+    place, turns : ndarray, shape (n,)
+        Starts and rotation numbers of regular orbits, in order.
     most : int
         Islands in a chain, at most.
     few : int

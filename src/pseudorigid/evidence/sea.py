@@ -10,6 +10,7 @@ def sea_states(ball, energy, between, orbits):
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     between : (float, float)
         Ends of that part, as fractions of the section's radius.
     orbits : int
@@ -17,9 +18,9 @@ def sea_states(ball, energy, between, orbits):
 
     Returns
     -------
-    start : ndarray (orbits,)
+    start : ndarray, shape (orbits,)
         Fractions of the section's radius.
-    x, xdot, udot : ndarray (orbits,)
+    x, xdot, udot : ndarray, shape (orbits,)
         The states just before an impact.
 
     Raises

@@ -12,7 +12,7 @@ from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.variables import variables
 from .sea import sea_states
 
-# A chunk of impacts of all orbits that is held in memory at once.
+# Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
 _CHUNK = 4000
 
 
@@ -23,6 +23,7 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
     between : (float, float)
         The orbits start evenly over this part of y = 0, in section radii from the centre.
     orbits, length : int
@@ -41,12 +42,12 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
 
     Returns
     -------
-    Dataset
-        exponent (block, orbit, index): mean over a block, not over all blocks so far, largest
-        first. regular_exponent (length, island, index): over the first `length` impacts.
-        entered_any, entered_all (visit): cells entered by at least one of the orbits, by each of
-        them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
-        (island), and the attribute impacts, of a block.
+    xarray.Dataset
+        exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
+        impact, largest first. regular_exponent (length, island, index): over the first `length`
+        impacts. entered_any, entered_all (visit): cells entered by at least one of the orbits, by
+        each of them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
+        (island), and the attribute block_impacts, the impacts of a block.
 
     Raises
     ------
@@ -138,14 +139,15 @@ def stretches(dataset, length):
 
     Parameters
     ----------
-    dataset : Dataset
+    dataset : xarray.Dataset
         As from `spread`.
     length : int
         A multiple of its block_impacts.
 
     Returns
     -------
-    ndarray (stretch,)
+    ndarray, shape (stretches,)
+        Nats an impact.
     """
     block = dataset["exponent"].values[:, :, 0]
     count = length // int(dataset.attrs["block_impacts"])

@@ -10,12 +10,13 @@ from ..dynamics.follow import CENTRE, EXPECTED, KEPT, VECTOR, follow
 
 
 def fixed(ball, energy):
-    """(place, rotation) of the symmetric fixed point.
+    """Place and rotation number of the symmetric fixed point.
 
     Parameters
     ----------
     ball : Ball
     energy : float
+        In m omega^2 R^2.
 
     Returns
     -------
@@ -38,17 +39,18 @@ def winding(ball, energy, place, impacts):
     ----------
     ball : Ball
     energy : float
-    place : ndarray (n,)
+        In m omega^2 R^2.
+    place : ndarray, shape (n,)
         Starts on y = 0, in section radii from the centre.
     impacts : int
         Of each orbit.
 
     Returns
     -------
-    rotation : ndarray (n,)
+    rotation : ndarray, shape (n,)
         Turns an impact, a weighted Birkhoff average.
-    exponent : ndarray (n,)
-        Of a tangent vector, an impact, between the middles of the second and the last quarter.
+    exponent : ndarray, shape (n,)
+        Of a tangent vector, nats an impact, between the middles of the second and the last quarter.
 
     References
     ----------
