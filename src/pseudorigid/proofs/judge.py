@@ -10,19 +10,28 @@ from flint import arb, ctx
 from .enclosure.flight import Gap, UndecidedError, isolate, refine
 from .enclosure.surface import ball_of, exact
 
+# At first, and where a touch of the floor is given up: it would be closer than 1e-2000.
 START_BITS, MOST_BITS = 256, 8192
-ACCURACY = 150  # bits of a flight time that are proved
-ORBIT_BITS = 512
-IMPACT_BITS = 96
+ACCURACY = 150  # bits of a flight time that are proved: nearly three times a double's
+ORBIT_BITS = 512  # a third of a bit is lost an impact in the sea: good for 1,000 impacts
+IMPACT_BITS = 96  # at first: a double's 53, and room for what cancels
 
 
 def first_root(k, g, x, v, w):
-    """The smallest t > 0 with f(t) = 0, a ball with a relative radius of at most 2**-150.
+    """The time of the next impact, proved: the smallest t > 0 with f(t) = 0, eq. (21) with (26).
 
     Parameters
     ----------
-    k, g, x, v, w : float or arb
-        The ball, and a state just before an impact, v + w >= 0.
+    k, g : float or arb
+        The ball.
+    x, v, w : float or arb
+        A state just before an impact: x (R), xdot (R omega), udot (omega), v + w >= 0.
+
+    Returns
+    -------
+    arb
+        With a relative radius of at most 2**-150 (1/omega); 0 where the ball is pressed onto the
+        floor.
 
     Raises
     ------
@@ -53,13 +62,50 @@ def _after_impact(k, g, x, v, w):
 
 
 def flight_times(ball, x, xdot, udot):
-    """The proved tau of each state of the arrays (n,), rounded to a double."""
+    """The proved flight time of each state.
+
+    Parameters
+    ----------
+    ball : Ball
+        Its k and g are taken as the doubles that they are.
+    x, xdot, udot : ndarray, shape (n,)
+        States just before an impact.
+
+    Returns
+    -------
+    list of float
+        tau (1/omega), rounded to a double.
+
+    Raises
+    ------
+    ArithmeticError
+        Where a touch of the floor cannot be told from a miss.
+    """
     states = zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
     return [float(first_root(ball.k, ball.g, *state)) for state in states]
 
 
 def orbit(ball, state, impacts):
-    """The orbit (impacts, 3) of a state, computed to 512 bits, rounded at the end."""
+    """The orbit of a state, computed to 512 bits.
+
+    Parameters
+    ----------
+    ball : Ball
+        Its k and g are taken as the doubles that they are.
+    state : (float, float, float)
+        x, xdot, udot just before an impact.
+    impacts : int
+
+    Returns
+    -------
+    list of (float, float, float)
+        x, xdot, udot of each impact, the start excluded, rounded at the end.
+
+    Raises
+    ------
+    UndecidedError
+        Where a flight grazes to within the precision.
+    """
     rows = []
     with ctx.workprec(ORBIT_BITS):
         k, g = arb(ball.k), arb(ball.g)
@@ -77,16 +123,21 @@ def impact_errors(k, g, before, after, tau):
     ----------
     k, g : int, Fraction, Decimal or str
         The ball, exact.
-    before, after : ndarray (3, n)
+    before, after : ndarray, shape (3, n)
         x, xdot, udot just before an impact and just before the next one, as computed.
-    tau : ndarray (n,)
-        The flights' times, as computed.
+    tau : ndarray, shape (n,)
+        The flights' times (1/omega), as computed.
 
     Returns
     -------
-    ndarray (n,)
+    ndarray, shape (n,)
         Upper bounds of the largest error of x', xdot', udot' and tau, `before` taken as exact;
         infinite where the next impact is not proved.
+
+    Raises
+    ------
+    ValueError
+        A k or g that is no exact number.
     """
     exact_k, exact_g = exact("k", k), exact("g", g)
     bounds = np.full(tau.size, np.inf)

@@ -22,7 +22,17 @@ I = acb(0, 1)  # noqa: E741
 
 @dataclass(frozen=True)
 class NormalForm:
-    """lambda, the twists tau_1, tau_2, ... and the least |lambda^j - 1|, j up to the order + 1."""
+    """Birkhoff's normal form at an elliptic orbit.
+
+    Attributes
+    ----------
+    multiplier : acb
+        lambda, on the unit circle.
+    twists : tuple of arb
+        tau_1, tau_2, ..., up to the order.
+    nonresonance : arb
+        The least |lambda^j - 1|, j up to the order + 1.
+    """
 
     multiplier: acb
     twists: tuple
@@ -30,7 +40,31 @@ class NormalForm:
 
 
 def normal_form(surface, orbit, order=3):
-    """The NormalForm of P^n at the first point of an elliptic Orbit of n points."""
+    """The normal form of P^n at the first point of an elliptic orbit.
+
+    Parameters
+    ----------
+    surface : Surface
+    orbit : checks.periodic.Orbit
+        Of n points.
+    order : int
+        Of the map's jet: 3 gives tau_1, 5 also tau_2.
+
+    Returns
+    -------
+    NormalForm
+
+    Raises
+    ------
+    NotProvedError
+        Where the point may not be elliptic, a power of the multiplier may be 1, or the form drifts.
+    UndecidedError
+        Where a flight from the orbit's boxes may touch the floor earlier.
+
+    References
+    ----------
+    Siegel and Moser, Lectures on Celestial Mechanics, sections 23 and 31.
+    """
     plane = algebra(2, order)
     x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))
     for _ in orbit.points:

@@ -18,8 +18,14 @@ class NotProvedError(Exception):
 class Finding:
     """What a checker has proved.
 
-    digits: enclosures, name -> arb; margins: name -> float, by how much inequalities hold;
-    parts: what later steps use.
+    Attributes
+    ----------
+    digits : dict of str to arb
+        Enclosures.
+    margins : dict of str to float
+        By how much inequalities hold.
+    parts : dict
+        What later steps use.
     """
 
     digits: dict = field(default_factory=dict)
@@ -29,6 +35,13 @@ class Finding:
 
 class Certificate:
     """The fields of a certificate, asked for by name and shape.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    kind : str
+        What its field `kind` must be.
 
     Raises
     ------
@@ -97,12 +110,32 @@ class Certificate:
 
 
 def box(centre, radius):
-    """The balls around a point's coordinates, Fractions, of one radius."""
+    """A box around a point, of one radius in each coordinate.
+
+    Parameters
+    ----------
+    centre : sequence of Fraction
+    radius : Fraction
+
+    Returns
+    -------
+    list of arb
+        They contain the exact box.
+    """
     half = ball_of(Fraction(radius)).upper()
     return [arb(ball_of(c).mid(), (half + ball_of(c).rad()).upper()) for c in centre]
 
 
 def lowest(value):
-    """A ball's lower end as a float, rounded down."""
+    """A lower bound of a ball, rounded down.
+
+    Parameters
+    ----------
+    value : arb
+
+    Returns
+    -------
+    float
+    """
     low = float(value.lower())
     return low if arb(low) <= value.lower() else float(arb(low) - abs(low) * 2.0**-52)

@@ -24,7 +24,7 @@ from ..enclosure.surface import ball_of
 from . import hsets, periodic
 from .certificate import Certificate, Finding, NotProvedError
 
-BITS = 128
+BITS = 128  # the smallest sets are 1e-10 wide: 1e-38 is far below what they are measured to
 
 
 def check(text, surface, *, period, radius, window, crossing, entropy):
@@ -32,13 +32,38 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
 
     Parameters
     ----------
-    period, radius, window
-        Of the saddles: the only orbit within `radius` of the S's centres is the paper's, whose
-        window one of them lies in (None: any orbit).
+    text : str
+        The certificate.
+    surface : Surface
+        Whose map it is about.
+    period : int
+        Of the saddles.
+    radius : Fraction
+        The only orbit within this of the S's centres is theirs.
+    window : ((x low, x high), (xdot low, xdot high)) or None
+        Fractions: one of the saddles lies in this window; None for any orbit.
     crossing : (Fraction, Fraction) or None
         M_0 must lie between these x: says which connection it is.
     entropy : Fraction
-        A lower bound to be proved.
+        A lower bound to be proved, nats an impact.
+
+    Returns
+    -------
+    Finding
+        digits: entropy, crossing x and crossing angle (radians); margins: beyond, room and cones,
+        the least of all relations; parts: saddles and chain, lists of HSet, edges, the relations,
+        margins, of each of them, and loop, impacts.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+
+    References
+    ----------
+    Zgliczynski and Gidea, Covering relations for multidimensional dynamical systems, J.
+    Differential Equations 202 (2004). Kokubu, Wilczak and Zgliczynski, Rigorous verification of
+    cocoon bifurcations in the Michelson system, Nonlinearity 20 (2007).
     """
     certificate = Certificate(text, "horseshoe")
     certificate.surface(surface)

@@ -26,7 +26,14 @@ SQUARE = arb(0.5, 0.5)  # from 0 to 1
 
 @dataclass(frozen=True)
 class HSet:
-    """The parallelogram c + p u + q s: centre, expanding and contracting vector, pairs of arb."""
+    """The parallelogram c + p u + q s, |p|, |q| <= 1, in the chart.
+
+    Parameters
+    ----------
+    name : str
+    centre, u, s : (arb, arb)
+        c, the expanding and the contracting vector.
+    """
 
     name: str
     centre: tuple
@@ -71,6 +78,14 @@ class Local:
     """P on a whole h-set, in its coordinates and those of a target, to second order.
 
     P(p, q) = centre + slopes (p, q) + bends (p^2, p q, q^2) with some bends of these balls.
+
+    Parameters
+    ----------
+    centre : (arb, arb)
+    slopes : ((arb, arb), (arb, arb))
+        A row for p' and for q'.
+    bends : ((arb, arb, arb), (arb, arb, arb))
+        The same.
     """
 
     centre: tuple
@@ -96,7 +111,22 @@ class Local:
 
 
 def local(surface, source, target):
-    """The Local of two h-sets."""
+    """The map on an h-set, in its own coordinates and those of a target.
+
+    Parameters
+    ----------
+    surface : Surface
+    source, target : HSet
+
+    Returns
+    -------
+    Local
+
+    Raises
+    ------
+    UndecidedError
+        Where a flight from the set may touch the floor earlier.
+    """
     thin = _image(surface, source, target, algebra(2, 1), arb(0))
     wide = _image(surface, source, target, algebra(2, 2), UNIT)
     return Local(
@@ -113,7 +143,14 @@ def _image(surface, source, target, plane, value):
 
 
 def covering(at, source, target):
-    """Prove source => target from their Local.
+    """Prove that source covers target.
+
+    Parameters
+    ----------
+    at : Local
+        Of the two.
+    source, target : HSet
+        Their names are for the message.
 
     Returns
     -------
@@ -124,6 +161,7 @@ def covering(at, source, target):
     Raises
     ------
     NotProvedError
+        Where it is not proved.
     """
     low, high = at.edge(-1), at.edge(1)
     if high < 0:
@@ -139,9 +177,24 @@ def covering(at, source, target):
 
 
 def cones(at, source, target):
-    """Prove the cone condition of source and target; return by how much, as a float.
+    """Prove the cone condition of source and target.
 
-    The margin is a lower bound of the least eigenvalue of D^T Q D - Q.
+    Parameters
+    ----------
+    at : Local
+        Of the two.
+    source, target : HSet
+        Their names are for the message.
+
+    Returns
+    -------
+    float
+        A lower bound of the least eigenvalue of D^T Q D - Q.
+
+    Raises
+    ------
+    NotProvedError
+        Where it is not proved.
     """
     (a, b), (c, d) = at.hull()
     first, mixed, last = a * a - c * c - 1, a * b - c * d, b * b - d * d + 1

@@ -26,16 +26,40 @@ from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Impact, ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
 
-BITS = 192
-SHY = 1 - arb(2) ** -20
+BITS = 192  # twice what points to 1e-28 need
+SHY = 1 - arb(2) ** -20  # of a bound's root: far enough for its value there to be below zero
 SHORT = 0.95  # of the largest xdot: from there on flights from the rim are short
 
 
 def check(text, surface, *, radius, length):
     """Prove a certificate's point of the jump set with its two images, and the set's two ends.
 
-    `radius` is the most that a certificate's point may be off; `length`, a Fraction, a lower bound
-    of the curve's length in (x, y).
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    surface : Surface
+        Whose map it is about.
+    radius : Fraction
+        The most that a certificate's point may be off.
+    length : Fraction
+        A lower bound of the curve's length in (x, y).
+
+    Returns
+    -------
+    Finding
+        digits: x and y of the point, its near and far image and the outer and inner end, and
+        length; margins: jump, between the images, transversality, and pieces, how many the proof
+        took.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+
+    References
+    ----------
+    The paper's section 3: "The map (28) is smooth and invertible with a smooth inverse".
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "jump set")
@@ -73,7 +97,25 @@ def check(text, surface, *, radius, length):
 
 
 def check_smooth(text, k, g):
-    """Prove that the map is a diffeomorphism below the certificate's energy, for this k and g."""
+    """Prove that the map is a diffeomorphism below the certificate's energy.
+
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    k, g : Fraction
+        The ball.
+
+    Returns
+    -------
+    Finding
+        digits: energy below.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+    """
     certificate = Certificate(text, "no touch")
     certificate.ball(k, g)
     threshold = certificate.number("energy_below")
@@ -88,7 +130,25 @@ def check_smooth(text, k, g):
 
 
 def rim_flight(surface, xdot):
-    """(x, Impact): the rim point with x <= -g and this xdot, a ball, and its next impact."""
+    """The flight from the rim point with x <= -g and a given xdot.
+
+    Parameters
+    ----------
+    surface : Surface
+    xdot : arb
+
+    Returns
+    -------
+    x : arb
+        Of the rim point.
+    impact : Impact
+        Its next one.
+
+    Raises
+    ------
+    UndecidedError
+        Where that flight may touch the floor earlier.
+    """
     k, g, energy = surface.constants()
     square = g * g + k * (2 * energy - (1 + k) * xdot * xdot)
     return _flight(surface, (g - square.sqrt()) / k, xdot)
@@ -107,7 +167,21 @@ def _flight(surface, x, xdot):
 
 
 def fastest(surface):
-    """The largest xdot on the rim at x = -g."""
+    """The largest xdot on the rim at x = -g.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    arb
+
+    Raises
+    ------
+    NotProvedError
+        Where no flight touches the floor.
+    """
     k, g, energy = surface.constants()
     square = (2 * energy - g * g * (2 + k)) / (1 + k)
     if not square > 0:
@@ -116,7 +190,17 @@ def fastest(surface):
 
 
 def ends(surface):
-    """The two ends of the jump set in the chart."""
+    """The two ends of the jump set in the chart.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    dict of str to (arb, arb)
+        "outer end", on the rim, and "inner end".
+    """
     k, g, _ = surface.constants()
     most = fastest(surface)
     _, flight = _flight(surface, -g, -most)
@@ -142,7 +226,19 @@ def _touch(surface, xdot):
 
 
 def curve(surface, count):
-    """Points (x, y) of the jump set, from its inner end to its outer one, at even steps of xdot."""
+    """Points of the jump set, from its inner end to its outer one, at even steps of xdot.
+
+    Parameters
+    ----------
+    surface : Surface
+    count : int
+        Of steps.
+
+    Returns
+    -------
+    list of (arb, arb)
+        (x, y).
+    """
     most, places = fastest(surface), ends(surface)
     inner = []
     for i in range(1, count):

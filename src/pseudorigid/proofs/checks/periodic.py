@@ -26,15 +26,25 @@ from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import ball_of
 from .certificate import Certificate, Finding, NotProvedError, box, lowest
 
-BITS = 256
+BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # how near a certificate's points must be to the orbit's
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, enclosed: points ((x, y), ...), impacts, the product of its DP, type.
+    """A periodic orbit, enclosed.
 
-    `radius`, a Fraction: of the boxes around the centres in which it is the only one.
+    Attributes
+    ----------
+    points : tuple of (arb, arb)
+        (x, y = xdot - k udot).
+    impacts : tuple of Impact
+        After each point.
+    matrix : arb_mat
+        The product of DP along the orbit, from the first point.
+    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
+    radius : Fraction
+        Of the boxes around the centres in which it is the only one.
     """
 
     points: tuple
@@ -45,13 +55,37 @@ class Orbit:
 
     @property
     def trace(self):
+        """Trace of the matrix, an arb."""
         return self.matrix[0, 0] + self.matrix[1, 1]
 
 
 def check(text, surface, *, period, type, radius, window=None):
-    """Prove a certificate's orbit: prime period, type, and uniqueness within `radius`, at least.
+    """Prove a certificate's orbit.
 
-    `window` ((x low, x high), (xdot low, xdot high)), Fractions, must contain one of its points.
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    surface : Surface
+        Whose map it is about.
+    period : int
+        Its prime period.
+    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
+    radius : Fraction
+        It must be the only one within that, at least.
+    window : ((x low, x high), (xdot low, xdot high)), optional
+        Fractions: must contain one of its points.
+
+    Returns
+    -------
+    Finding
+        digits: x, xdot, udot of the first point, period, the sum of its times (1/omega), and trace;
+        margins: radius, and trace, from 2 and -2; parts: orbit, an Orbit.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "periodic orbit")
@@ -72,7 +106,27 @@ def check(text, surface, *, period, type, radius, window=None):
 
 
 def check_only_fixed_point(text, k, g, energy):
-    """Prove that the map has one fixed point at each energy from -g^2/(2k) up to `energy`."""
+    """Prove that the map has one fixed point at each energy up to a given one.
+
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    k, g : Fraction
+        The ball.
+    energy : Fraction
+        The energies are those from -g^2/(2k) up to this one.
+
+    Returns
+    -------
+    Finding
+        digits: energies up to; margins: theta and earlier, of the two conditions.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+    """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "only fixed point")
         certificate.ball(k, g)
@@ -94,8 +148,9 @@ def prove(surface, centres, radius):
 
     Parameters
     ----------
-    centres : list of (x, y)
-        Fractions, one pair an impact.
+    surface : Surface
+    centres : list of (Fraction, Fraction)
+        (x, y), one pair an impact.
     radius : Fraction
 
     Returns
@@ -106,6 +161,10 @@ def prove(surface, centres, radius):
     ------
     NotProvedError
         Where no orbit, or more than one, or a shorter one, cannot be excluded.
+
+    References
+    ----------
+    Neumaier, Interval Methods for Systems of Equations (1990).
     """
     if not radius > 0:
         raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
@@ -126,7 +185,19 @@ def prove(surface, centres, radius):
 
 
 def meets(orbit, centres):
-    """Check that the orbit's points are those that a certificate states, to CLOSE."""
+    """Check that the orbit's points are those that a certificate states, to CLOSE.
+
+    Parameters
+    ----------
+    orbit : Orbit
+    centres : list of (Fraction, Fraction)
+        (x, y).
+
+    Raises
+    ------
+    NotProvedError
+        Where one is not.
+    """
     for point, centre in zip(orbit.points, centres, strict=True):
         for value, stated in zip(point, centre, strict=True):
             if not abs(value - ball_of(stated)) < ball_of(CLOSE):
@@ -185,7 +256,20 @@ def _enclose(surface, points, radius):
 
 
 def inside(surface, point, window):
-    """Whether a point is proved to lie in a window of x and xdot."""
+    """Whether a point is proved to lie in a window of x and xdot.
+
+    Parameters
+    ----------
+    surface : Surface
+    point : (arb, arb)
+        (x, y).
+    window : ((x low, x high), (xdot low, xdot high))
+        Fractions.
+
+    Returns
+    -------
+    bool
+    """
     xdot, _ = surface.velocities(*point)
     return all(
         ball_of(low) < value < ball_of(high)

@@ -26,7 +26,35 @@ CLOSE = Fraction(1, 10**9)  # relative: how near a certificate's twist must be t
 
 
 def check(text, surface, *, period, radius):
-    """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero."""
+    """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
+
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    surface : Surface
+        Whose map it is about.
+    period : int
+        Of the orbit.
+    radius : Fraction
+        It must be the only one within that, at least.
+
+    Returns
+    -------
+    Finding
+        digits: twist, in radians for a unit of the action, and trace; margins: twist, nonresonance;
+        parts: orbit, an Orbit.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+
+    References
+    ----------
+    Moser, Nachr. Akad. Wiss. Goettingen (1962); Siegel and Moser, Lectures on Celestial Mechanics,
+    sections 32-34.
+    """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist")
         certificate.surface(surface)
@@ -48,7 +76,30 @@ def check(text, surface, *, period, radius):
 def check_zero(text, k, g, *, radius, width):
     """Prove that the fixed point's twist falls through zero within a band of energies.
 
-    The certificate's band may be at most `width` wide.
+    Parameters
+    ----------
+    text : str
+        The certificate.
+    k, g : Fraction
+        The ball.
+    radius : Fraction
+        The fixed point must be the only one within that, at least.
+    width : Fraction
+        The certificate's band of energies may be at most so wide.
+
+    Returns
+    -------
+    Finding
+        digits: energy, the band, and second twist; margins: twist, second twist, nonresonance.
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+
+    References
+    ----------
+    Moeckel, Generic bifurcations of the twist coefficient, Ergodic Theory Dynam. Systems 10 (1990).
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "zero of the twist")

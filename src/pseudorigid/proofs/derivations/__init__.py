@@ -9,14 +9,17 @@ def derivations(ball, energy):
 
     Parameters
     ----------
-    ball, energy
+    ball : Ball
         Not used: the formulas hold for every ball, or for none.
+    energy : float
+        Not used either.
 
     Returns
     -------
-    Dataset
-        On formula: printed and corrected, 1 where it holds so, 0 where it does not, -1 where there
-        is none; value, a number that comes with it, or NaN.
+    xarray.Dataset
+        On formula, the name of the function that derives it: printed and corrected, 1 where it
+        holds so, 0 where it does not, -1 where there is none; value, a number that comes with it,
+        or NaN.
     """
     from . import forms, model, motion
 

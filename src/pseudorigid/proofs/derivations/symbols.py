@@ -33,11 +33,30 @@ class Formula:
 
 
 def zero(expression):
-    """Whether an expression is zero for all values of its symbols."""
+    """Whether an expression is zero for all values of its symbols.
+
+    Parameters
+    ----------
+    expression : sympy.Expr
+
+    Returns
+    -------
+    bool
+    """
     return sp.simplify(sp.expand(sp.expand_trig(expression))) == 0
 
 
 def zeros(expressions):
+    """Whether each of several expressions is zero for all values of its symbols.
+
+    Parameters
+    ----------
+    expressions : iterable of sympy.Expr
+
+    Returns
+    -------
+    bool
+    """
     return all(zero(expression) for expression in expressions)
 
 

@@ -13,7 +13,7 @@ from flint import arb, ctx
 
 from .jets import Jet
 
-MARCH_BITS = 64
+MARCH_BITS = 64  # one word of the processor: a march needs no more unless it nearly touches
 _SHY = 1.0 - 1e-6  # of a parabola's root: far enough for its value there to be below zero
 _MOST_STEPS = 400
 
@@ -23,7 +23,15 @@ class UndecidedError(ArithmeticError):
 
 
 class Gap:
-    """f of a set of flights: x, c, s and g are balls."""
+    """f of a set of flights, eq. (21) with (26), from an impact on.
+
+    Parameters
+    ----------
+    x, c, s : arb or Jet
+        Position at the impact, rate of strain after it, and s = xdot + udot before it.
+    g : arb
+        Gravity.
+    """
 
     def __init__(self, x, c, s, g):
         self.x, self.c, self.s, self.g = x, c, s, g
@@ -82,9 +90,26 @@ def first_root(x, c, s, g, after=None):
 
 
 def isolate(gap, after=None):
-    """(low, high): f < 0 on (0, low], and one root in (low, high), where f' > 0.
+    """Two times between which the first root of the gap is, and no other.
 
-    Both are exact. Works with MARCH_BITS, and where they do not decide with up to the context's.
+    Works with MARCH_BITS, and where they do not decide with up to the context's.
+
+    Parameters
+    ----------
+    gap : Gap
+        Of balls.
+    after : arb, optional
+        A time up to which f < 0 is known, for impacts that graze.
+
+    Returns
+    -------
+    low, high : arb
+        Exact: f < 0 on (0, low], and one root in (low, high), where f' > 0.
+
+    Raises
+    ------
+    UndecidedError
+        Where an earlier touch of the floor cannot be excluded.
     """
     most, bits = ctx.prec, MARCH_BITS
     while True:
@@ -98,9 +123,25 @@ def isolate(gap, after=None):
 
 
 def refine(gap, low, high):
-    """The root in (low, high) as narrow as the context's precision and the parameters allow.
+    """A root of the gap as narrow as the context's precision and the parameters allow.
 
     Interval Newton with twice the bits at each step: T = t - f(t)/f'(T).
+
+    Parameters
+    ----------
+    gap : Gap
+        Of balls.
+    low, high : arb
+        As from `isolate`.
+
+    Returns
+    -------
+    arb
+
+    Raises
+    ------
+    UndecidedError
+        Where f' may vanish.
     """
     root = low.union(high)
     levels = [ctx.prec]
@@ -180,8 +221,9 @@ def _parabola_root(f, d, m):
 
 
 def _first_step(x, c, s, g, jerk):
-    """A time up to which f < 0, from f/t <= -s + (g + x) t/2 + A t^2/6, or at s = 0 = g + x from
-    f/t^3 <= -c/6 + A t/24.
+    """A time up to which f < 0.
+
+    From f/t <= -s + (g + x) t/2 + A t^2/6, or at s = 0 = g + x from f/t^3 <= -c/6 + A t/24.
     """
     bend = g + x
     if s == 0 and bend == 0:

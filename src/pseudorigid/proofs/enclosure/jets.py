@@ -7,7 +7,16 @@ from itertools import product
 
 @dataclass(frozen=True)
 class Algebra:
-    """The monomials of total degree up to `order`, by degree, and which pairs make which."""
+    """The monomials of total degree up to `order`, by degree, and which pairs make which.
+
+    Attributes
+    ----------
+    variables, order : int
+    monomials : tuple
+        The exponents of each.
+    products : tuple of (int, int, int)
+        (i, j, k): monomial i times monomial j is monomial k.
+    """
 
     variables: int
     order: int
@@ -21,7 +30,17 @@ class Algebra:
 
 @cache
 def algebra(variables, order):
-    """The Algebra of series in `variables` variables up to total degree `order`."""
+    """The Algebra of series in some variables up to a total degree.
+
+    Parameters
+    ----------
+    variables, order : int
+
+    Returns
+    -------
+    Algebra
+        The same object for the same numbers.
+    """
     every = [p for p in product(range(order + 1), repeat=variables) if sum(p) <= order]
     every.sort(key=lambda p: (sum(p), [-power for power in p]))
     place = {powers: i for i, powers in enumerate(every)}
@@ -35,7 +54,14 @@ def algebra(variables, order):
 
 
 class Jet:
-    """A series; its coefficients, real or complex balls, stand in the algebra's order."""
+    """A truncated Taylor series, with + - * /, sqrt and sin_cos.
+
+    Parameters
+    ----------
+    algebra : Algebra
+    coefficients : list of arb or acb
+        In the algebra's order.
+    """
 
     __slots__ = ("algebra", "coefficients")
 
@@ -56,6 +82,7 @@ class Jet:
 
     @property
     def constant(self):
+        """The constant term."""
         return self.coefficients[0]
 
     def __getitem__(self, powers):

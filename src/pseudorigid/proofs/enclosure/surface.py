@@ -15,12 +15,23 @@ _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,4}|\s*/\s*\d+)?
 
 
 def exact(name, value):
-    """`value` as a Fraction: a whole number, a Fraction, a Decimal, or text such as "1/5" or "0.2".
+    """An exact number as a Fraction.
+
+    Parameters
+    ----------
+    name : str
+        What the message calls it.
+    value : int, Fraction, Decimal or str
+        Text is such as "1/5" or "0.2". A float is refused: 0.2 is not 1/5.
+
+    Returns
+    -------
+    Fraction
 
     Raises
     ------
     ValueError
-        For anything else. A float is refused: 0.2 is not 1/5.
+        For anything else.
     """
     if isinstance(value, float):
         raise ValueError(
@@ -40,12 +51,27 @@ def exact(name, value):
 
 
 def ball_of(fraction):
-    """The narrowest ball of the context's precision around a Fraction."""
+    """The narrowest ball of the context's precision around a Fraction.
+
+    Parameters
+    ----------
+    fraction : Fraction
+
+    Returns
+    -------
+    arb
+    """
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
 
 class Impact(NamedTuple):
-    """The next impact of a point: the chart's x and y, the flight, and s = xdot + udot there."""
+    """The next impact of a point: the chart's x and y, the flight, and s = xdot + udot there.
+
+    Attributes
+    ----------
+    x, y, tau, s : arb or Jet
+        In R, R omega, 1/omega and R omega.
+    """
 
     x: object
     y: object
@@ -61,14 +87,21 @@ class Surface:
     ----------
     k, g, energy : int, Fraction, Decimal or str
         Exact: Euler inertia, gravity and total energy, dimensionless.
-    width : same
+    width : int, Fraction, Decimal or str
         With a width the energy is every one from `energy` to `energy + width`: what is proved then
         holds for each of them.
 
     Raises
     ------
     ValueError
-        For what is not an exact number or lies outside 0 < k <= 1, g > 0, energy >= -g^2/(2k).
+        For what is not an exact number or lies outside 0 < k <= 1, g > 0, energy > -g^2/(2k).
+
+    Examples
+    --------
+    >>> surface = Surface("1/5", "1/25", "1/100")
+    >>> image = surface.impact(arb("0.1"), arb(0))
+    >>> bool(image.tau > 0), image.s.rad() < 1e-12
+    (True, True)
     """
 
     k: Fraction
@@ -95,7 +128,12 @@ class Surface:
         )
 
     def constants(self):
-        """k, g and E in balls of the context's precision."""
+        """The surface's numbers in balls of the context's precision.
+
+        Returns
+        -------
+        k, g, energy : arb
+        """
         if ctx.prec not in self._balls:
             if len(self._balls) > 50:
                 self._balls.clear()
@@ -106,12 +144,34 @@ class Surface:
         return self._balls[ctx.prec]
 
     def radius(self):
-        """Half the section's width along y = 0."""
+        """Half the section's width along y = 0.
+
+        Returns
+        -------
+        arb
+            In R.
+        """
         k, g, energy = self.constants()
         return ((2 * energy + g * g / k) / k).sqrt()
 
     def speed(self, x, y):
-        """s = xdot + udot in the chart; UndecidedError where a point may lie on or off the rim."""
+        """The contact point's speed s = xdot + udot just before the impact.
+
+        Parameters
+        ----------
+        x, y : arb or Jet
+            Of the chart.
+
+        Returns
+        -------
+        arb or Jet
+            In R omega.
+
+        Raises
+        ------
+        UndecidedError
+            Where a point may lie on or off the rim.
+        """
         k, g, energy = self.constants()
         square = ((1 + k) * (2 * energy + x * (2 * g - k * x)) - y * y) / k
         if not (square.constant if isinstance(square, Jet) else square) > 0:
@@ -119,17 +179,39 @@ class Surface:
         return square.sqrt()
 
     def velocities(self, x, y):
-        """(xdot, udot) just before the impact."""
+        """The velocities just before the impact.
+
+        Parameters
+        ----------
+        x, y : arb or Jet
+            Of the chart.
+
+        Returns
+        -------
+        xdot, udot : arb or Jet
+            In R omega and omega.
+
+        Raises
+        ------
+        UndecidedError
+            Where a point may lie on or off the rim.
+        """
         k = self.constants()[0]
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
     def impact(self, x, y):
-        """The map P at points of the chart: balls or jets.
+        """The impact map P, eq. (28), at points of the chart.
+
+        Parameters
+        ----------
+        x, y : arb or Jet
+            Balls stand for all points in them.
 
         Returns
         -------
         Impact
+            It contains that of every point.
 
         Raises
         ------
@@ -145,7 +227,25 @@ class Surface:
         return Impact(x * cosine - c * sine, xdot - k * udot, tau, xdot + udot)
 
     def jacobian(self, x, y):
-        """(rows of DP, Impact) over a box: every DP and every image of its points is inside."""
+        """The map's derivative over a box.
+
+        Parameters
+        ----------
+        x, y : arb
+            The box.
+
+        Returns
+        -------
+        rows : ((arb, arb), (arb, arb))
+            Every DP of its points is inside.
+        image : Impact
+            Every image is inside.
+
+        Raises
+        ------
+        UndecidedError
+            As for `impact`.
+        """
         plane = algebra(2, 1)
         image = self.impact(Jet.variable(plane, 0, x), Jet.variable(plane, 1, y))
         rows = tuple(tuple(image[i].coefficients[1:]) for i in (0, 1))

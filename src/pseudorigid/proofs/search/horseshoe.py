@@ -15,20 +15,27 @@ from flint import arb, ctx
 from .periodic import polished
 from .writing import decimal, header, rows
 
-BITS = 320
+BITS = 320  # for an orbit that starts DEEP rounds nearer to its saddle than a double can tell
 DEEP = 100  # rounds about the saddles before the float's start of the connection
 START = 1e-7  # distance of that start from its saddle, in units of the expanding side
-DIGITS = 20
-NEWTON_STEPS = 12
+DIGITS = 20  # ten beyond the width of the smallest sets
+NEWTON_STEPS = 12  # at most; each doubles the digits
 
 
 @dataclass(frozen=True)
 class Plan:
     """Which connection, and the shape of the sets.
 
-    side: 1 the outer, -1 the inner unstable branches; steps: sets of the chain on either side of
-    its middle one; size: of the sets at the saddles; room: how much wider than its image, or
-    narrower, a set is where chain and saddles meet.
+    Parameters
+    ----------
+    side : int
+        1 the outer, -1 the inner unstable branches.
+    steps : int
+        Sets of the chain on either side of its middle one.
+    size : float
+        Of the sets at the saddles, in (x, y).
+    room : float
+        How much wider than its image, or narrower, a set is where chain and saddles meet.
     """
 
     side: int
@@ -38,14 +45,28 @@ class Plan:
 
 
 def propose(surface, ball, points, plan, measure):
-    """The text of a certificate.
+    """A certificate of a horseshoe.
 
     Parameters
     ----------
-    points : list of (x, y)
-        The hyperbolic orbit, floats; its own mirror image.
+    surface : Surface
+    ball : Ball
+        Near the surface's.
+    points : list of (float, float)
+        The hyperbolic orbit, (x, y); its own mirror image.
+    plan : Plan
     measure : callable
         What a checker measures of a text: [(beyond, room), ...] of the coverings, in order.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        An orbit that is not its own mirror image, or a plan whose chain does not begin at its
+        saddle.
     """
     with ctx.workprec(BITS):
         saddles = polished(surface, points, NEWTON_STEPS)

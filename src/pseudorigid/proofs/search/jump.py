@@ -9,11 +9,24 @@ from ..enclosure.surface import ball_of
 from .writing import decimal, header
 
 BITS = 160
-DIGITS = 30
+DIGITS = 30  # points are to be good to 1e-28
 
 
 def propose(surface, speed, radius):
-    """The text of a certificate; `speed`, text, is xdot on the rim where the flight touches."""
+    """A certificate of the jump set.
+
+    Parameters
+    ----------
+    surface : Surface
+    speed : str
+        xdot on the rim where the flight touches.
+    radius : str
+        By how much its points may be off.
+
+    Returns
+    -------
+    str
+    """
     with ctx.workprec(BITS):
         k, g, energy = surface.constants()
         fastest = ((2 * energy - g * g * (2 + k)) / (1 + k)).sqrt().mid()
@@ -36,7 +49,17 @@ def propose(surface, speed, radius):
 
 
 def propose_smooth(k, g):
-    """The text of the certificate that no flight touches the floor at low energies."""
+    """The certificate that no flight touches the floor at low energies.
+
+    Parameters
+    ----------
+    k, g : Fraction
+        The ball.
+
+    Returns
+    -------
+    str
+    """
     threshold = g * g * (1 + k / 2)
     return (
         f'kind = "no touch"\nk = "{k}"\ng = "{g}"\n'

@@ -8,12 +8,25 @@ from flint import arb, arb_mat, ctx
 from .writing import decimal, header, rows
 
 BITS = 160
-DIGITS = 36
+DIGITS = 36  # the checker holds thirty of them against the orbit
 LARGEST, SMALLEST = 2, 12  # minus the decimal exponents of the sizes that are tried
 
 
 def polished(surface, points, steps=8):
-    """Points ((x, y), ...), floats or balls, closer to the orbit: Newton's method on midpoints."""
+    """Points closer to a periodic orbit, by Newton's method on midpoints.
+
+    Parameters
+    ----------
+    surface : Surface
+    points : sequence of (x, y)
+        Floats or balls.
+    steps : int
+
+    Returns
+    -------
+    list of [arb, arb]
+        Exact.
+    """
     points = [[arb(a).mid() for a in point] for point in points]
     n = len(points)
     for _ in range(steps):
@@ -41,9 +54,19 @@ def _clean(value):
 
 
 def propose(surface, points, holds):
-    """The text of a certificate for an orbit near `points`, floats (x, y).
+    """A certificate for an orbit.
 
-    `holds(text)` says whether a checker takes it; the size is the largest for which it does.
+    Parameters
+    ----------
+    surface : Surface
+    points : sequence of (float, float)
+        (x, y) near the orbit's.
+    holds : callable
+        Whether a checker takes a text; the size is the largest for which it does.
+
+    Returns
+    -------
+    str
     """
     with ctx.workprec(BITS):
         points = polished(surface, points)
@@ -52,7 +75,20 @@ def propose(surface, points, holds):
 
 
 def largest(text, holds):
-    """text(size) of the largest size of one digit that holds; of the smallest if none does."""
+    """A text with the largest size of one digit for which it holds.
+
+    Parameters
+    ----------
+    text : callable
+        The text for a size, a Fraction.
+    holds : callable
+        Whether a text holds; what holds for a size must hold for smaller ones.
+
+    Returns
+    -------
+    str
+        That with the smallest size if none holds.
+    """
     sizes = [Fraction(m, 10**e) for e in range(LARGEST, SMALLEST + 1) for m in range(9, 0, -1)]
     low, high = 0, len(sizes) - 1  # what holds for a size holds for smaller ones
     while low < high:
@@ -73,7 +109,16 @@ def _text(surface, centres, size):
 
 
 def propose_only_fixed_point(k, g, energy):
-    """The text of the certificate that there is no other fixed point up to an energy."""
+    """The certificate that there is no other fixed point up to an energy.
+
+    Parameters
+    ----------
+    k, g, energy : Fraction
+
+    Returns
+    -------
+    str
+    """
     longest = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
     return (
         f'kind = "only fixed point"\nk = "{k}"\ng = "{g}"\n'

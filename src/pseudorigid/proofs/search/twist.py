@@ -13,14 +13,24 @@ from ..enclosure.surface import Surface
 from .periodic import BITS, DIGITS, largest, polished
 from .writing import decimal, header, rows
 
-TWIST_DIGITS = 13
+TWIST_DIGITS = 13  # the checker holds nine of them against the twist
 ENERGY_DIGITS = 13  # decimals of the energy
 
 
 def propose(surface, points, holds):
-    """The text of a certificate for the elliptic orbit near `points`, floats (x, y).
+    """A certificate of the twist of an elliptic orbit.
 
-    `holds(text)` says whether a checker takes it; the size is the largest for which it does.
+    Parameters
+    ----------
+    surface : Surface
+    points : sequence of (float, float)
+        (x, y) near the orbit's.
+    holds : callable
+        Whether a checker takes a text; the size is the largest for which it does.
+
+    Returns
+    -------
+    str
     """
     with ctx.workprec(BITS):
         points = polished(surface, points)
@@ -31,9 +41,22 @@ def propose(surface, points, holds):
 
 
 def propose_zero(k, g, low, high, start, holds):
-    """The text of a certificate for a zero of the twist at an energy between two Fractions.
+    """A certificate of a zero of the fixed point's twist.
 
-    `start` is the fixed point at one of these energies, floats (x, y).
+    Parameters
+    ----------
+    k, g : Fraction
+        The ball.
+    low, high : Fraction
+        Energies: the twist is above zero at the first, below at the other.
+    start : (float, float)
+        (x, y) of the fixed point at one of these energies.
+    holds : callable
+        Whether a checker takes a text; the size is the largest for which it does.
+
+    Returns
+    -------
+    str
     """
     unit = 10**ENERGY_DIGITS
     with ctx.workprec(BITS):
@@ -54,7 +77,19 @@ def propose_zero(k, g, low, high, start, holds):
 
 
 def estimate(surface, points):
-    """The twist by the formula, of the first point of an orbit that is all but exact."""
+    """The twist of the first point of an orbit that is all but exact, by the closed formula.
+
+    Parameters
+    ----------
+    surface : Surface
+    points : sequence of (arb, arb)
+        (x, y), exact.
+
+    Returns
+    -------
+    arb
+        tau_1 of `checks.birkhoff`, a midpoint: an estimate.
+    """
     (a, b), (_, d) = _product(surface, points)
     cosine = ((a + d) / 2).mid()
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)

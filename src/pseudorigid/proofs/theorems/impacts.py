@@ -12,14 +12,45 @@ LIMIT = 1e-6  # an error beyond this is no rounding: another impact was taken
 
 
 def prove_impacts(k, g, before, after, tau, name="impacts"):
-    """The Result for impacts computed in doubles; arguments as for `judge.impact_errors`."""
+    """Prove that each of many impacts is the first one.
+
+    Parameters
+    ----------
+    k, g : int, Fraction, Decimal or str
+        The ball, exact.
+    before, after : ndarray, shape (3, n)
+        As for `judge.impact_errors`.
+    tau : ndarray, shape (n,)
+        As for `judge.impact_errors`.
+    name : str
+        Of the result.
+
+    Returns
+    -------
+    Result
+        margins: worst error.
+    """
     begin = time.perf_counter()
     errors = impact_errors(k, g, before, after, tau)
     return impact_result(errors, name, time.perf_counter() - begin)
 
 
 def impact_result(errors, name, seconds):
-    """The Result from the errors of impacts, perhaps of several calls, and their seconds."""
+    """The Result from the errors of impacts, perhaps of several calls.
+
+    Parameters
+    ----------
+    errors : ndarray, shape (n,)
+        As from `judge.impact_errors`.
+    name : str
+        Of the result.
+    seconds : float
+        That they took.
+
+    Returns
+    -------
+    Result
+    """
     worst = float(np.max(errors, initial=0.0))
     reason = ""
     if not worst < LIMIT:
@@ -36,7 +67,25 @@ def impact_result(errors, name, seconds):
 
 
 def of_orbits(ball, energy, orbits, starts):
-    """(before, after, tau) of all impacts of a scene's orbits, as `scene_orbits` makes them."""
+    """All impacts of a scene's orbits.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        In m omega^2 R^2.
+    orbits : xarray.Dataset
+        As from `scene_orbits`.
+    starts : list
+        Of the orbits, each as in `starts.start_state`.
+
+    Returns
+    -------
+    before, after : ndarray, shape (3, n)
+        x, xdot, udot just before an impact and just before the next one.
+    tau : ndarray, shape (n,)
+        The flights' times (1/omega).
+    """
     state = np.array([orbits[name].values for name in ("x", "xdot", "udot")])
     before = np.roll(state, 1, axis=1)
     sizes = orbits["row_size"].values
@@ -46,12 +95,35 @@ def of_orbits(ball, energy, orbits, starts):
 
 
 def of_periodic(orbit):
-    """The same of one periodic orbit, as from `symmetric_orbits`."""
+    """The impacts of one periodic orbit.
+
+    Parameters
+    ----------
+    orbit : xarray.Dataset
+        One of `symmetric_orbits`.
+
+    Returns
+    -------
+    before, after, tau : ndarray
+        As from `of_orbits`.
+    """
     state = np.array([orbit[name].values for name in ("x", "xdot", "udot")])
     return state, np.roll(state, -1, axis=1), orbit["tau"].values
 
 
 def of_states(ball, states):
-    """The same of states (3, n), whose next impacts are computed here."""
+    """The next impacts of states, computed here.
+
+    Parameters
+    ----------
+    ball : Ball
+    states : ndarray, shape (3, n)
+        x, xdot, udot just before an impact.
+
+    Returns
+    -------
+    before, after, tau : ndarray
+        As from `of_orbits`.
+    """
     *after, tau = ball.impact(*states)
     return states, np.array(after), tau

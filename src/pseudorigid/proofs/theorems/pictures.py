@@ -17,13 +17,23 @@ RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at
 def horseshoe_data(name="horseshoe-outer"):
     """The sets of a proved horseshoe, and one covering relation in the target's coordinates.
 
+    Parameters
+    ----------
+    name : str
+        Of the theorem.
+
     Returns
     -------
-    Dataset
+    xarray.Dataset
         x, y (set): centres; corner_x, corner_y (set, corner): around each; chain (set): the index
         along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
         of the set before the middle one, in units of the middle one's half widths, its two exit
         edges first.
+
+    Raises
+    ------
+    NotProvedError
+        Where the theorem's certificate does not hold.
     """
     theorem = THEOREMS[name]
     found = theorem.prove(theorem.text()).parts
@@ -89,8 +99,13 @@ def twist_data(energies):
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         energy, twist (energy); zero (a number): the energy at which the twist vanishes.
+
+    Raises
+    ------
+    NotProvedError
+        Where the fixed point, its type or its twist is not proved.
     """
     from ..search import known
 

@@ -14,7 +14,7 @@ def prove_orbit(ball, orbit, energy=None):
     ----------
     ball : Ball or Surface
         A Ball's k and g are taken as the doubles that they are; a Surface has exact numbers.
-    orbit : Dataset
+    orbit : xarray.Dataset
         One orbit of `symmetric_orbits`: x, xdot, udot on `point`, type.
     energy : int, Fraction, Decimal or str, optional
         Exact, of a Ball's orbit; otherwise the double in the orbit's attributes.
@@ -29,6 +29,14 @@ def prove_orbit(ball, orbit, energy=None):
     ------
     ValueError
         One line that says what cannot be proved and why.
+
+    Examples
+    --------
+    >>> from pseudorigid import symmetric_orbits
+    >>> from pseudorigid.dynamics.ball import Ball
+    >>> one = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1).isel(orbit=0)
+    >>> prove_orbit(Surface("1/5", "1/25", "1/100"), one).type
+    'elliptic'
     """
     from ..search import periodic as proposals
 
@@ -55,7 +63,9 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
 
     Parameters
     ----------
-    ball, orbit, energy
+    ball : Ball or Surface
+        As for `prove_orbit`.
+    orbit : xarray.Dataset
         As for `prove_orbit`.
     side : {"outer", "inner"}
         Which unstable branches the connection belongs to, as its first point's lies.
@@ -65,6 +75,8 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
         Of the sets at the orbit's points, in (x, y).
     room : float
         How much wider than its image, or narrower, a set is where chain and orbit meet.
+    energy : int, Fraction, Decimal or str, optional
+        As for `prove_orbit`.
 
     Returns
     -------
@@ -75,6 +87,10 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
     ------
     ValueError
         One line that says what cannot be proved and why.
+
+    References
+    ----------
+    Those of `checks.horseshoe.check`.
     """
     from ..search import horseshoe as proposals
     from ..search import known

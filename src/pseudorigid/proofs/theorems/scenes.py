@@ -7,13 +7,68 @@ from .statements import HIGH, G, K
 
 
 def scene_horseshoe(ball, energy, connection):
-    """`horseshoe_data` of the paper's orbit by its "outer" or "inner" connection."""
+    """`horseshoe_data` of the paper's orbit by one of its connections.
+
+    Parameters
+    ----------
+    ball : Ball
+        The paper's, k = 1/5 and g = 1/25.
+    energy : float
+        The paper's, 1/100.
+    connection : {"outer", "inner"}
+
+    Returns
+    -------
+    xarray.Dataset
+        As from `horseshoe_data`.
+
+    Raises
+    ------
+    ValueError
+        Another ball or energy.
+
+    References
+    ----------
+    Kanso and Papadopoulos, section 4.1: "a formal proof of the existence of such a set is currently
+    unavailable".
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> scene_horseshoe(Ball(k=0.2, g=0.04), 0.001, "outer")
+    Traceback (most recent call last):
+    ...
+    ValueError: no theorem at k = 0.2, g = 0.04, E = 0.001: they are at k = 1/5, g = 1/25, E = 1/100
+    """
     _check(ball, energy)
     return horseshoe_data(f"horseshoe-{connection}")
 
 
 def scene_twist(ball, energy, energies):
-    """`twist_data` at these energies, decimals as they are written.
+    """`twist_data` at some energies.
+
+    Parameters
+    ----------
+    ball : Ball
+        The paper's, k = 1/5 and g = 1/25.
+    energy : float
+        The paper's, 1/100.
+    energies : list of float
+        Taken as the decimals they print as.
+
+    Returns
+    -------
+    xarray.Dataset
+        As from `twist_data`.
+
+    Raises
+    ------
+    ValueError
+        Another ball or energy.
+
+    References
+    ----------
+    Kanso and Papadopoulos, section 4.2 and section 5, of KAM theory for the islands.
 
     Examples
     --------

@@ -18,15 +18,26 @@ K, G = Fraction(1, 5), Fraction(1, 25)
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
 # Figure 6 of the paper: x from 0.21 to 0.2116, xdot from 0.0925 to 0.0932.
 WINDOW = tuple(tuple(map(Fraction, pair)) for pair in (("0.21", "0.2116"), ("0.0925", "0.0932")))
-DIGITS = 30
+DIGITS = 30  # of an enclosure as text, at most: as many as certificates state
 
 
 @dataclass(frozen=True)
 class Result:
     """What checking a theorem's certificate gave.
 
-    verdict: "proved" or "not proved", with the reason; digits: name -> enclosure, as text with as
-    many digits as are proved; margins: name -> by how much the inequalities hold.
+    Attributes
+    ----------
+    name, statement, certificate : str
+        Of the theorem, and its certificate's file.
+    verdict : {"proved", "not proved"}
+    reason : str
+        Why not; empty where it is proved.
+    digits : dict of str to str
+        Enclosures, with as many digits as are proved.
+    margins : dict of str to float
+        By how much the inequalities hold.
+    seconds : float
+        That it took.
     """
 
     name: str
@@ -51,7 +62,18 @@ class Result:
 
 @dataclass(frozen=True)
 class Theorem:
-    """A statement, its checker with the statement's numbers, and how a certificate is sought."""
+    """A statement, its checker with the statement's numbers, and how a certificate is sought.
+
+    Attributes
+    ----------
+    name, statement : str
+    checker : callable
+        Takes a certificate's text and the bounds, returns a Finding.
+    bounds : dict
+        The statement's numbers, exact.
+    search : callable
+        Takes the theorem, returns a certificate's text.
+    """
 
     name: str
     statement: str
@@ -70,11 +92,35 @@ class Theorem:
         return (folder / self.certificate).read_text(encoding="utf-8")
 
     def prove(self, text):
-        """The checker's Finding for a certificate's text; NotProvedError with the reason."""
+        """What the checker finds of a certificate.
+
+        Parameters
+        ----------
+        text : str
+
+        Returns
+        -------
+        Finding
+
+        Raises
+        ------
+        NotProvedError
+            With the reason.
+        """
         return self.checker(text, **self.bounds)
 
     def check(self, text=None):
-        """The Result for a certificate's text, or for the package's own."""
+        """The verdict on a certificate.
+
+        Parameters
+        ----------
+        text : str, optional
+            By default the package's own certificate.
+
+        Returns
+        -------
+        Result
+        """
         begin = time.perf_counter()
         digits, margins, reason = {}, {}, ""
         try:
@@ -91,7 +137,16 @@ class Theorem:
         )  # fmt: skip
 
     def of_any_size(self, text):
-        """Whether the checker takes a certificate whatever the radius that it claims."""
+        """Whether the checker takes a certificate whatever the radius that it claims.
+
+        Parameters
+        ----------
+        text : str
+
+        Returns
+        -------
+        bool
+        """
         try:
             self.checker(text, **self.bounds | {"radius": Fraction(0)})
         except NotProvedError:
@@ -100,7 +155,28 @@ class Theorem:
 
 
 def search_certificate(name):
-    """A new certificate of a theorem, as text: not proved, but proposed to its checker."""
+    """A new certificate of a theorem: not proved, but proposed to its checker.
+
+    Parameters
+    ----------
+    name : str
+        A key of THEOREMS.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    KeyError
+        Where there is no such theorem.
+
+    Examples
+    --------
+    >>> text = search_certificate("one-fixed-point")
+    >>> THEOREMS["one-fixed-point"].check(text).verdict
+    'proved'
+    """
     theorem = THEOREMS[name]
     return theorem.search(theorem)
 

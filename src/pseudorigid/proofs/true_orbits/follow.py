@@ -17,11 +17,11 @@ from flint import arb, ctx
 
 from ..enclosure.flight import UndecidedError
 
-FRAME_BITS = 64
+FRAME_BITS = 64  # of the frame and the bound, whose own roundings the bound takes in
 GUARD = 40  # bits of a point below its bound
 RESULT_BITS = 110  # to which the last impact is meant to be known
 LEAST_BITS = 80  # fewer are too few to round
-MOST_BITS = 1_000_000
+MOST_BITS = 1_000_000  # some three million impacts of the sea
 
 
 class ShortOfBitsError(Exception):
@@ -29,7 +29,31 @@ class ShortOfBitsError(Exception):
 
 
 class Run:
-    """The orbit up to `count` impacts: z, C, r and the results so far."""
+    """The orbit up to `count` impacts: z, C, r and the results so far.
+
+    Parameters
+    ----------
+    surface : Surface
+    place : Start
+    impacts : int
+        How many in all.
+    bits : int
+        The precision at the start.
+
+    Attributes
+    ----------
+    count : int
+        Impacts done.
+    digits : int
+        The precision now.
+    values : ndarray, shape (impacts, 4)
+        x, xdot, udot, tau of the impacts done, correctly rounded.
+
+    Raises
+    ------
+    ValueError
+        More bits than MOST_BITS.
+    """
 
     def __init__(self, surface, place, impacts, bits):
         if bits > MOST_BITS:
@@ -46,7 +70,19 @@ class Run:
         self.reach = [abs(a).upper() for a in off]
 
     def step(self):
-        """One impact further."""
+        """One impact further.
+
+        Raises
+        ------
+        ValueError
+            A flight that grazes to within the precision.
+        ShortOfBitsError
+            Where the bound has grown too large to round.
+
+        References
+        ----------
+        Lohner, Enclosing the solutions of ordinary initial and boundary value problems (1987).
+        """
         before = self._box(RESULT_BITS + GUARD)
         with ctx.workprec(self.digits):
             try:

@@ -10,7 +10,16 @@ EVERY = 15.0  # seconds between two checkpoints
 
 
 class Clock:
-    """Progress and checkpoints."""
+    """Progress and checkpoints.
+
+    Parameters
+    ----------
+    run : Run
+    progress : callable or None
+        Called at most once a second, and at the end, with the share done and the seconds left.
+    checkpoint : Path or None
+        Written every EVERY seconds.
+    """
 
     def __init__(self, run, progress, checkpoint):
         self.progress, self.checkpoint = progress, checkpoint
@@ -19,6 +28,7 @@ class Clock:
         self.total = self._work(run)
 
     def tick(self, run):
+        """Tell and save what is due after an impact."""
         now = time.monotonic()
         if self.progress is not None and (now - self.said > 1.0 or run.count == run.impacts):
             self.said = now
@@ -39,7 +49,13 @@ class Clock:
 
 
 def save(path, **arrays):
-    """Write arrays to a file, whole or not at all."""
+    """Write arrays to a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+    **arrays : array
+    """
     part = path.with_name(path.name + ".writing")
     with open(part, "wb") as file:
         np.savez(file, **arrays)
@@ -47,7 +63,17 @@ def save(path, **arrays):
 
 
 def load(path):
-    """The arrays of a file that `save` wrote; None if it is missing or damaged."""
+    """The arrays of a file that `save` wrote.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    dict or None
+        None if it is missing or damaged.
+    """
     try:
         with np.load(path) as file:
             return {name: file[name] for name in file.files}

@@ -23,9 +23,9 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
         The ball and its energy, exact.
     impacts : int
         How many.
-    x, y : same
+    x, y : int, Fraction, Decimal or str
         The start in the chart, y = xdot - k udot.
-    start : same, or mapping
+    start : int, Fraction, Decimal, str or mapping
         In place of x and y: a fraction, -1 to 1, of the section's radius along y = 0; or a mapping
         with x and either y or xdot.
     progress : callable, optional
@@ -36,7 +36,7 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
 
     Returns
     -------
-    Dataset
+    xarray.Dataset
         x, xdot, udot, tau on `impact`, the start excluded: each the double nearest to the true
         value, or 0 where that is closer to 0 than 2^-80. Attribute bits: the precision it took.
 
@@ -45,6 +45,11 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     ValueError
         Numbers that are not exact or not allowed, a start on or beyond the rim, a flight that
         grazes to within the precision, more bits than MOST_BITS, too little memory.
+
+    Examples
+    --------
+    >>> true_orbit("1/5", "1/25", "1/100", 3, start="1/2").sizes["impact"]
+    3
     """
     surface = Surface(k, g, energy)
     if (x is None) == (start is None):

@@ -19,14 +19,32 @@ def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=No
 
     Parameters
     ----------
-    k, g, energy, starts
-        Exact, as for `true_orbit`; a start is what its `start` is.
+    k, g, energy : int, Fraction, Decimal or str
+        The ball and its energy, exact.
+    starts : list
+        Exact, each what `start` of `true_orbit` is.
     impacts : int or list of int
         How many of each orbit.
     progress : callable, optional
         Called with the share done and the seconds left of the orbit at work, and its index.
     folder : path, optional
         Where finished orbits and the checkpoint of the one at work are while the run lasts.
+
+    Returns
+    -------
+    xarray.Dataset
+        x, xdot, udot, tau on `point`; on `orbit` start and row_size, and start_x and start_xdot
+        where a start is a point.
+
+    Raises
+    ------
+    ValueError
+        As from `true_orbit`.
+
+    Examples
+    --------
+    >>> true_scene_orbits("1/5", "1/25", "1/100", ["0.5", "-0.2"], [3, 2]).sizes["point"]
+    5
     """
     surface = Surface(k, g, energy)
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)

@@ -15,7 +15,16 @@ from .follow import FRAME_BITS, GUARD, RESULT_BITS
 class Start:
     """An exact start: balls of its coordinates at any precision.
 
-    `start` is a fraction of the section's radius along y = 0, or a mapping with x and y or xdot.
+    Parameters
+    ----------
+    surface : Surface
+    start : int, Fraction, Decimal, str or mapping
+        A fraction of the section's radius along y = 0, or a mapping with x and y or xdot.
+
+    Raises
+    ------
+    ValueError
+        Numbers that are not exact, or a start on or beyond the rim.
     """
 
     def __init__(self, surface, start):
@@ -46,7 +55,12 @@ class Start:
         return kinetic > xdot * xdot and (xdot >= 0 or kinetic > (1 + k) * xdot * xdot)
 
     def balls(self):
-        """(x, y) at the context's precision."""
+        """The point of the chart at the context's precision.
+
+        Returns
+        -------
+        x, y : arb
+        """
         k, g, energy = self.surface.constants()
         numbers = {name: ball_of(value) for name, value in self.numbers.items()}
         if "start" in numbers:
@@ -59,17 +73,42 @@ class Start:
         return x, xdot - k * udot
 
     def floats(self):
-        """The start as `dynamics.starts.start_state` takes it."""
+        """The start as `dynamics.starts.start_state` takes it.
+
+        Returns
+        -------
+        float or dict
+        """
         numbers = {name: float(value) for name, value in self.numbers.items()}
         return numbers.get("start", numbers)
 
     def identity(self, impacts):
-        """What a checkpoint must be of."""
+        """What a checkpoint must be of.
+
+        Parameters
+        ----------
+        impacts : int
+
+        Returns
+        -------
+        str
+        """
         return json.dumps([str(self.surface), str(self), impacts])
 
 
 def bits_needed(surface, place, impacts):
-    """Bits to start with, from the stretch along the orbit in double precision."""
+    """Bits to start with, from the stretch along the orbit in double precision.
+
+    Parameters
+    ----------
+    surface : Surface
+    place : Start
+    impacts : int
+
+    Returns
+    -------
+    int
+    """
     ball = Ball(k=float(surface.k), g=float(surface.g))
     with ctx.workprec(FRAME_BITS):
         x, y = (float(a) for a in place.balls())
