@@ -8,9 +8,7 @@ from pseudorigid import Ball, orbit, symmetric_orbits
 
 
 def brute_force(ball, energy, period, cells, steps=25):
-    """Symmetric orbits from Newton's method in the chart, started on a grid over the whole
-    section.
-    """
+    """Symmetric orbits from Newton's method in the chart, started on a grid of the section."""
     k, g = ball.k, ball.g
     centre, radius = ball.section(energy)
     height = radius * np.sqrt(k * (1 + k))

@@ -1,6 +1,4 @@
-"""Orbits: shapes, bits, memory, bad input; the ragged orbits of a scene; the motion between
-impacts.
-"""
+"""Orbits: shapes, bits, memory, bad input; ragged orbits of a scene; motion between impacts."""
 
 import subprocess
 import sys

@@ -63,9 +63,7 @@ def high_precision(ball, state, taus):
     ],
 )
 def test_trace_and_points_in_forty_digits(k, g, energy, period):
-    """Newton's method in 40 digits moves a point by roundings only, and the trace there is the
-    same.
-    """
+    """Newton's method in 40 digits moves a point and its trace by roundings only."""
     ball = Ball(k, g)
     orbits = symmetric_orbits(ball, energy, period)
     assert orbits.sizes["orbit"] > 0

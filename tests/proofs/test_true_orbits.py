@@ -21,8 +21,10 @@ NAMES = ("x", "xdot", "udot", "tau")
 
 
 def independent(impacts, digits, x="2/5"):
-    """The same orbit from `digits` decimal digits down to 60: the kernel says which root it is,
-    Newton's method gives its digits. Rows of x, xdot, udot, tau as mpf.
+    """The same orbit from `digits` decimal digits down to 60.
+
+    The kernel says which root it is, Newton's method gives its digits. Rows of x, xdot, udot, tau
+    as mpf.
     """
     rows = []
     state = None

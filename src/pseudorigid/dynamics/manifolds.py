@@ -34,7 +34,7 @@ FRESH = 16  # points of an image to begin with; where they are too few, more are
 MOST_IMAGES = 400  # of a multiplier of at least WEAK; else so many that they grow as much
 WEAK = 1.5  # takes 35 images from START to the section's size; smaller multipliers take more
 KNOWN = 0.1  # more would be seen
-MOST_VERTICES = 3_000_000  # of a branch: 72 MB
+MOST_VERTICES = 3_000_000
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 

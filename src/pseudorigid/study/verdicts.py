@@ -42,16 +42,27 @@ K, ENERGY = (0.012, 0.332), (0.1, 40.0)
 def verdicts(cells=36, orbits=128):
     """Errors and costs of the methods.
 
-    Args:
-        cells: how many in each set, at random over the plane.
-        orbits: of each cell, evenly over its section as in a sweep.
+    Parameters
+    ----------
+    cells : int
+        How many in each set, at random over the plane.
+    orbits : int
+        Of each cell, evenly over its section as in a sweep.
 
-    Returns:
-        Dataset. On (set, method, length): wrong, the share of wrong verdicts; missed, chaotic
+    Returns
+    -------
+    xarray.Dataset
+        On (set, method, length): wrong, the share of wrong verdicts; missed, chaotic
         orbits called regular, and alarms, regular ones called chaotic, as shares of all; cost,
         impacts of an orbit. On (method, length): threshold. On (set, cell): k, energy, regular,
         the true share of regular orbits; exponent and exponent_error as `sweep.cell` has them;
         exponent_long, from all LONG impacts of the orbits that are chaotic.
+
+    References
+    ----------
+    Skokos, Alignment indices: a new, simple method for determining the ordered or chaotic nature of
+    orbits, J. Phys. A 34 (2001). Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity,
+    Nonlinearity 30 (2017).
     """
     places = [place for number in range(len(SETS)) for place in _places(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:

@@ -4,6 +4,6 @@ The map commutes with a change of the unit of length, so here lengths are in uni
 g = 1 and the energy is E/g^2. A cell holds for every ball with this k, whatever its g, as long as
 eq. (31) lets it bounce at that energy.
 
-`grid` knows the cells and the files from the config, `cell` computes one, `store` keeps them,
-`run` decides what is to be done again and tells how far it is.
+`grid` knows the cells and how they are cut into blocks, `verdict` judges orbits, `cell` computes
+one cell, `blocks` computes a block and joins them.
 """

@@ -11,7 +11,18 @@ AXES = {"k": "Euler inertia", "energy": "energy over g^2"}
 
 
 def compute(block):
-    """The cells of a block, as from `grid.block`: a Dataset on the dim `cell`."""
+    """The cells of a block.
+
+    Parameters
+    ----------
+    block : dict
+        As from `grid.block`.
+
+    Returns
+    -------
+    xarray.Dataset
+        On `cell` the variables of `cell.VARIABLES`, k and energy, E/g^2; chains on (cell, period).
+    """
     found = []
     for k, row in groupby(block["cells"], key=lambda pair: pair[0]):
         found += cells(k, [e for _, e in row], block["starts"], block["impacts"])
@@ -30,7 +41,20 @@ def compute(block):
 
 
 def join(sweep, blocks):
-    """The Dataset of a sweep, dims (k, energy), from its blocks in the order of their cells."""
+    """A sweep from its blocks.
+
+    Parameters
+    ----------
+    sweep : dict
+        Of the config: k and energy are lists of numbers.
+    blocks : iterable of xarray.Dataset
+        As from `compute`, in the order of their cells.
+
+    Returns
+    -------
+    xarray.Dataset
+        On (k, energy), the same whatever the blocks.
+    """
     joined = xr.concat(
         list(blocks), "cell", data_vars="minimal", coords="minimal", compat="override"
     )

@@ -38,14 +38,7 @@ VARIABLES = {
 
 
 def cell(k, e, starts, impacts):
-    """The numbers of one cell, as a dict with the keys of VARIABLES.
-
-    Args:
-        k: Euler inertia.
-        e: energy E/g^2, above -1/(2k).
-        starts: how many orbits. They start evenly over one half, y >= 0, of the section's area;
-            the reversor maps regular orbits of the one half to those of the other.
-        impacts: at most so many of each, at least 4.
+    """The numbers of one cell.
 
     Which orbits are regular is decided by `verdict.judge`. The interval of their share goes from
     the lower end of Wilson's interval with half the threshold to the upper end of that with twice
@@ -59,12 +52,48 @@ def cell(k, e, starts, impacts):
     number changes from one to the next, in islands it does not; one within LOCKED of the fixed
     point's own is not told from it. A chain inside the main island counts too, islands around an
     island count with it, and so do those of a second orbit of that period.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    e : float
+        E/g^2, above -1/(2k).
+    starts : int
+        How many orbits. They start evenly over one half, y >= 0, of the section's area;
+        the reversor maps regular orbits of the one half to those of the other.
+    impacts : int
+        At most so many of each, at least 4.
+
+    Returns
+    -------
+    dict
+        With the keys of VARIABLES.
+
+    References
+    ----------
+    Wilson, Probable inference, the law of succession, and statistical inference, J. Amer. Statist.
+    Assoc. 22 (1927).
     """
     return cells(k, [e], starts, impacts)[0]
 
 
 def cells(k, energies, starts, impacts):
-    """What `cell` returns for each of the energies: the same bits, in less time."""
+    """What `cell` returns for each of several energies: the same bits, in less time.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    energies : sequence of float
+        E/g^2 of each.
+    starts, impacts : int
+        As for `cell`.
+
+    Returns
+    -------
+    list of dict
+    """
     found = []
     step = max(1, BATCH // starts)
     for first in range(0, len(energies), step):
@@ -167,9 +196,22 @@ def _spiral(e, k, x, v, w):
 
 
 def even(k, e, count):
-    """`count` states, evenly over the half y >= 0 of the section's area: x, v, w (count,).
+    """States evenly over the half y >= 0 of the section's area.
 
     Radius by equal areas, angle by the golden section.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    e : float
+        E/g^2.
+    count : int
+
+    Returns
+    -------
+    x, v, w : ndarray, shape (count,)
+        x, xdot and udot, lengths in g R.
     """
     x, v, w = np.empty(count), np.empty(count), np.empty(count)
     _spiral(e, k, x, v, w)

@@ -23,10 +23,12 @@ import numpy as np
 
 from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
 
-FIRST = 500
+FIRST = 500  # impacts that all orbits have: the exponent is taken from them
+# Of growth: half of it is still above a regular orbit's 0.85. `study.verdicts` holds it against the
+# threshold with the fewest wrong verdicts.
 THRESHOLD = 2.2
 SETTLED = 1e-7  # turns an impact
-SURE = 15.0
+SURE = 15.0  # a regular orbit's G is about ln 16,000 = 9.7 after as many impacts
 
 
 def levels(impacts):
@@ -41,10 +43,19 @@ def levels(impacts):
 class Verdicts:
     """What was found of each orbit, arrays (n,).
 
-    regular; strict and lenient, the same with half and twice the threshold; winding: turns around
-    the centre an impact; growth: what is compared with the threshold; exponent: the growth of a
-    tangent vector an impact, from a quarter of the first length to the whole of it, the impacts
-    that all orbits have in common; followed: how many impacts.
+    Attributes
+    ----------
+    regular, strict, lenient : ndarray of bool
+        Whether it is regular; the same with half and with twice the threshold.
+    winding : ndarray
+        Turns around the centre an impact.
+    growth : ndarray
+        What is compared with the threshold.
+    exponent : ndarray
+        The growth of a tangent vector, nats an impact, from a quarter of the first length to the
+        whole of it, the impacts that all orbits have in common.
+    followed : ndarray of int
+        How many impacts.
     """
 
     regular: np.ndarray
@@ -63,15 +74,26 @@ class Verdicts:
 def judge(k, states, centre, expected, impacts):
     """Follow orbits for at most `impacts` and judge them.
 
-    Args:
-        k: Euler inertia; lengths are in units of g R.
-        states: (x, v, w), each (n,), before an impact.
-        centre: (n,), the x around which the turns are counted, at y = 0.
-        expected: (n,), the turn of an impact that is expected.
-        impacts: at least 4.
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    states : (x, v, w), each of shape (n,)
+        Just before an impact, lengths in g R.
+    centre : ndarray, shape (n,)
+        The x around which the turns are counted, at y = 0.
+    expected : ndarray, shape (n,)
+        The turn of an impact that is expected.
+    impacts : int
+        At least 4.
 
-    Returns:
-        Verdicts.
+    Returns
+    -------
+    Verdicts
+
+    References
+    ----------
+    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017).
     """
     lengths = levels(impacts)
     turning, growing = windows(lengths)
@@ -117,8 +139,19 @@ def judge(k, states, centre, expected, impacts):
 
 
 def windows(lengths):
-    """The windows over which `follow` takes sums: (turning, growing), pairs of first impact and
-    length. Of turns each of the lengths and its two halves, of growth its second and last quarter.
+    """The windows over which `follow` takes sums, as pairs of first impact and length.
+
+    Parameters
+    ----------
+    lengths : sequence of int
+        At which orbits are judged.
+
+    Returns
+    -------
+    turning : ndarray, shape (3 m, 2)
+        Each of the m lengths and its two halves.
+    growing : ndarray, shape (2 m, 2)
+        The second and the last quarter of each.
     """
     turning, growing = [], []
     for length in lengths:
@@ -129,8 +162,21 @@ def windows(lengths):
 
 
 def means(turning, growing, turned, growth):
-    """Winding numbers (m, 3, n), of each length and of its two halves, and growth (m, n), from the
-    sums of `follow` over `windows`.
+    """Winding numbers and growth from the sums of `follow` over `windows`.
+
+    Parameters
+    ----------
+    turning, growing : ndarray
+        As from `windows`, of m lengths.
+    turned, growth : ndarray
+        The sums for n orbits.
+
+    Returns
+    -------
+    winding : ndarray, shape (m, 3, n)
+        Turns an impact, of each length and of its two halves.
+    growth : ndarray, shape (m, n)
+        Of the mean logarithm of a tangent vector, from the second quarter to the last.
     """
     weights = np.empty((len(turning), 1))
     for row, (_, length) in enumerate(turning):

@@ -4,7 +4,7 @@ import numpy as np
 
 from pseudorigid.dynamics.ball import Ball
 
-REACH = 0.25  # section radii
+REACH = 0.25  # section radii: farther apart two orbits are told as one lost and one gained
 
 
 def table(one, other, names):

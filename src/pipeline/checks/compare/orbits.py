@@ -9,8 +9,10 @@ VISIBLE = 1e-3
 
 
 def table(one, other):
-    """Lines: for each orbit the first impact that differs by more than VISIBLE, or the largest
-    difference; none where starts or lengths differ.
+    """From where on two artifacts' orbits are apart by more than VISIBLE.
+
+    A line an orbit, with the largest difference where there is no such impact; none at all where
+    starts or lengths differ.
     """
     if any(not np.array_equal(one[n], other[n], equal_nan=True) for n in ("start", "row_size")):
         return []

@@ -1,6 +1,4 @@
-"""The regions that the branches of a hyperbolic orbit close in, and the lobes through which the
-sea passes.
-"""
+"""The regions that a hyperbolic orbit's branches close in, and the lobes of the sea's passage."""
 
 import math
 
