@@ -27,7 +27,18 @@ class Currency:
         self.reason = cache(self._reason)
 
     def outdated(self, paths=None):
-        """Each of the results `paths`, or of all, that has to be made again -> why, in words."""
+        """What has to be made again.
+
+        Parameters
+        ----------
+        paths : iterable of str, optional
+            Results; by default all.
+
+        Returns
+        -------
+        dict of str to str
+            Result -> why, in words.
+        """
         reasons = {path: self.reason(path) for path in (self.expected if paths is None else paths)}
         return {path: why for path, why in reasons.items() if why}
 

@@ -15,10 +15,23 @@ NEW = "new: ./reproduce accept adds it to the contract"
 
 
 def verify(root, checked, against=None, strict=False):
-    """Print what differs between the tree at `root` and its contracts; 0 where nothing is red.
+    """Print what differs between a tree and its contracts.
 
-    `checked` is the checked config, `against` a folder with another tree or its results, or None;
-    `strict` makes notes red.
+    Parameters
+    ----------
+    root : pathlib.Path
+        Of the tree.
+    checked : dict
+        The checked config.
+    against : pathlib.Path, optional
+        A folder with another tree or its results, with which what differs is compared.
+    strict : bool
+        Notes are red too.
+
+    Returns
+    -------
+    int
+        0 where nothing is red.
     """
     status = 0
     for contract in contracts.committed(checked):

@@ -23,12 +23,26 @@ class ArtifactError(ValueError):
 
 
 def save(dataset, path, config, **attributes):
-    """Save `dataset` to `path` as netCDF-4, whole or not at all.
+    """Save a dataset as netCDF-4, whole or not at all.
 
-    `config` is the block of configuration behind the data, stored as canonical JSON;
-    `attributes` become global ones beside the dataset's own. Every variable needs `long_name` and,
-    strings apart, units "1". NaN is stored as it is: no variable has a fill value. Raises
-    ArtifactError.
+    NaN is stored as it is: no variable has a fill value.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Every variable needs `long_name` and, strings apart, units "1".
+    path : path
+    config : dict
+        The block of configuration behind the data, stored as canonical JSON.
+    **attributes : str or number
+        Global ones beside the dataset's own.
+
+    Raises
+    ------
+    ArtifactError
+        A dataset that is not of that form.
+    FileError
+        A file that cannot be written.
     """
     dataset = dataset.assign_attrs(
         attributes, config=canonical_json(config), Conventions=CONVENTIONS
@@ -40,10 +54,20 @@ def save(dataset, path, config, **attributes):
 
 
 def load(path):
-    """Return the artifact at `path` as a Dataset in memory, the file closed.
+    """An artifact in memory, its file closed.
 
-    Raises ArtifactError with one line that names the file if it is missing, damaged or not
-    written by `save`.
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    ArtifactError
+        One line that names the file, if it is missing, damaged or not written by `save`.
     """
     path = Path(path)
     if not path.is_file():
@@ -71,10 +95,19 @@ def load(path):
 
 
 def content_hash(dataset):
-    """Return the sha256 (hex) of names, dims, dtypes, values and attributes.
+    """Hash of names, dims, dtypes, values and attributes.
 
     It says nothing about the container: not the library versions that netCDF embeds, not the
     order of variables, not byte order. All NaN count as one value; 0.0 and -0.0 differ.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    str
+        sha256 in hex.
     """
     digest = hashlib.sha256()
     _feed(digest, sorted(dataset.sizes.items()), plain_attributes(dataset))
@@ -90,7 +123,19 @@ def content_hash(dataset):
 
 
 def canonical_values(variable):
-    """Return (kind, values in one row): little-endian numbers with one NaN, or ("str", a list)."""
+    """The values of a variable in one row, the same on every machine.
+
+    Parameters
+    ----------
+    variable : xarray.Variable
+
+    Returns
+    -------
+    kind : str
+        The dtype, or "str".
+    values : ndarray or list of str
+        Little-endian numbers, with one NaN.
+    """
     if _is_text(variable):
         return "str", [str(value) for value in variable.values.ravel()]
     kind = variable.dtype.newbyteorder("<").str
@@ -101,7 +146,17 @@ def canonical_values(variable):
 
 
 def plain_attributes(source):
-    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike."""
+    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike.
+
+    Parameters
+    ----------
+    source : xarray.Dataset or xarray.Variable
+
+    Returns
+    -------
+    dict
+        In the order of names.
+    """
     arrays = {name: np.asarray(value) for name, value in sorted(source.attrs.items())}
     return {
         name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
@@ -109,7 +164,16 @@ def plain_attributes(source):
 
 
 def canonical_json(value):
-    """Return `value` as JSON with sorted keys and no spaces: equal values, equal text."""
+    """A value as JSON with sorted keys and no spaces: equal values, equal text.
+
+    Parameters
+    ----------
+    value : dict, list, str, number, bool or None
+
+    Returns
+    -------
+    str
+    """
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 

@@ -4,7 +4,19 @@ import json
 
 
 def differing_keys(before, after, place=""):
-    """Yield (dotted key, value before, value after) for each difference of two blocks."""
+    """The differences of two blocks.
+
+    Parameters
+    ----------
+    before, after : dict, list, str, number, bool or None
+    place : str
+        Dotted key of the blocks.
+
+    Yields
+    ------
+    str, object, object
+        Dotted key, value before, value after; 1 and 1.0 differ, and true and 1.
+    """
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
             where = f"{place}.{key}" if place else key
@@ -18,14 +30,35 @@ def differing_keys(before, after, place=""):
 
 
 def differing_block(before, after, was="then", now="now"):
-    """Words about the first key that differs between two blocks, or None."""
+    """Words about the first key that differs between two blocks.
+
+    Parameters
+    ----------
+    before, after : dict
+    was, now : str
+        What the two are called.
+
+    Returns
+    -------
+    str or None
+    """
     for key, old, new in differing_keys(before, after):
         return f"{key}: {brief(old)} {was}, {brief(new)} {now}"
     return None
 
 
 def differing_files(before, after):
-    """Words about the first file whose hash differs between two mappings, or None."""
+    """Words about the first file whose hash differs.
+
+    Parameters
+    ----------
+    before, after : dict
+        File -> hash, or None where it is gone.
+
+    Returns
+    -------
+    str or None
+    """
     different = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if not different:
         return None
@@ -36,7 +69,19 @@ def differing_files(before, after):
 
 
 def differing_package(before, after, was="then"):
-    """Words about the first package whose version differs between two mappings, or None."""
+    """Words about the first package whose version differs.
+
+    Parameters
+    ----------
+    before, after : dict
+        Package -> version, or None where it is not installed.
+    was : str
+        What the first is called.
+
+    Returns
+    -------
+    str or None
+    """
     for name in sorted({*before, *after}):
         if before.get(name) != after.get(name):
             here = f"{after[name]} here" if after.get(name) else "not installed here"
@@ -51,7 +96,17 @@ def brief(value):
 
 
 def columns(rows):
-    """Rows of texts as lines with aligned columns."""
+    """Rows of texts as lines with aligned columns.
+
+    Parameters
+    ----------
+    rows : list of sequence of str
+        All of one length.
+
+    Returns
+    -------
+    list of str
+    """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = [[f"{text:{w}}" for text, w in zip(row, widths, strict=True)] for row in rows]
     return ["  ".join(row).rstrip() for row in padded]

@@ -17,8 +17,20 @@ def replacing(path):
     """Yield a temporary path beside `path`; on success it replaces `path`, on error it goes.
 
     A reader sees the old file or the new one, never a part, also when the process is killed
-    (which can leave the temporary file, whose name begins with a dot). Raises FileError where
-    the system or the netCDF library cannot write, with the space that is left.
+    (which can leave the temporary file, whose name begins with a dot).
+
+    Parameters
+    ----------
+    path : path
+
+    Yields
+    ------
+    pathlib.Path
+
+    Raises
+    ------
+    FileError
+        Where the system or the netCDF library cannot write, with the space that is left.
     """
     path = Path(path)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -39,7 +51,17 @@ def replacing(path):
 
 
 def file_hash(path):
-    """Return the sha256 (hex) of a file's bytes, or None where there is no such file."""
+    """Hash of a file's bytes.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    str or None
+        sha256 in hex, None where there is no such file.
+    """
     try:
         with open(path, "rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
@@ -48,7 +70,17 @@ def file_hash(path):
 
 
 def identity(path):
-    """What changes whenever a file is written anew; None where there is none."""
+    """What changes whenever a file is written anew.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    (int, int) or None
+        None where there is no file.
+    """
     try:
         status = Path(path).stat()
     except OSError:

@@ -14,7 +14,21 @@ class PictureError(ValueError):
 
 
 def pixels(path):
-    """Return a PNG's pixels as (height, width, 3) bytes; raises PictureError."""
+    """A PNG's pixels.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    ndarray of uint8, shape (height, width, 3)
+
+    Raises
+    ------
+    PictureError
+        A file that is no picture.
+    """
     from PIL import Image
 
     try:
@@ -25,7 +39,21 @@ def pixels(path):
 
 
 def elements(path):
-    """Return an SVG's tags and texts in order, attributes sorted; raises PictureError."""
+    """An SVG's tags and texts in order, attributes sorted.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    list of str
+
+    Raises
+    ------
+    PictureError
+        A file that is no SVG.
+    """
     try:
         text = ElementTree.canonicalize(from_file=path, strip_text=True)
     except (ElementTree.ParseError, ValueError, LookupError) as error:
@@ -34,7 +62,22 @@ def elements(path):
 
 
 def describe(path):
-    """Return what the manifest says of a drawing: the size and hash of its pixels or elements."""
+    """What the manifest says of a drawing.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    dict
+        Size and hash of its pixels or elements.
+
+    Raises
+    ------
+    PictureError
+        A file that is no picture.
+    """
     if Path(path).suffix == ".png":
         image = pixels(path)
         size = {"height": image.shape[0], "width": image.shape[1]}
@@ -45,10 +88,25 @@ def describe(path):
 
 
 def difference(path, reference, image_path):
-    """(in words how a drawing differs from the reference of its kind, whether an image was saved).
+    """How a drawing differs from the reference of its kind, in words and as an image.
 
-    The image, of PNGs of one size: the reference in pale grey, what differs in red. Raises
-    PictureError.
+    Parameters
+    ----------
+    path, reference : path
+    image_path : path
+        Of PNGs of one size an image is saved there: the reference in pale grey, what differs in
+        red.
+
+    Returns
+    -------
+    words : str
+    saved : bool
+        Whether there is an image.
+
+    Raises
+    ------
+    PictureError
+        A file that is no picture.
     """
     if Path(path).suffix != ".png":
         ours, theirs = elements(path), elements(reference)

@@ -34,13 +34,40 @@ class RecordError(ValueError):
 
 
 def record_path(result):
-    """Where the record of a result is: results/paper/provenance/<its file's name>.json."""
+    """Where the record of a result is: results/paper/provenance/<its file's name>.json.
+
+    Parameters
+    ----------
+    result : path
+        From the root.
+
+    Returns
+    -------
+    str
+    """
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/provenance/{name}.json"
 
 
 def read_record(root, path):
-    """The record of a result; raises RecordError, in words, where there is none to be read."""
+    """The record of a result.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+    path : str
+        Of the result, from the root.
+
+    Returns
+    -------
+    dict
+        With the keys of SHAPE.
+
+    Raises
+    ------
+    RecordError
+        In words, where there is none to be read.
+    """
     try:
         record = json.loads((root / record_path(path)).read_text(encoding="utf-8"))
         for name, kind in SHAPE.items():
@@ -55,10 +82,21 @@ def read_record(root, path):
 
 
 def begin(*, config, inputs, sources):
-    """Return what can be said before the work: paths are relative to the current folder, the root.
+    """What can be said of a result before the work; the current folder is the root.
 
-    `config` is the block behind the result, `inputs` the results it is made from, `sources` the
-    project's own files that make it.
+    Parameters
+    ----------
+    config : dict
+        The block behind the result.
+    inputs : iterable of str
+        The results it is made from.
+    sources : iterable of str
+        The project's own files that make it.
+
+    Returns
+    -------
+    dict
+        For `finish`.
     """
     commit, dirty = _commit()
     return {
@@ -73,7 +111,17 @@ def begin(*, config, inputs, sources):
 
 
 def finish(record, output, path):
-    """Write the record of the finished file `output` to `path`."""
+    """Write the record of a finished result.
+
+    Parameters
+    ----------
+    record : dict
+        As from `begin`.
+    output : path
+        The result.
+    path : path
+        Where the record is written.
+    """
     about = {"file": str(output), "sha256": file_hash(output)}
     if str(output).endswith(".nc"):
         from .artifacts import content_hash, load
@@ -85,7 +133,13 @@ def finish(record, output, path):
 
 
 def versions():
-    """Return package -> installed version, None where it is not installed."""
+    """The packages that decide bits.
+
+    Returns
+    -------
+    dict
+        Package -> installed version, None where it is not installed.
+    """
     found = {}
     for package in PACKAGES:
         try:
@@ -96,7 +150,18 @@ def versions():
 
 
 def git(*arguments, root="."):
-    """Return what git prints, as bytes; None where it fails or is not there."""
+    """What git prints.
+
+    Parameters
+    ----------
+    *arguments : str
+    root : path
+
+    Returns
+    -------
+    bytes or None
+        None where it fails or is not there.
+    """
     try:
         result = subprocess.run(
             ["git", "-C", str(root), *arguments],

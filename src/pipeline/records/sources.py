@@ -15,21 +15,46 @@ PACKAGES = ("pseudorigid", "pipeline")
 
 
 def code(script: str, *modules: str) -> list[str]:
-    """The project's files that a script of workflow/scripts runs, from the root, itself included.
+    """The project's files that a script of workflow/scripts runs.
 
-    `modules` are those that the script imports by a name it is given.
+    Parameters
+    ----------
+    script : str
+        Its file's name.
+    *modules : str
+        Those that the script imports by a name it is given.
+
+    Returns
+    -------
+    list of str
+        From the root, the script included.
     """
     scripts = [ROOT / "workflow" / "scripts" / name for name in (script, "job.py")]
     return [os.path.relpath(file, ROOT) for file in (*scripts, *closure(*scripts, *modules))]
 
 
 def closure(*starts: str | Path) -> list[Path]:
-    """The packages' files behind `starts`, sorted: what they import, what that imports, and so on.
+    """The packages' files behind some modules or scripts.
 
-    A start is a module's dotted name ("pseudorigid.dynamics.orbits"), whose own file is part of the
-    answer, or the path of a script, which is not. Imports inside functions count, and so does the
-    `__init__` of every package on the way. Raises ValueError for a module that is not there, and
-    for a name from the package `pseudorigid`, which does not tell where such a name comes from.
+    What they import, what that imports, and so on; imports inside functions count, and so does the
+    `__init__` of every package on the way.
+
+    Parameters
+    ----------
+    *starts : str or pathlib.Path
+        A module's dotted name ("pseudorigid.dynamics.orbits"), whose own file is part of the
+        answer, or the path of a script, which is not.
+
+    Returns
+    -------
+    list of pathlib.Path
+        Sorted.
+
+    Raises
+    ------
+    ValueError
+        A module that is not there, or a name from the package `pseudorigid`, which does not tell
+        where such a name comes from.
     """
     found: set[Path] = set()
     pending = []

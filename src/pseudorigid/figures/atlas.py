@@ -26,7 +26,19 @@ _DASHES = 5.0, 4.0  # widths of a line: the onset of jumps
 
 
 def draw(sweep, data):
-    """Return the Figure of a sweep: a plane, or a line where k does not vary."""
+    """The picture of a sweep: a plane, or a line where k does not vary.
+
+    Parameters
+    ----------
+    sweep : dict
+        Of the config: k and energy are lists of numbers.
+    data : xarray.Dataset
+        Of that sweep, as from `sweep.blocks.join`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
 
 

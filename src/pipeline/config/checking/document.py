@@ -32,9 +32,23 @@ class Document(Block):
 
 
 def check(document) -> dict:
-    """The complete config of a parsed YAML `document`; raises ConfigError where there is none.
+    """The complete config of a parsed YAML document.
 
-    Its `variants` begin with the paper itself and the scenes of MORE: name -> scene -> block.
+    Parameters
+    ----------
+    document : object
+        What YAML made of the file.
+
+    Returns
+    -------
+    dict
+        ball, scenes, variants, sweeps and prove. Its variants begin with the paper itself and the
+        scenes of MORE: name -> scene -> block.
+
+    Raises
+    ------
+    ConfigError
+        Where there is none, with a line for each mistake.
     """
     lines = mistakes(Document, document, ())
     parts = document if isinstance(document, dict) else {}

@@ -25,9 +25,20 @@ class _Loader(yaml.SafeLoader):
 
 
 def load(path) -> dict:
-    """The checked config at `path`; every scene complete with its `ball` and `formats`.
+    """The checked config; every scene complete with its `ball` and `formats`.
 
-    Raises ConfigError, with a line to show for each mistake.
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ConfigError
+        With a line to show for each mistake.
     """
     path = Path(path)
     try:

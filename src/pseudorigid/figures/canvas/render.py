@@ -45,7 +45,17 @@ def render(figure, extension):
 
 
 def pixels(figure):
-    """The rendered figure, uint8 of shape (height, width, 3): red, green and blue."""
+    """The rendered figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+
+    Returns
+    -------
+    ndarray of uint8, shape (height, width, 3)
+        Red, green and blue.
+    """
     with style.pinned():
         canvas = FigureCanvasAgg(figure)
         canvas.draw()

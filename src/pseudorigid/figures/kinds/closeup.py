@@ -48,6 +48,16 @@ def draw(scene, manifolds):
 
 
 def plane(scene):
-    """The empty picture of a scene with its axes."""
+    """The empty picture of a scene with its axes.
+
+    Parameters
+    ----------
+    scene : dict
+        With axes x and xdot.
+
+    Returns
+    -------
+    Plane
+    """
     names = (style.NAMES["x"], style.NAMES["xdot"])
     return Plane(scene, ("x", "xdot"), names, high=900, right=75)

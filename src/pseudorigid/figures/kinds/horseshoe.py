@@ -14,13 +14,24 @@ _SIZE = 7.0  # points: text
 
 @style.pinned()
 def draw(scene, manifolds, horseshoe):
-    """Return the Figure of a horseshoe's sets in the chart (x, y = xdot - k udot).
+    """The sets of a horseshoe in the chart (x, y = xdot - k udot), over the tangle.
 
-    `manifolds` is the artifact of that stage, `horseshoe` the Dataset of
-    `proofs.theorems.pictures.horseshoe_data`. Above: the sets, drawn as dots, far larger than they
-    are, at the saddles and along the connection. Below: the middle set of the chain as the square
-    from -1 to 1, and across it the image of the set before it, whose two ends, beyond the square,
-    are heavy. scene["axes"] gives x, y, p and q.
+    Above: the sets, drawn as dots, far larger than they are, at the saddles and along the
+    connection. Below: the middle set of the chain as the square from -1 to 1, and across it the
+    image of the set before it, whose two ends, beyond the square, are heavy.
+
+    Parameters
+    ----------
+    scene : dict
+        Its axes are x, y, p and q.
+    manifolds : xarray.Dataset
+        Of that stage.
+    horseshoe : xarray.Dataset
+        As from `proofs.theorems.pictures.horseshoe_data`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     sheet = Sheet(style.COLUMN, _HIGH)
     axes = {

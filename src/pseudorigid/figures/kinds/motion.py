@@ -43,5 +43,15 @@ def draw(scene, motion):
 
 
 def plane(scene):
-    """The empty picture of a scene with its axes."""
+    """The empty picture of a scene with its axes.
+
+    Parameters
+    ----------
+    scene : dict
+        With axes t and displacement.
+
+    Returns
+    -------
+    Plane
+    """
     return Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))

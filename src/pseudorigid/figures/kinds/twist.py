@@ -12,10 +12,18 @@ _DOT = 3.2  # points
 
 @style.pinned()
 def draw(scene, twist):
-    """Return the Figure of the twist coefficient over the energy.
+    """The twist coefficient of the fixed point over the energy.
 
-    `twist` is the Dataset of `proofs.theorems.pictures.twist_data`. scene["marks"], energies among
-    its own, are marked as dots and named, the zero as a ring.
+    Parameters
+    ----------
+    scene : dict
+        Its marks, energies among its own, are marked as dots and named, the zero as a ring.
+    twist : xarray.Dataset
+        As from `proofs.theorems.pictures.twist_data`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     energy, values = twist["energy"].values, twist["twist"].values
     scene = complete(
