@@ -1,5 +1,7 @@
 """What a run says and leaves, for the tests of runs."""
 
+import re
+
 FIG3 = {
     "results/paper/periodic_fig3.nc",
     "results/paper/motion_fig3.nc",
@@ -10,8 +12,8 @@ FIG7 = {f"results/paper/figures/fig7.{extension}" for extension in ("png", "svg"
 
 def rows(said):
     """File -> recomputed or current, from the table at the end of a run."""
-    lines = (line.split() for line in said.splitlines())
-    return {line[1]: line[-1] for line in lines if line and line[-1] in ("recomputed", "current")}
+    found = re.findall(r"^\S+ +(\S+) +[\d,]+ kB +(recomputed|current)\b", said, re.MULTILINE)
+    return dict(found)
 
 
 def contents(tree):

@@ -59,10 +59,15 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     result = done.run("paper_figures/fig7.png")
     assert result.returncode == 1
     log = "results/paper/logs/lyapunov_fig7.nc.log"
-    said = f"reproduce: fig7: ZeroDivisionError: division by zero (traceback in {log})"
-    last_line(result)
-    assert said in result.stdout.splitlines()
-    assert result.stdout.splitlines()[-1].endswith("not made")
+    said = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
+    (line,) = (line for line in result.stdout.splitlines() if line.startswith("fig7    lyapunov"))
+    assert line.endswith(said)
+    assert result.stdout.count("ZeroDivisionError") == 1
+    last = last_line(result)
+    assert last.startswith("snakemake's log: .snakemake/log/")
+    assert (done.path / last.partition(": ")[2]).is_file()
+    (row,) = (line for line in result.stdout.splitlines() if "paper_figures/fig7.png" in line)
+    assert row.endswith("not made")
     assert "Traceback" in (done.path / log).read_text()
     assert done.published() == before
     module.write_text(text)

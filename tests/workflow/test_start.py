@@ -31,7 +31,7 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
 
 def test_settings_on_the_command_line_are_refused(tree):
     result = tree.run("-n", "--config", "energy=0.3")
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert result.stdout.splitlines()[-1].endswith("not used here: edit config.yaml")
 
 

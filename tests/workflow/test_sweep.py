@@ -14,8 +14,8 @@ from types import SimpleNamespace
 import pytest
 from project import ROOT, fresh_tree, of_scenes
 
-from pipeline.cli import sweeping
-from pipeline.cli.folder import UsageError
+from pipeline.cli.folder import MisuseError, UsageError
+from pipeline.cli.telling import sweeping
 from pipeline.records.artifacts import load
 from pseudorigid.sweep import cell
 
@@ -30,11 +30,11 @@ def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
     assert line == "the disk is full: about 34 MB are needed here, 30 are free"
 
 
-def test_names_come_before_options():
+def test_all_sweeps_are_meant_where_none_is_named():
     sweeps = {"plane": SMALL, "line": SMALL}
-    assert sweeping.chosen(sweeps, []) == (["plane", "line"], [])
-    assert sweeping.chosen(sweeps, ["line", "-c", "1"]) == (["line"], ["-c", "1"])
-    with pytest.raises(UsageError, match="no sweep lime: did you mean line"):
+    assert sweeping.chosen(sweeps, []) == ["plane", "line"]
+    assert sweeping.chosen(sweeps, ["line"]) == ["line"]
+    with pytest.raises(MisuseError, match="no sweep lime: did you mean line"):
         sweeping.chosen(sweeps, ["lime"])
     with pytest.raises(UsageError, match="sweeps: missing, or empty"):
         sweeping.chosen({}, [])
@@ -151,7 +151,7 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
 
 def test_mistakes_end_in_one_line_before_any_job(tree):
     result = tree.run("sweep", "smal")
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert result.stdout == "reproduce: no sweep smal: did you mean small? config.yaml has small\n"
     set_sweep(tree, SMALL | {"energy": []})
     result = tree.run("sweep")
@@ -186,7 +186,8 @@ def test_the_papers_figures_need_no_sweep(tree):
 
 
 def test_the_start_imports_nothing_heavy():
-    code = "import sys, pipeline.config, pipeline.cli.sweeping; print('numpy' in sys.modules)"
+    code = "import sys, pipeline.config, pipeline.cli.telling.sweeping\n"
+    code += "print('numpy' in sys.modules)"
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
     result = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment

@@ -26,7 +26,6 @@ def one_line_errors(snakemake):
         message = f"pseudorigid: {_subject(snakemake.wildcards)}: {message}"
         with suppress(OSError), open(log, "w", encoding="utf-8") as file:  # or the disk is full
             file.write(f"{traceback.format_exc()}\n{message}\n")
-        print(message, file=sys.stderr)
         sys.exit(1)
 
 

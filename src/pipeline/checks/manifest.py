@@ -12,15 +12,12 @@ from ..records.artifacts import canonical_json, canonical_values, load, plain_at
 from ..records.files import file_hash, replacing
 from ..records.pictures import describe
 from ..records.record import versions
+from .sums import SUMS, ContractError, read_sums, text_of
 
 MANIFEST = "MANIFEST.json"
-SUMS = "SHA256SUMS"
+__all__ = ["SUMS", "ContractError", "read_sums"]
 BLOCK = 1024  # values hashed together, so that a difference can be placed
 _SHORT = 16  # hex digits of the hash of a block or an attribute
-
-
-class ContractError(Exception):
-    """One line about a contract that cannot be read; it names the file."""
 
 
 def describe_data(dataset):
@@ -84,25 +81,13 @@ def read(root, folder):
     """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(_text(root, name))
+        manifest = json.loads(text_of(root, name))
     except (ValueError, RecursionError) as error:
         raise ContractError(f"{name}: broken: {error}") from None
     # It covers every entry: none can be lost or changed without a word.
     if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
         raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
     return manifest
-
-
-def read_sums(root, folder):
-    """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
-    path = f"{folder}/{SUMS}"
-    found = {}
-    for number, line in enumerate(_text(root, path).splitlines(), 1):
-        digest, mark, name = line[:64], line[64:66], line[66:]
-        if len(digest) < 64 or set(digest) - set("0123456789abcdef") or not name or mark != "  ":
-            raise ContractError(f"{path}: line {number} is not a sha256 and a file's name")
-        found[name] = digest
-    return found
 
 
 def figures(manifest):
@@ -127,15 +112,6 @@ def write(root, folder, manifest):
     with replacing(root / folder / SUMS) as part:
         lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
         part.write_text("".join(lines), encoding="utf-8")
-
-
-def _text(root, name):
-    try:
-        return (root / name).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ContractError(f"{name}: missing") from None
-    except (OSError, ValueError) as error:
-        raise ContractError(f"{name}: cannot be read: {error}") from None
 
 
 def _checksum(manifest):

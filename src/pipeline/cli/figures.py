@@ -5,17 +5,18 @@ import json
 import shutil
 
 from ..checks.currency import Currency
-from ..config import expected, places
+from ..config import expected, places, unknown
 from ..config.expected import Expected
 from ..records.differences import columns
 from ..records.files import identity, replacing
 from ..records.record import begin, finish, record_path
 from ..records.sources import ROOT
 from . import running
-from .folder import say
+from .folder import MisuseError
+from .telling import states
 
 
-def make(checked, variant, arguments, named=None, others=()) -> int:
+def make(checked, variant, options, named=None, others=()) -> int:
     """Make the figures of a variant, or those of its files that are `named`, and say what became
     of them; the exit status.
 
@@ -26,30 +27,63 @@ def make(checked, variant, arguments, named=None, others=()) -> int:
     figures = places.figures(variants, variant)
     wanted = {path: figures[path] for path in (figures if named is None else named)}
     results = expected.of_variants(variants)
-    says = running.only_says(arguments)
-    since = running.now()
-    before = {path: identity(behind[-1]) for path, (_, behind) in wanted.items()}
-    status, absent = 0, known_absent(variant)
-    if not says:
-        status, absent = _find_absent(variants, variant, wanted, results, arguments)
-    if status != running.INTERRUPTED:
-        drawings = [behind[-1] for scene, behind in wanted.values() if scene not in absent]
-        status = running.make(results, [*drawings, *others], arguments)
+    if set(others) - set(results):
+        results |= expected.of_study(variants) | expected.of_sweeps(checked["sweeps"])
+    made = {path: behind[-1] for path, (_, behind) in wanted.items()}
+    before = {path: identity(path) for path in (*made.values(), *others)}
+    currency = Currency(ROOT, results)
+    says = running.only_says(options)
+    absent = known_absent(variant) if says else _find_absent(variants, variant, currency)
+    drawings = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
+    status = running.make(currency, [*drawings, *others], options)
     if says or status == running.INTERRUPTED:
         return status
-    outdated = Currency(ROOT, results).outdated([behind[-1] for _, behind in wanted.values()])
-    good = {path: made for path, made in wanted.items() if made[1][-1] not in outdated}
+    if options or currency.outdated([*drawings, *others]):
+        currency = Currency(ROOT, results)
+        absent = _find_absent(variants, variant, currency)
+    outdated = currency.outdated([*made.values(), *others])
+    if status and all(wanted[p][0] in absent for p in made if made[p] in outdated):
+        status = int(bool(set(others) & set(outdated)))
+    good = {path: scene for path, (scene, _) in wanted.items() if made[path] not in outdated}
     if variant in places.PUBLISHED:
-        publish({path: behind[-1] for path, (_, behind) in good.items() if "results/" not in path})
-    for line in running.last_words(since) if status else ():
-        say(line.removeprefix("pseudorigid: "))
-    if wanted:
-        _table(wanted, good, absent, before)
-        for line in _missed_impacts(variants, variant, {scene for scene, _ in good.values()}):
-            print(line)
+        publish({path: made[path] for path in good if path != made[path]})
+    rows = {}
+    for path, (scene, behind) in (wanted | {path: ("", [path]) for path in others}).items():
+        state = "current" if identity(behind[-1]) == before[behind[-1]] else "recomputed"
+        if behind[-1] in outdated:
+            state = f"cannot exist: {absent[scene]}" if scene in absent else "not made"
+        rows[path] = scene, state
+    more = [*_missed_impacts(variants, variant, set(good.values()))]
+    table(places.PUBLISHED.get(variant), rows, more)
     if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
     return status
+
+
+def table(folder, rows, more=()) -> None:
+    """Print the files of a run, one a line, and how those published in `folder` are committed.
+
+    `rows` is file -> (scene, what became of it); `more` are lines after them.
+    """
+    as_committed = states.committed(folder, rows) if folder else {}
+    lines = [("figure", "file", "size", "state", "as committed" if as_committed else "")]
+    for path, (scene, state) in rows.items():
+        made = state in ("current", "recomputed", "made")
+        size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
+        lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
+    print("", *columns(lines), *more, sep="\n")
+    if running.log():
+        print(f"snakemake's log: {running.log()}")
+
+
+def of_scenes(checked, variant, names) -> list[str] | None:
+    """The files of these scenes of a variant, as published; None for all where none is named."""
+    scenes = checked["variants"][variant]
+    for name in names:
+        if name not in scenes:
+            raise MisuseError(unknown("figure", name, list(scenes)))
+    found = places.figures(checked["variants"], variant)
+    return [path for path, (scene, _) in found.items() if scene in names] if names else None
 
 
 def publish(drawings) -> None:
@@ -61,27 +95,20 @@ def publish(drawings) -> None:
                 shutil.copyfile(ROOT / drawing, part)
 
 
-def _find_absent(variants, variant, wanted, results, arguments):
-    """(exit status, scene -> why its figure cannot exist), once the periodic orbits are known."""
+def _find_absent(variants, variant, currency):
+    """Scene -> why its figure cannot exist, as far as the periodic orbits are known."""
     serves, orbits = places.served(variants), {}  # scene -> type and dataset of its periodic orbit
-    for scene in dict(wanted.values()):
-        if "type" in variants[variant][scene]:
-            orbits[scene] = [variants[variant][scene]["type"], serves[variant, scene, "periodic"]]
-    datasets = sorted({path for _, path in orbits.values()})
-    status = 0
-    if Currency(ROOT, results).outdated(datasets):
-        drawings = [behind[-1] for scene, behind in wanted.values() if scene not in orbits]
-        status = running.make(results, [*datasets, *drawings], arguments)
-        if status == running.INTERRUPTED:
-            return status, {}
+    for scene, block in variants[variant].items():
+        dataset = serves.get((variant, scene, "periodic"))
+        if "type" in block and dataset and not currency.reason(dataset):
+            orbits[scene] = [block["type"], dataset]
+    if not orbits:
+        return {}
     path = places.absent_file(variant)
-    made = Expected(orbits, [], datasets)
-    currency = Currency(ROOT, results | {path: made})
-    if currency.outdated(datasets) or not orbits:
-        return status, {}
+    currency.expected[path] = made = Expected(orbits, [], sorted({p for _, p in orbits.values()}))
     if currency.reason(path):
         _write_absent(path, made, variant)
-    return status, json.loads((ROOT / path).read_text(encoding="utf-8"))
+    return known_absent(variant)
 
 
 def _write_absent(path, made, variant) -> None:
@@ -111,20 +138,6 @@ def known_absent(variant) -> dict[str, str]:
         return json.loads((ROOT / places.absent_file(variant)).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-
-
-def _table(wanted, good, absent, before) -> None:
-    """Print the figures of this run, one a line: figure, file, size, what became of it."""
-    rows = [("figure", "file", "size", "state")]
-    for path, (scene, behind) in wanted.items():
-        if path in good:
-            state = "current" if identity(behind[-1]) == before[path] else "recomputed"
-            rows.append((scene, path, f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB", state))
-        elif scene in absent:
-            rows.append((scene, path, "", f"cannot exist: {absent[scene]}"))
-        else:
-            rows.append((scene, path, "", "not made"))
-    print("", *columns(rows), sep="\n")
 
 
 def _missed_impacts(variants, variant, scenes):

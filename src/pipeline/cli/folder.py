@@ -10,7 +10,15 @@ from ..records.sources import ROOT
 
 
 class UsageError(Exception):
-    """One line for the user, and the end of the run with exit status 1."""
+    """One line for the user, and the end of the run with this exit status."""
+
+    status = 1
+
+
+class MisuseError(UsageError):
+    """The same about what was typed."""
+
+    status = 2
 
 
 @contextmanager

@@ -1,36 +1,63 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
 import sys
-import time
 
-from ..checks.currency import DAMAGED, MISSING, Currency
+import yaml
+
+from ..checks.currency import DAMAGED, MISSING
 from ..records.record import record_path
 from ..records.sources import ROOT
-from .folder import UsageError, interruptible, say
+from .arguments import hint
+from .folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
 _CAUSES = ("its record", "no record", DAMAGED)
+# Options with which nothing is made.
+_SAY = ("dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "touch", "detailed_summary")
+_SAY += ("list_rules", "list_target_rules", "list_changes", "unlock")
 
 
 def options_of(arguments):
-    """Snakemake's own reading of its options; SystemExit where it refuses them."""
+    """Snakemake's own reading of its options; MisuseError where it refuses them."""
     from snakemake.cli import get_argument_parser
 
-    return get_argument_parser().parse_args(arguments)
+    parser = get_argument_parser()
+
+    def refuse(message):
+        unknown = message.partition("unrecognized arguments: ")[2]
+        known = [name for action in parser._actions for name in action.option_strings]
+        if unknown:
+            first = unknown.split()[0].partition("=")[0]
+            message = f"no argument {first}{hint(first, known)}"
+        raise MisuseError(message)
+
+    parser.error = refuse
+    return parser.parse_args(arguments)
 
 
 def only_says(arguments) -> bool:
     """Whether these options of snakemake make nothing."""
     options = options_of(arguments) if arguments else None
-    names = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "touch")
-    names += ("detailed_summary", "list_rules", "list_target_rules", "list_changes", "unlock")
-    return any(getattr(options, name, None) for name in names)
+    return any(getattr(options, name, None) for name in ("dryrun", *_SAY))
+
+
+def asked(arguments) -> set[str]:
+    """What these options of snakemake ask for, beside numbers of cores."""
+    if not arguments:
+        return set()
+    given, usual = (vars(options_of(some)) for some in (arguments, []))
+    different = {
+        name
+        for name, value in given.items()
+        if getattr(value, "__dict__", value) != getattr(usual[name], "__dict__", usual[name])
+    }
+    return different - {"cores", "jobs", "targets"}
 
 
 def refuse_settings(arguments) -> None:
-    """UsageError where values of the config are given on the command line."""
+    """MisuseError where values of the config are given on the command line."""
     if any(a.partition("=")[0] in ("--config", "-C", "--configfile") for a in arguments):
-        raise UsageError("--config and --configfile are not used here: edit config.yaml")
+        raise MisuseError("--config and --configfile are not used here: edit config.yaml")
 
 
 def needed(expected, wanted) -> list[str]:
@@ -48,28 +75,34 @@ def needed(expected, wanted) -> list[str]:
     return list(found)
 
 
-def make(expected, wanted, arguments, targets=(), forced=(), quiet=False) -> int:
+def make(currency, wanted, arguments, targets=(), forced=()) -> int:
     """Have snakemake make the results `wanted` where they are not current; its exit status.
 
     Parameters
     ----------
-    expected : dict
-        Every result that may be needed -> config.expected.Expected.
+    currency : checks.currency.Currency
+        Of every result that may be needed.
     wanted : iterable of str
         Results, from the root.
     arguments : list of str
-        Options for snakemake.
+        Options for snakemake; `-n` alone is answered here.
     targets, forced : iterable of str
         Further files to make, and those of them to make even if they are there.
     """
-    paths = needed(expected, wanted)
-    outdated = Currency(ROOT, expected).outdated(paths)
+    paths = needed(currency.expected, wanted)
+    outdated = currency.outdated(paths)
     for path, why in outdated.items():
         if (ROOT / path).is_dir():
             raise UsageError(f"{path}: {why}")
-        if why.startswith(_CAUSES) and not quiet:
+        if why.startswith(_CAUSES):
             say(f"{path}: {why}: made again")
-    if not (outdated or arguments or targets or forced):
+    options = asked(arguments)
+    if options == {"dryrun"}:
+        from .telling.plan import plan
+
+        print(*plan(currency, paths), sep="\n")
+        return 0
+    if not (outdated or options or targets or forced):
         return 0
     again = [path for path, why in outdated.items() if why != MISSING]
     records = [record_path(path) for path in paths]
@@ -80,13 +113,17 @@ def run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from snakemake.cli import main as snakemake
 
+    from .telling import steps
+
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
-    command = ["--forcerun", *forced] if forced else []
-    command += ["--nolock", "--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
-    command += [*targets, *arguments]
+    command = [*_profile(), *(["--forcerun", *forced] if forced else [])]
+    command += ["--nolock", "--workflow-profile", "none", *targets, *arguments]
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
         command += ["--cores", "all"]
+    told = not (only_says(arguments) or given.logger or given.quiet or given.verbose)
+    if told:
+        command += ["--logger", steps.register()]
     executable, status = sys.executable, 0
     with interruptible() as caught:
         try:
@@ -103,27 +140,19 @@ def run(targets, forced, arguments) -> int:
     if isinstance(status, str):
         print(status, file=sys.stderr)
         return 1
+    if told and status and not steps.LogHandler.last.failed:
+        print(*steps.LogHandler.last.errors, sep="\n", file=sys.stderr)
     return status
 
 
-def last_words(since: float) -> list[str]:
-    """The one-line messages that jobs of this run left in their logs, in the order of time.
-
-    Scenes with the same trouble share a line.
-    """
-    found = []
-    for log in ROOT.glob("results/*/logs/*.log"):
-        changed = log.stat().st_mtime
-        if changed >= since:
-            lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
-            found += [(changed, line) for line in lines if line.startswith("pseudorigid: ")]
-    scenes = {}
-    for _, line in sorted(found):
-        scene, _, message = line.removeprefix("pseudorigid: ").partition(": ")
-        scenes.setdefault(message, set()).add(scene)
-    return [f"pseudorigid: {', '.join(sorted(scenes[key]))}: {key}" for key in scenes]
+def _profile():
+    """The options that are passed on every run; as a profile snakemake would tell of them."""
+    text = (ROOT / "workflow" / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
+    for name, value in yaml.safe_load(text).items():
+        yield from [f"--{name}", *([] if value is True else value)]
 
 
-def now() -> float:
-    """A time for `last_words`: some file systems keep whole seconds only."""
-    return time.time() - 1
+def log() -> str | None:
+    """Where snakemake's own log of the last run of this process is, from the root."""
+    steps = sys.modules.get(f"{__package__}.telling.steps")
+    return steps and steps.LogHandler.last and steps.LogHandler.last.log

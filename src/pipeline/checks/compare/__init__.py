@@ -9,7 +9,7 @@ from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
 
 
-def compare(root, variants, names, absent):
+def compare(root, variants, names, absent, scenes):
     """Print what differs between two variants and save their figures side by side.
 
     Args:
@@ -17,13 +17,14 @@ def compare(root, variants, names, absent):
         variants: the checked variants of the config, name -> scene -> block.
         names: the two of them, the paper's own name included.
         absent: for each of the two, scene -> why its figure cannot exist.
+        scenes: those of their scenes that are looked at.
     """
     serves = places.served(variants)
 
     def data(scene, stage):
         return [load(root / serves[name, scene, stage]) for name in names]
 
-    pairs = {scene: [variants[name][scene] for name in names] for scene in variants[names[0]]}
+    pairs = {scene: [variants[name][scene] for name in names] for scene in scenes}
     print(f"{names[0]} | {names[1]}")
     for scene, blocks in pairs.items():
         print(f"\n{scene}")

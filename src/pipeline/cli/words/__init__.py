@@ -1,4 +1,5 @@
-"""The words of ./reproduce: a module each, with `run(word, arguments, start)` -> exit status.
+"""The words of ./reproduce: a module each, with `run(given)` -> exit status.
 
-`start` is the folder in which the user stands; the current one is the project's.
+`given` is what arguments.read has made of the command line, with `start`, the folder in which the
+user stands; the current one is the project's.
 """

@@ -1,32 +1,23 @@
 """./reproduce prove: the theorems, each checked from its certificate."""
 
-import argparse
-import sys
+import os
 
 from ...config.checking.reading import load
 from ...records.files import replacing
 from ...records.sources import ROOT, SRC
 from .. import figures
-from ..folder import UsageError, interruptible, locked, say
+from ..arguments import hint
+from ..folder import MisuseError, UsageError, interruptible, locked, say
+
+CERTIFICATES = SRC / "pseudorigid" / "proofs" / "certificates"
 
 
-def run(word, arguments, start) -> int:
+def run(given) -> int:
     """Check the certificates, a line a theorem; 1 where one is not proved."""
-    parser = argparse.ArgumentParser(
-        prog="reproduce prove",
-        description="Check the certificate of each theorem by ball arithmetic, print a line for "
-        "each, and exit 1 where one is not proved.",
-    )
-    parser.add_argument("name", nargs="*", help="theorems; all without a name")
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("--search", action="store_true", help="make the certificates anew first")
-    group.add_argument(
-        "--impacts", action="store_true", help="prove the impacts behind the figures instead"
-    )
-    group.add_argument(
-        "--pictures", action="store_true", help="draw the pictures, into more_figures/proofs/"
-    )
-    given = parser.parse_args(arguments)
+    if given.search + given.impacts + given.pictures > 1:
+        raise MisuseError("prove: --search, --impacts and --pictures are one at a time")
+    if given.theorem and (given.impacts or given.pictures):
+        raise MisuseError("prove: --impacts and --pictures take no theorems")
     if given.pictures:
         with locked():
             return figures.make(load(ROOT / "config.yaml"), "proofs", [])
@@ -40,14 +31,15 @@ def run(word, arguments, start) -> int:
                 raise UsageError(str(error)) from None
     from pseudorigid.proofs import THEOREMS, search_certificate
 
-    for name in given.name:
+    for name in given.theorem:
         if name not in THEOREMS:
-            raise UsageError(f"no theorem {name}: there are {', '.join(THEOREMS)}")
-    names = given.name or list(THEOREMS)
+            there = f"there are {', '.join(THEOREMS)}"
+            raise MisuseError(f"no theorem {name}{hint(name, THEOREMS) or f': {there}'}")
+    names = given.theorem or list(THEOREMS)
     if given.search:
         for name in names:
             say(f"searching a certificate of {name}")
-            path = SRC / "pseudorigid" / "proofs" / "certificates" / THEOREMS[name].certificate
+            path = CERTIFICATES / THEOREMS[name].certificate
             text = search_certificate(name)
             with replacing(path) as part:
                 part.write_text(text, encoding="utf-8")
@@ -56,5 +48,6 @@ def run(word, arguments, start) -> int:
         result = THEOREMS[name].check()
         print(result.line(), flush=True)
         status |= result.verdict != "proved"
-    sys.stdout.flush()
+    files = dict.fromkeys(CERTIFICATES / THEOREMS[name].certificate for name in names)
+    print("", *(os.path.relpath(file, ROOT) for file in files), sep="\n", flush=True)
     return status

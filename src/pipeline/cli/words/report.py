@@ -15,14 +15,14 @@ LABELS = "results/report/labels.json"
 PYTHON = sys.executable  # the rules quote that name for the shell
 
 
-def run(word, arguments, start) -> int:
+def run(given) -> int:
     """Make what is missing, with the options given, and then the page."""
     checked = load(ROOT / "config.yaml")
     with locked():
-        status = figures.make(checked, config.PAPER, arguments)
-        if status or running.only_says(arguments):
+        status = figures.make(checked, config.PAPER, given.options)
+        if status or running.only_says(given.options):
             return status
-        return running.run(["report"], [LABELS], arguments) or _page()
+        return running.run(["report"], [LABELS], given.options) or _page()
 
 
 def _page() -> int:

@@ -4,6 +4,6 @@ import os
 import sys
 
 
-def run(word, arguments, start) -> int:
+def run(given) -> int:
     """Hand over to pytest; its exit status is ours."""
-    os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
+    os.execv(sys.executable, [sys.executable, "-m", "pytest", *given.options])

@@ -1,21 +1,21 @@
-"""./reproduce variant NAME: the figures of a variant."""
+"""./reproduce variant NAME [FIGURE ...]: the figures of a variant."""
 
 from ... import config
 from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import UsageError, locked
+from ..folder import MisuseError, locked
 
 
-def run(word, arguments, start) -> int:
-    """Make one variant's figures, with the options of snakemake that follow its name."""
-    running.refuse_settings(arguments)
+def run(given) -> int:
+    """Make one variant's figures, or those that are named."""
+    running.refuse_settings(given.options)
     checked = load(ROOT / "config.yaml")
     own = [name for name in checked["variants"] if name not in config.PUBLISHED]
-    if not arguments or arguments[0].startswith("-"):
-        raise UsageError(f"variant needs a name: config.yaml has {', '.join(own) or 'none'}")
-    name, *options = arguments
-    if name not in own:
-        raise UsageError(config.unknown("variant", name, own))
+    if given.name is None:
+        raise MisuseError(f"variant needs a name: config.yaml has {', '.join(own) or 'none'}")
+    if given.name not in own:
+        raise MisuseError(config.unknown("variant", given.name, own))
+    named = figures.of_scenes(checked, given.name, given.figure)
     with locked():
-        return figures.make(checked, name, options)
+        return figures.make(checked, given.name, given.options, named)

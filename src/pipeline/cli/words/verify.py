@@ -1,32 +1,15 @@
 """./reproduce verify: whether everything here is as committed."""
 
-import argparse
-from pathlib import Path
-
 from ...config.checking.reading import load
 from ...records.sources import ROOT
-from ..folder import UsageError
+from ..folder import MisuseError
 
 
-def run(word, arguments, start) -> int:
+def run(given) -> int:
     """Compare the tree with its contracts; 0 where nothing is red."""
-    parser = argparse.ArgumentParser(
-        prog="reproduce verify",
-        description="Say for each published file whether it is the committed one, or which layers "
-        "differ: config, source, environment, data, drawing, file. Exit 1 for other bytes and for "
-        "results that this tree did not make; other differences are notes.",
-    )
-    parser.add_argument(
-        "--against",
-        type=Path,
-        metavar="FOLDER",
-        help="another tree or its results: how many ulp lie between its data and these",
-    )
-    parser.add_argument("--strict", action="store_true", help="exit 1 for notes too")
-    given = parser.parse_args(arguments)
-    against = given.against and start / given.against
+    against = given.against and given.start / given.against
     if against is not None and not against.is_dir():
-        raise UsageError(f"verify: no folder {against}")
+        raise MisuseError(f"verify: no folder {against}")
     checked = load(ROOT / "config.yaml")
     from ...checks.verify import verify
 

@@ -14,6 +14,9 @@ from .words import ConfigError, refusal
 Scenes = Annotated[dict[Name, Any], Field(description="a mapping from names to scenes")]
 # Scenes beside the paper's own: made on request, and not varied.
 MORE = ("claims", "proofs")
+# The words of ./reproduce, which are told from names of figures by being words.
+WORDS = ("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report")
+WORDS += ("verify", "accept", "clean", "benchmark", "test", "help", "all")
 
 
 class Document(Block):
@@ -61,6 +64,8 @@ def check(document) -> dict:
         for name, block in given[key].items():
             sets[key][name], wrong = checked(block, ball, (key, name))
             found += wrong
+            if name in WORDS:
+                found.append(refusal((key,), name, "a name that is no word of ./reproduce"))
             if key in MORE and name in given["scenes"]:
                 found.append(refusal((key,), name, "a name that no scene of the paper has"))
     derived = {variants.PAPER: sets.pop("scenes")} | sets

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 from pseudorigid.sweep import grid
 
-from ..config import places, unknown
-from ..records.files import identity
-from .folder import UsageError
+from ...config import places, unknown
+from ...records.files import identity
+from ..folder import MisuseError, UsageError
 
 PAUSE = 1.0  # seconds between two looks at the files
 # Bytes of disk, rounded up from what was measured: a cell in its block and in the dataset, a block
@@ -18,15 +18,14 @@ PAUSE = 1.0  # seconds between two looks at the files
 CELL, BLOCK, RUN = 600, 60_000, 10_000_000
 
 
-def chosen(sweeps, words) -> tuple[list[str], list[str]]:
-    """The sweeps named before the first option, all where none is, and the words after them."""
-    end = next((i for i, word in enumerate(words) if word.startswith("-")), len(words))
-    for name in words[:end]:
+def chosen(sweeps, names) -> list[str]:
+    """The sweeps that are named, all where none is."""
+    for name in names:
         if name not in sweeps:
-            raise UsageError(unknown("sweep", name, list(sweeps)))
+            raise MisuseError(unknown("sweep", name, list(sweeps)))
     if not sweeps:
         raise UsageError("config.yaml: sweeps: missing, or empty")
-    return words[:end] or list(sweeps), words[end:]
+    return list(dict.fromkeys(names)) or list(sweeps)
 
 
 def lacking(sweeps, names, outdated) -> dict[str, tuple[int, int]]:

@@ -1,0 +1,61 @@
+"""What a run would make and why, in words."""
+
+import os
+
+from ...checks.currency import DAMAGED, MISSING
+from ...records.differences import brief, differing_keys
+from ...records.record import RecordError, read_record
+from .names import step
+
+NOT_YET = "not made yet"
+
+
+def plan(currency, paths) -> list[str]:
+    """A line for each scene of the outdated results among `paths`: why, and its stages."""
+    scenes = {}
+    for path in currency.outdated(paths):
+        scene, stage = step(path)
+        scenes.setdefault(scene, {}).setdefault(stage.split()[0], []).append(path)
+    lines = []
+    for scene, stages in scenes.items():
+        words = why(currency, [path for made in stages.values() for path in made])
+        lines.append(f"{scene}: {words}: {', '.join(stages)}")
+    return lines or ["nothing to make"]
+
+
+def why(currency, paths) -> str:
+    """Why some outdated results have to be made again: key, old -> new, or what else differs."""
+    derived = "made from results/"  # the cause is another result's
+    own = [path for path in paths if not currency.reason(path).startswith(derived)]
+    causes = dict.fromkeys(_cause(currency, path) for path in own)
+    if len(causes) > 1:
+        causes.pop(NOT_YET, None)
+    return "; ".join(causes) or currency.reason(paths[0])
+
+
+def changes(before, after) -> str:
+    """What differs between two blocks of config: `key old -> new` for each key."""
+    keys = differing_keys(before, after)
+    return ", ".join(f"{key} {_shown(old)} -> {_shown(new)}" for key, old, new in keys)
+
+
+def _shown(value):
+    return value if isinstance(value, str) else brief(value)
+
+
+def _cause(currency, path):
+    made, words = currency.expected[path], currency.reason(path)
+    if words in (MISSING, DAMAGED):
+        return NOT_YET if words == MISSING else f"{path} was {words}"
+    try:
+        record = read_record(currency.root, path)
+    except RecordError as error:
+        return f"{path}: {error}"
+    if told := changes(record["config"], made.config):
+        return told
+    before, after = record["sources"], {file: currency.digest(file) for file in made.sources}
+    files = [f for f in sorted({*before, *after}) if before.get(f) != after.get(f)]
+    if files:
+        more = f" and {len(files) - 1} more" if len(files) > 1 else ""
+        return f"its source changed: {os.path.basename(files[0])}{more}"
+    return words

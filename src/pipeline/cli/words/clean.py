@@ -1,0 +1,97 @@
+"""./reproduce clean: deletes what was made in results/."""
+
+import json
+import shutil
+import sys
+from contextlib import suppress
+
+from ...config import ConfigError, expected
+from ...config.checking.reading import load
+from ...records.record import git, record_path
+from ...records.sources import ROOT
+from ..arguments import hint
+from ..folder import MisuseError, UsageError, locked
+
+RESULTS = ROOT / "results"
+# Beside results and their records: what words and jobs leave in these folders.
+_MORE = ("*/logs/*.log", "*/absent.json", "*/.*.part", "*/*/.*.part", "*/*.nc.part/*")
+_MORE += ("report/*.html", "report/labels.json", "report/captions/*.rst", "compare/*/*.png")
+
+
+def run(given) -> int:
+    """Delete the results in some folders of results/, all without a name, and snakemake's own."""
+    there = sorted(f.name for f in RESULTS.iterdir() if f.is_dir()) if RESULTS.is_dir() else []
+    for name in given.name:
+        if name not in there:
+            has = f": there are {', '.join(there) or 'none'}"
+            raise MisuseError(f"no folder results/{name}{hint(name, there) or has}")
+    with locked():
+        files = _made(given.name or there)
+        folders = [] if given.name else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
+        if not files and not folders:
+            print("nothing to delete")
+            return 0
+        size = sum(file.stat().st_size for file in files) / 1e6
+        what = f"{len(files)} files, {size:.1f} MB, in " + ", ".join(
+            [f"results/{name}" for name in given.name or there] + [f.name for f in folders]
+        )
+        if not given.yes and not _agreed(what):
+            raise UsageError("nothing was deleted")
+        for file in files:
+            file.unlink()
+        for folder in folders:
+            shutil.rmtree(folder)
+        _remove_empty_folders(given.name or there)
+        print(f"deleted {what}")
+    return 0
+
+
+def _made(names):
+    """The files in these folders that this project made: git's, and any other, stay."""
+    committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
+    found = {RESULTS / path for path in _expected()} | {
+        file for pattern in _MORE for file in RESULTS.glob(pattern)
+    }
+    for record in RESULTS.glob("*/provenance/*.json"):
+        with suppress(OSError, ValueError, KeyError, TypeError):
+            output = json.loads(record.read_text(encoding="utf-8"))["output"]["file"]
+            if ROOT / record_path(output) == record:
+                found |= {record, ROOT / output}
+    return sorted(
+        file
+        for file in found
+        if file.is_file()
+        and file.relative_to(RESULTS).parts[0] in names
+        and str(file.relative_to(ROOT)) not in committed
+    )
+
+
+def _expected():
+    """Results of the present config, in case their records are lost, and those records."""
+    try:
+        checked = load(ROOT / "config.yaml")
+    except ConfigError:
+        return
+    variants = checked["variants"]
+    for path in (
+        *expected.of_variants(variants),
+        *expected.of_study(variants),
+        *expected.of_sweeps(checked["sweeps"]),
+    ):
+        yield path.removeprefix("results/")
+        yield record_path(path).removeprefix("results/")
+
+
+def _agreed(what):
+    print(f"delete {what}? [y/N] ", end="", file=sys.stderr, flush=True)
+    answer = sys.stdin.readline().strip().lower()
+    if not answer:
+        print(file=sys.stderr)
+    return answer in ("y", "yes")
+
+
+def _remove_empty_folders(names):
+    for name in names:
+        for folder in sorted(RESULTS.glob(f"{name}/**/"), reverse=True):
+            if not any(folder.iterdir()):
+                folder.rmdir()
