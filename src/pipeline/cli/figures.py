@@ -72,8 +72,8 @@ def table(folder, rows, more=()) -> None:
         size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
         lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
     print("", *columns(lines), *more, sep="\n")
-    if running.log():
-        print(f"snakemake's log: {running.log()}")
+    if running.LOGS:
+        print(f"snakemake's log: {running.LOGS[-1]}")
 
 
 def of_scenes(checked, variant, names) -> list[str] | None:

@@ -1,24 +1,34 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
 import sys
+from functools import cache
+from unittest.mock import patch
 
 import yaml
 
-from ..checks.currency import DAMAGED, MISSING
-from ..records.record import record_path
-from ..records.sources import ROOT
-from .arguments import hint
-from .folder import MisuseError, UsageError, interruptible, say
+from ...checks.currency import DAMAGED, MISSING
+from ...records.record import record_path
+from ...records.sources import ROOT
+from ..arguments import hint
+from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
+LOGS = []  # snakemake's own, of the runs of this process, from the root
 _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
 _SAY = ("dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "touch", "detailed_summary")
 _SAY += ("list_rules", "list_target_rules", "list_changes", "unlock")
 
 
-def options_of(arguments):
-    """Snakemake's own reading of its options; MisuseError where it refuses them."""
+@cache
+def _parser():
+    """Snakemake's parser of its options, which raises MisuseError."""
+    if not any(word.startswith("--report") for word in sys.argv):
+        # What makes reports takes long to import, and snakemake goes on where it is not there.
+        with patch.dict(sys.modules, {"snakemake.report": None}):
+            from snakemake_interface_report_plugins.registry import ReportPluginRegistry
+
+            ReportPluginRegistry()
     from snakemake.cli import get_argument_parser
 
     parser = get_argument_parser()
@@ -32,7 +42,12 @@ def options_of(arguments):
         raise MisuseError(message)
 
     parser.error = refuse
-    return parser.parse_args(arguments)
+    return parser
+
+
+def options_of(arguments):
+    """Snakemake's own reading of its options; MisuseError where it refuses them."""
+    return _parser().parse_args(arguments)
 
 
 def only_says(arguments) -> bool:
@@ -98,7 +113,7 @@ def make(currency, wanted, arguments, targets=(), forced=()) -> int:
             say(f"{path}: {why}: made again")
     options = asked(arguments)
     if options == {"dryrun"}:
-        from .telling.plan import plan
+        from ..telling.plan import plan
 
         print(*plan(currency, paths), sep="\n")
         return 0
@@ -111,9 +126,13 @@ def make(currency, wanted, arguments, targets=(), forced=()) -> int:
 
 def run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
+    from . import server
+
+    if not (arguments and only_says(arguments)):
+        server.begin()
     from snakemake.cli import main as snakemake
 
-    from .telling import steps
+    from ..telling import steps
 
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
     command = [*_profile(), *(["--forcerun", *forced] if forced else [])]
@@ -125,7 +144,7 @@ def run(targets, forced, arguments) -> int:
     if told:
         command += ["--logger", steps.register()]
     executable, status = sys.executable, 0
-    with interruptible() as caught:
+    with interruptible() as caught, server.serving():
         try:
             snakemake(command)
         except SystemExit as end:
@@ -140,8 +159,10 @@ def run(targets, forced, arguments) -> int:
     if isinstance(status, str):
         print(status, file=sys.stderr)
         return 1
-    if told and status and not steps.LogHandler.last.failed:
-        print(*steps.LogHandler.last.errors, sep="\n", file=sys.stderr)
+    if told and (handler := steps.LogHandler.last):
+        LOGS.extend([handler.log] if handler.log else [])
+        if status and not handler.failed:
+            print(*handler.errors, sep="\n", file=sys.stderr)
     return status
 
 
@@ -150,9 +171,3 @@ def _profile():
     text = (ROOT / "workflow" / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     for name, value in yaml.safe_load(text).items():
         yield from [f"--{name}", *([] if value is True else value)]
-
-
-def log() -> str | None:
-    """Where snakemake's own log of the last run of this process is, from the root."""
-    steps = sys.modules.get(f"{__package__}.telling.steps")
-    return steps and steps.LogHandler.last and steps.LogHandler.last.log

@@ -1,0 +1,63 @@
+"""Jobs without a start of Python each: a server that has loaded what they need forks them.
+
+Snakemake runs a `script:` in a new interpreter, which takes longer to load its packages than most
+jobs take for their work. A job from the server is a process of its own too, and ends as that would.
+"""
+
+import multiprocessing
+import os
+import runpy
+import signal
+import subprocess
+from contextlib import contextmanager
+from multiprocessing import forkserver
+
+JOBS = multiprocessing.get_context("forkserver")
+# What snakemake sets for a job of one thread.
+THREADS = [f"{name}_NUM_THREADS" for name in ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")]
+THREADS.append("VECLIB_MAXIMUM_THREADS")
+
+
+def begin() -> None:
+    """Start the server, which loads while this process goes on."""
+    before = dict(os.environ)
+    os.environ.update(dict.fromkeys(THREADS, "1"))
+    # Inherited: Ctrl-C is for this process alone, which then ends the jobs.
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        JOBS.set_forkserver_preload([f"{__package__}.loaded"])
+        forkserver.ensure_running()
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        os.environ.clear()
+        os.environ.update(before)
+
+
+@contextmanager
+def serving():
+    """Have the scripts of snakemake's jobs of one thread run by the server."""
+    from snakemake.script import PythonScript
+
+    usual = PythonScript.execute_script
+
+    def execute_script(script, name, edit=False):
+        elsewhere = script.conda_env or script.container_img or script.env_modules
+        if edit or elsewhere or script.shadow_dir or script.threads > 1:
+            usual(script, name, edit)
+            return
+        job = JOBS.Process(target=run, args=(name,))
+        job.start()
+        job.join()
+        if job.exitcode:
+            raise subprocess.CalledProcessError(job.exitcode, name)
+
+    PythonScript.execute_script = execute_script
+    try:
+        yield
+    finally:
+        PythonScript.execute_script = usual
+
+
+def run(name) -> None:
+    """In a job: a script as a program of its own."""
+    runpy.run_path(name, run_name="__main__")
