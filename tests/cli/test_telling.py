@@ -3,6 +3,7 @@
 import hashlib
 import json
 import logging
+import time
 
 import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -27,7 +28,7 @@ ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.pn
         ("results/sweep/plane_0012.nc", "plane", "block 12"),
         ("results/sweep/plane.nc", "plane", "data"),
         ("results/study/work.nc", "work", "data"),
-        ("results/report/labels.json", "labels", "data"),
+        ("results/report/labels.json", "report", "numbers"),
     ],
 )
 def test_a_result_has_the_name_of_its_scene_and_stage(result, scene, stage):
@@ -149,12 +150,23 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     log.write_text("Traceback\n  ...\npseudorigid: fig2: the disk is full: 0.1 MB\n")
     for job, path in enumerate((ORBITS, DRAWING)):
         handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
-        handler.emit(event(LogEvent.ERROR, 9.0, msg="CalledProcessError in file ..."))
+        handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[job]))
+        handler.emit(event(LogEvent.ERROR, 9.0, msg="In file x:\nCommand died with SIGKILL."))
         handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=job))
     first, second = capsys.readouterr().err.splitlines()
     assert first.split(maxsplit=2)[2] == "not made: the disk is full: 0.1 MB"
-    assert second.endswith("not made: it ended without a word (was it killed?)")
+    assert second.endswith("not made: Command died with SIGKILL.")
     assert handler.failed
+
+
+def test_a_log_of_an_earlier_run_is_no_reason(handler, capsys, tmp_path):
+    log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
+    log.parent.mkdir(parents=True)
+    log.write_text("pseudorigid: fig2: the disk is full\n")
+    handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=0, output=[ORBITS]))
+    handler.emit(event(LogEvent.JOB_STARTED, time.time() + 60, jobs=[0]))
+    handler.emit(event(LogEvent.JOB_ERROR, time.time() + 61, jobid=0))
+    assert capsys.readouterr().err.rstrip().endswith("not made: no reason is known")
 
 
 def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys):

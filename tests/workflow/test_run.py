@@ -1,6 +1,7 @@
 """What a run makes again and what it leaves alone, in a copy whose scenes are tiny."""
 
 import os
+import re
 import shutil
 import time
 
@@ -15,6 +16,65 @@ def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
     assert set(table.values()) == {"recomputed"}
     assert {f"paper_figures/{name}" for name in finished.published()} == set(table)
     assert b"committed" not in contents(finished).values()
+
+
+def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
+    said = (finished.path / "first run").read_text().splitlines()
+    steps = [line.split() for line in said if re.search(r" \d+ of \d+$", line)]
+    assert {step[0] for step in steps} == set(finished.document()["scenes"])
+    assert [step[-3] for step in steps] == [str(i + 1) for i in range(len(steps))]
+    assert {step[-1] for step in steps} == {str(len(steps))}
+    assert len(said) + 2 <= 60  # with those of the set-up
+    assert said[-1].startswith("snakemake's log: .snakemake/log/")
+    # steps, an empty line, the header, the files, the log: nothing else
+    assert len(said) == len(steps) + 2 + len(finished.published()) + 1
+
+
+def test_a_plan_is_in_our_words_and_makes_nothing(done):
+    done.edit("fig2", energy=0.0098)
+    done.edit("fig7", records=5)
+    before = done.published()
+    result = done.run("-n", "--cores", "1")
+    assert result.returncode == 0
+    assert result.stdout == (
+        "fig2: energy 0.01 -> 0.0098: orbits, drawing\nfig7: records 6 -> 5: lyapunov, drawing\n"
+    )
+    assert done.run("fig7", "-n").stdout == "fig7: records 6 -> 5: lyapunov, drawing\n"
+    assert done.run("fig3", "-n").stdout == "nothing to make\n"
+    assert done.published() == before
+
+
+def test_figures_by_name(done):
+    for name in ("fig3.png", "fig3.svg", "fig7.png"):
+        (done.path / "results" / "paper" / "figures" / name).unlink()
+    made = rows(done.run("fig3", "fig4").stdout)
+    again = {"paper_figures/fig3.png", "paper_figures/fig3.svg"}
+    assert {file for file in made if made[file] == "recomputed"} == again
+    assert set(made) - again == {"paper_figures/fig4.png", "paper_figures/fig4.svg"}
+    assert not (done.path / "results" / "paper" / "figures" / "fig7.png").exists()
+    result = done.run("fig33")
+    said = "reproduce: no word or figure fig33: did you mean fig3?\n"
+    assert (result.returncode, result.stdout) == (2, said)
+    result = done.run("fig3", "--coers", "2")
+    said = "reproduce: no argument --coers: did you mean --cores?\n"
+    assert (result.returncode, result.stdout) == (2, said)
+
+
+def test_the_closing_table_and_the_list_say_what_is_committed(accepted, tmp_path):
+    done = accepted.copy(tmp_path / "done")
+    done.edit("fig7", records=5)
+    said = done.run().stdout
+    state = dict(re.findall(r"(paper_figures/\S+) .* (identical|differs)$", said, re.MULTILINE))
+    assert set(state) == {
+        f"paper_figures/{f}" for f in done.published() if "." in f and f != "MANIFEST.json"
+    }
+    differs = {file for file in state if state[file] == "differs"}
+    assert differs == {"paper_figures/fig7.png", "paper_figures/fig7.svg"}
+    done.edit("fig3", duration=15)
+    listed = done.run("list").stdout
+    assert "fig2  paper_figures/fig2.png  identical to the committed one\n" in listed
+    assert "fig3  paper_figures/fig3.png  stale: duration 16 -> 15\n" in listed
+    assert "fig7  paper_figures/fig7.png  not the committed one\n" in listed
 
 
 def test_a_second_run_has_nothing_to_do(done):

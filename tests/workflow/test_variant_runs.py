@@ -98,6 +98,25 @@ def test_a_second_run_has_nothing_to_do(done):
     assert ABSENT in again.stdout
 
 
+def test_one_figure_of_variants(done):
+    figure = done.path / "results" / "thin" / "figures" / "fig7.png"
+    figure.unlink()
+    assert rows(done.run("variant", "thin", "fig5").stdout) == {
+        "results/thin/figures/fig5.png": "current"
+    }
+    said = done.run("compare", "paper", "thin", "fig7").stdout
+    assert rows(said) == {
+        "paper_figures/fig7.png": "current",
+        "results/thin/figures/fig7.png": "recomputed",
+    }
+    assert "thin/fig7  drawing png" in said
+    assert "side by side: results/compare/paper..thin/fig7.png" in said
+    assert "fig5" not in said
+    result = done.run("variant", "thin", "fig55")
+    assert result.returncode == 2
+    assert result.stdout.startswith("reproduce: no figure fig55: did you mean fig5? ")
+
+
 def test_a_variant_s_figures_are_not_published(made):
     assert set(contents(made)) == {"fig4.png", "fig5.png", "fig6.png", "fig7.png"}
     data = (made.path / "results" / "paper" / "figures" / "fig7.png").read_bytes()

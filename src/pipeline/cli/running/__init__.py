@@ -25,9 +25,9 @@ def _parser():
     """Snakemake's parser of its options, which raises MisuseError."""
     if not any(word.startswith("--report") for word in sys.argv):
         # What makes reports takes long to import, and snakemake goes on where it is not there.
-        with patch.dict(sys.modules, {"snakemake.report": None}):
-            from snakemake_interface_report_plugins.registry import ReportPluginRegistry
+        from snakemake_interface_report_plugins.registry import ReportPluginRegistry
 
+        with patch.dict(sys.modules, {"snakemake.report": None}):
             ReportPluginRegistry()
     from snakemake.cli import get_argument_parser
 

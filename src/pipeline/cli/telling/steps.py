@@ -2,6 +2,7 @@
 
 import os
 import sys
+from contextlib import suppress
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -11,6 +12,7 @@ from ...records.sources import ROOT
 from .names import step
 
 NAME = "steps"
+WIDTH = 6  # of a scene's name
 _LOGS = "Complete log(s): "
 
 
@@ -30,7 +32,7 @@ class LogHandler(LogHandlerBase):
         """Take one of snakemake's events."""
         match getattr(record, "event", None):
             case LogEvent.JOB_INFO:
-                self.results[record.jobid] = str(record.output[0])
+                self.results[record.jobid] = str((record.output or [""])[0])
             case LogEvent.JOB_STARTED:
                 self.started |= dict.fromkeys(record.jobs, record.created)
             case LogEvent.JOB_FINISHED:
@@ -42,33 +44,30 @@ class LogHandler(LogHandlerBase):
                 )
             case LogEvent.JOB_ERROR:
                 self.failed = True
-                self._tell(record.jobid, f"not made: {reason(self.results[record.jobid])}")
+                self._tell(record.jobid, f"not made: {self._reason(record.jobid)}")
             case LogEvent.ERROR:
                 self.errors.append(record.getMessage())
             case None if record.getMessage().startswith(_LOGS):
                 self.log = os.path.relpath(record.getMessage().removeprefix(_LOGS), ROOT)
 
     def _tell(self, job, *words):
-        scene, stage = step(self.results.get(job, "results/report/"))
+        scene, stage = step(self.results[job]) if self.results[job] else ("", "all of it")
         # What sweeps do is told by their cells; a block alone only where it fails.
         if not stage.startswith("block") or len(words) == 1:
             line = f"{scene:{WIDTH}}  {stage:12}  " + "  ".join(f"{word:>7}" for word in words)
             print(line.rstrip(), file=sys.stderr, flush=True)
 
-
-WIDTH = 6
-
-
-def reason(result) -> str:
-    """Why a job could not be done: what it left as the last line of its log."""
-    _, folder, *_, name = result.split("/")
-    log = f"results/{folder}/logs/{name}.log"
-    try:
-        lines = (ROOT / log).read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
+    def _reason(self, job):
+        """Why a job could not be done: the last line of its log, or what snakemake says of it."""
+        _, folder, *_, name = self.results[job].split("/")
+        log = ROOT / "results" / folder / "logs" / f"{name}.log"
         lines = []
-    said = [line for line in lines if line.startswith("pseudorigid: ")]
-    return said[-1].split(": ", 2)[2] if said else "it ended without a word (was it killed?)"
+        with suppress(OSError):
+            if log.stat().st_mtime > self.started[job] - 2:  # some file systems keep whole seconds
+                lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        said = [line.split(": ", 2)[2] for line in lines if line.startswith("pseudorigid: ")]
+        said = said or "".join(self.errors[-1:]).strip().splitlines() or ["no reason is known"]
+        return said[-1]
 
 
 def register() -> str:
