@@ -17,11 +17,27 @@ from .telling import states
 
 
 def make(checked, variant, options, named=None, others=()) -> int:
-    """Make the figures of a variant, or those of its files that are `named`, and say what became
-    of them; the exit status.
+    """Make the figures of a variant, or some of its files, and say what became of them.
 
-    `others` are further results to make. A figure whose periodic orbit does not exist is left out,
-    and the rest is made.
+    A figure whose periodic orbit does not exist is left out, and the rest is made.
+
+    Parameters
+    ----------
+    checked : dict
+        The checked config.
+    variant : str
+        A variant, or another set of scenes.
+    options : list of str
+        Options for snakemake.
+    named : list of str, optional
+        Those of its files, as published, that are meant.
+    others : list of str
+        Further results to make.
+
+    Returns
+    -------
+    int
+        The exit status.
     """
     variants = checked["variants"]
     figures = places.figures(variants, variant)
