@@ -2,11 +2,15 @@
 
 from collections import Counter
 
+from pseudorigid.sweep import grid
+
 from ...checks.currency import Currency
+from ...config import places
 from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import MisuseError, interruptible, locked
+from ..telling import sweeping
 
 
 def run(given) -> int:
@@ -22,9 +26,18 @@ def run(given) -> int:
         return 0
     with locked():
         results, needed = ledger.results(checked)
-        status = running.make(Currency(ROOT, results), needed, given.options)
-        status = status or figures.make(checked, "claims", given.options)
+        currency = Currency(ROOT, results)
+        variants, sweeps = checked["variants"], checked["sweeps"]
+        outdated = currency.outdated(running.needed(results, needed))
+        names = [name for name in sweeps if places.sweep_dataset(name) in outdated]
+        blocks = sweeping.lacking(sweeps, names, outdated)
+        with sweeping.progress(blocks, sum(grid.cells(sweeps[name]) for name in names)):
+            drawings = [made[-1] for _, made in places.figures(variants, "claims").values()]
+            status = running.make(currency, [*needed, *drawings], given.options)
         if status or running.only_says(given.options):
+            return status
+        status = figures.make(checked, "claims", given.options)
+        if status:
             return status
         with interruptible():
             ledger.derive(checked)
