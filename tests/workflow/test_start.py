@@ -177,7 +177,7 @@ def test_a_set_up_ends_when_its_shell_alone_is_told(set_up, number):
         **set_up.how,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # noqa: PLW1509
     )
     for _ in range(600):
         if (set_up.folder / "slow.begun").exists():
