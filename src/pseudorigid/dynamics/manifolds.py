@@ -194,8 +194,8 @@ def scene_manifolds(
 def _collect(ball, energy, orbit, requests, resolution):
     traced, total = [], 0
     for saddle, side, stable, how in requests:
-        how = how | resolution | {"stable": stable, "side": side}
-        traced.append(trace_manifold(ball, energy, orbit, saddle, **how))
+        more = {"stable": stable, "side": side} | resolution
+        traced.append(trace_manifold(ball, energy, orbit, saddle, **how, **more))
         total += traced[-1].sizes["vertex"]
         if total > MOST_IN_ALL:
             raise ValueError(f"manifolds of more than {MOST_IN_ALL} points: make length shorter")

@@ -55,7 +55,7 @@ def _pieces(value):
         yield "}" if isinstance(value, dict) else "]"
     elif value is None:
         yield "nothing"
-    elif isinstance(value, int) and abs(value) >= 10**100:  # some are too long for decimals
+    elif isinstance(value, int) and value.bit_length() > 14_000:  # too long for decimals
         yield hex(value)
     else:
         yield str(value).lower() if isinstance(value, bool) else repr(value)
