@@ -1,7 +1,10 @@
 """The machine code: every operation rounded once, in the order written, and no library called."""
 
 import math
+import os
 import re
+import subprocess
+import sys
 
 import numba
 import numpy as np
@@ -56,3 +59,16 @@ def test_the_search_of_machine_code_finds():
     assert LIBRARY.findall(text)
     assert re.search(r"\bfmul (?:fast|reassoc|contract)", text)
     assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
+
+
+def test_where_nothing_can_be_kept_each_process_compiles_for_itself(tmp_path):
+    (tmp_path / "file").touch()
+    program = "from pseudorigid.kernel.compiled import jit; print(jit(lambda x: x + 1)(1))"
+    result = subprocess.run(
+        [sys.executable, "-c", program],
+        env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "file" / "cache")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (result.stdout, result.stderr) == ("2\n", "")

@@ -1,8 +1,11 @@
 """What is refused before anything starts, each in one line."""
 
+import os
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -86,3 +89,103 @@ def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == f"reproduce: {line}\n"
     assert not (tree.path / ".venv").exists()
+
+
+STAND_IN = """#!/bin/sh
+case "$*" in
+*sys.version_info\\[:2]*) echo 3 11 ;;
+'-m venv '*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python"; echo "command = $*" >"$3/pyvenv.cfg" ;;
+*'-m pip '*) [ ! -e "$SLOW" ] || { touch "$SLOW.begun"; exec sleep 60; } ;;
+*'-m pipeline'*) echo handed over ;;
+esac
+"""
+
+
+class SetUp:
+    """A tree whose interpreter installs nothing."""
+
+    def __init__(self, tree, folder):
+        self.venv, self.slow = tree.path / ".venv", folder / "slow"
+        (folder / "bin").mkdir()
+        (folder / "bin" / "python3").write_text(STAND_IN)
+        (folder / "bin" / "python3").chmod(0o755)
+        path = f"{folder / 'bin'}:{os.environ['PATH']}"
+        self.how = {
+            "args": [str(tree.path / "reproduce")],
+            "env": os.environ | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)},
+            "text": True,
+        }
+        self.folder = folder
+
+    def run(self):
+        result = subprocess.run(**self.how, capture_output=True, check=False)
+        return result.returncode, result.stdout + result.stderr
+
+
+@pytest.fixture
+def set_up(tree, tmp_path):
+    return SetUp(tree, tmp_path)
+
+
+MADE = (
+    0,
+    "handed over\nreproduce: installing the locked packages into .venv (once, about a minute)\n",
+)
+
+
+def test_what_is_left_of_a_venv_is_made_anew(set_up):
+    assert set_up.run() == MADE
+    assert set_up.run() == (0, "handed over\n")
+    for gone in (["stamp"], ["install.log", "stamp"], ["install.log", "stamp", "pyvenv.cfg"]):
+        for name in gone:
+            (set_up.venv / name).unlink()
+        assert set_up.run() == MADE, gone
+    shutil.rmtree(set_up.venv)
+    set_up.venv.mkdir()
+    assert set_up.run() == MADE
+    assert not list(set_up.folder.glob("tmp*"))
+
+
+def test_a_venv_of_somebody_else_stays(set_up):
+    set_up.run()
+    (set_up.venv / "install.log").unlink()
+    (set_up.venv / "stamp").unlink()
+    line = f"reproduce: {set_up.venv} was not made by ./reproduce: please move it away\n"
+    for name, text in (("conda-meta", ""), ("pyvenv.cfg", "command = python3 -m venv .venv")):
+        (set_up.venv / name).write_text(text)
+        assert set_up.run() == (1, line), name
+        (set_up.venv / name).unlink()
+    kept = set_up.venv.rename(set_up.folder / "kept")
+    for name in ("file", "link", "folder"):
+        if name == "file":
+            set_up.venv.write_text("mine")
+        elif name == "link":
+            set_up.venv.symlink_to(kept)
+        else:
+            set_up.venv.mkdir()
+            (set_up.venv / "bin").mkdir()
+        assert set_up.run() == (1, line), name
+        if name != "folder":
+            set_up.venv.unlink()
+    assert (kept / "bin" / "python").is_file()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_set_up_ends_when_its_shell_alone_is_told(set_up, number):
+    set_up.slow.touch()
+    run = subprocess.Popen(
+        **set_up.how,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # noqa: PLW1509
+    )
+    for _ in range(600):
+        if (set_up.folder / "slow.begun").exists():
+            break
+        time.sleep(0.1)
+    run.send_signal(number)
+    _, said = run.communicate(timeout=30)
+    assert run.returncode == 130
+    assert said.splitlines()[1:] == ["reproduce: interrupted: run it again to go on"]
+    set_up.slow.unlink()
+    assert set_up.run() == MADE

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 from ..records.sources import ROOT
-from .folder import say
+from .folder import interruptible, locked, say
 
 
 def add_packages(name: str) -> int:
@@ -14,10 +14,11 @@ def add_packages(name: str) -> int:
     stamp = ROOT / ".venv" / f"{name}-stamp"  # goes with .venv when that is made anew
     if stamp.is_file() and stamp.read_bytes() == wanted:
         return 0
-    say(f"installing requirements/{name}.txt into .venv (once)")
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     pip += ["--quiet", "--require-hashes", "-r", str(ROOT / "requirements" / f"{name}.txt")]
-    status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
-    if status == 0:
-        stamp.write_bytes(wanted)
+    with locked(), interruptible():
+        say(f"installing requirements/{name}.txt into .venv (once)")
+        status = subprocess.call(pip, env=os.environ | {"PIP_USER": "0"})
+        if status == 0:
+            stamp.write_bytes(wanted)
     return status

@@ -35,6 +35,7 @@ MOST_IMAGES = 400  # of a multiplier of at least WEAK; else so many that they gr
 WEAK = 1.5  # takes 35 images from START to the section's size; smaller multipliers take more
 KNOWN = 0.1  # more would be seen
 MOST_VERTICES = 3_000_000
+MOST_IN_ALL = 10_000_000  # of a scene
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 
@@ -229,10 +230,13 @@ def scene_manifolds(
 
 
 def _collect(ball, energy, orbit, requests, resolution):
-    traced = [
-        trace_manifold(ball, energy, orbit, saddle, stable=stable, side=side, **how, **resolution)
-        for saddle, side, stable, how in requests
-    ]
+    traced, total = [], 0
+    for saddle, side, stable, how in requests:
+        more = {"stable": stable, "side": side} | resolution
+        traced.append(trace_manifold(ball, energy, orbit, saddle, **how, **more))
+        total += traced[-1].sizes["vertex"]
+        if total > MOST_IN_ALL:
+            raise ValueError(f"manifolds of more than {MOST_IN_ALL} points: make length shorter")
     whole = xr.concat(traced, "vertex", combine_attrs="override")
     whole.attrs["start_error"] = max(branch.attrs["start_error"] for branch in traced)
     if ended := [branch.attrs["ended"] for branch in traced if "ended" in branch.attrs]:

@@ -24,7 +24,16 @@ def _cache() -> str:
     return os.path.join(root, f"compiled-{digest}")
 
 
+def _writable(folder) -> bool:
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)
+
+
 _CACHE = _cache()
+_KEPT = _writable(_CACHE)  # where it is not, every process compiles for itself
 
 
 def jit(function):
@@ -46,6 +55,6 @@ def jit(function):
     others = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _CACHE
     try:
-        return numba.njit(cache=True, error_model="numpy", fastmath=False, nogil=True)(function)
+        return numba.njit(cache=_KEPT, error_model="numpy", fastmath=False, nogil=True)(function)
     finally:
         numba.config.CACHE_DIR = others

@@ -9,6 +9,7 @@ from .mistakes import mistakes
 from .words import refusal
 
 LARGEST = 10_000_000_000_000  # impacts of a sweep: above it a number is a slip
+MOST_CELLS = 1_000_000  # of a sweep: each start of ./reproduce looks at all
 MOST_JOBS = 5000  # of a sweep: beyond, snakemake is busier with its list than with the jobs
 HIGHEST = 1e9  # of E/g^2
 _EXACT = Context(prec=40)
@@ -57,6 +58,11 @@ def _faults(sweep):
             return
     yield from _energy_faults(sweep)
     cells = len(sweep["k"]) * len(sweep["energy"])
+    if cells > MOST_CELLS:
+        sizes = f"{len(sweep['k'])} times {len(sweep['energy'])}"
+        what = f"axes with at most {MOST_CELLS} cells, here {sizes}"
+        yield ("energy",), sweep["energy"], what
+        return
     if cells * sweep["starts"] * sweep["impacts"] > LARGEST:
         what = f"at most {LARGEST} impacts in a sweep, counted over all cells and starts"
         yield ("impacts",), sweep["impacts"], what

@@ -34,6 +34,28 @@ def dotted(place) -> str:
 
 def shown(value) -> str:
     """A value as in YAML, shortened to a part of a line."""
-    text = "nothing" if value is None else repr(value) if value not in (True, False) else ""
-    text = text or str(value).lower()
-    return text if len(text) <= 60 else text[:57] + "..."
+    text = ""
+    for piece in _pieces(value):  # aliases in YAML can make a value of any size
+        text += piece
+        if len(text) > 60:
+            return text[:57] + "..."
+    return text
+
+
+def _pieces(value):
+    """What a value is written with, piece by piece."""
+    if isinstance(value, dict | list):
+        yield "{" if isinstance(value, dict) else "["
+        for i, item in enumerate(value):
+            yield ", " if i else ""
+            yield from _pieces(item)
+            if isinstance(value, dict):
+                yield ": "
+                yield from _pieces(value[item])
+        yield "}" if isinstance(value, dict) else "]"
+    elif value is None:
+        yield "nothing"
+    elif isinstance(value, int) and value.bit_length() > 14_000:  # too long for decimals
+        yield hex(value)
+    else:
+        yield str(value).lower() if isinstance(value, bool) else repr(value)

@@ -127,6 +127,7 @@ class OfManifolds(OfPeriodicOrbit):
     method: FineMethod = None
     type: Saddle
     resolution: Resolution
+    sides: ClassVar[int] = 2  # of a point on which branches leave it
 
     @classmethod
     def lengths(cls, block) -> dict[tuple, float]:
@@ -135,12 +136,15 @@ class OfManifolds(OfPeriodicOrbit):
 
     @classmethod
     def faults(cls, block):
-        """No branch longer than its points allow."""
+        """No branches longer than their points allow."""
         yield from super().faults(block)
-        longest = LARGEST * block["resolution"]["distance"]
+        # each of them leaves every point twice, stable and unstable
+        branches = 2 * block["period"] * cls.sides
+        longest = LARGEST * block["resolution"]["distance"] / branches
         for place, length in cls.lengths(block).items():
             if length > longest:
-                yield place, length, f"at most {LARGEST} times resolution.distance = {longest:g}"
+                what = f"at most {LARGEST} times resolution.distance"
+                yield place, length, f"{what}, shared by {branches} branches = {longest:g}"
 
 
 class OnSurface(Scene):
@@ -148,6 +152,13 @@ class OnSurface(Scene):
 
     view: View = {"elevation": 40, "azimuth": 115}
     axes: SECTION = None
+
+
+def bounded(block, first, second, what) -> Iterator[Fault]:
+    """The fault of two whole numbers whose product counts numbers that are held at once."""
+    if block[first] * block[second] > LARGEST:
+        allowed = f"at most {LARGEST} {what}, {first} times {second}"
+        yield (second,), block[second], f"{allowed}: here {LARGEST // block[first]}"
 
 
 def each(impacts, starts) -> list[int]:
@@ -161,14 +172,16 @@ def exact(value) -> Fraction:
 
 
 def _energy_faults(block):
-    k, g, energy = (exact(x) for x in (*(block["ball"][n] for n in "kg"), block["energy"]))
+    k, g = (exact(block["ball"][name]) for name in "kg")
     lowest, highest = -g * g / (2 * k), k / 2 - g
-    if not energy > lowest:
-        where = f"-g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
-        yield ("energy",), block["energy"], f"a number above {where}"
-    elif not energy < highest:
-        where = f"k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
-        yield ("energy",), block["energy"], f"a number below {where}"
+    more = {("energies", i): energy for i, energy in enumerate(block.get("energies", ()))}
+    for place, energy in ({("energy",): block["energy"]} | more).items():
+        if not exact(energy) > lowest:
+            where = f"-g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
+            yield place, energy, f"a number above {where}"
+        elif not exact(energy) < highest:
+            where = f"k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
+            yield place, energy, f"a number below {where}"
 
 
 def _axis_faults(axis, place):

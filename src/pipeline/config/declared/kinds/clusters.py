@@ -1,7 +1,9 @@
 """Clusters of impacts in the sea, and what they remember."""
 
 from ..fields import Between, listed, real, whole
-from ..scene import Scene
+from ..scene import Scene, bounded
+
+LONGEST = 1_000_000  # flight: their histogram has ten bins a unit of time
 
 
 class Clusters(Scene):
@@ -25,6 +27,19 @@ class Clusters(Scene):
     lags: whole(1, 100)
     resamples: whole(10, 100_000)
     seed: whole(0, 2**31)
+
+    @classmethod
+    def faults(cls, block):
+        """What is held at once: every impact, and every sample of the bootstrap."""
+        faults = [*super().faults(block)]
+        yield from faults
+        yield from bounded(block, "orbits", "impacts", "impacts in all")
+        yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
+        if not faults and 4 * (2 * energy + g * g / k) > (LONGEST * g) ** 2:
+            longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
+            what = f"one with flights of at most {LONGEST} at this energy (here {longest:.3g})"
+            yield ("ball", "g"), g, what
 
     @staticmethod
     def numbers(block, clusters):

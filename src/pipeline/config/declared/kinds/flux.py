@@ -1,7 +1,7 @@
 """Lobes and the flux through them."""
 
 from ..fields import Between, Period, real, whole
-from ..scene import Scene
+from ..scene import Scene, bounded
 
 
 class Flux(Scene):
@@ -18,16 +18,17 @@ class Flux(Scene):
     telling = "lobes"
 
     period: Period
-    distance: real("a number above 0, in section radii", gt=0, le=1)
-    grid: whole(10, 10_000)
+    distance: real("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
+    grid: whole(10, 3000)
     between: Between
     orbits: whole(2, 100_000)
     impacts: whole(100, 10_000_000)
 
     @classmethod
     def faults(cls, block):
-        """Connections are sought of even periods."""
+        """Connections are sought of even periods; every impact is held."""
         yield from super().faults(block)
+        yield from bounded(block, "orbits", "impacts", "impacts in all")
         if block["period"] % 2:
             yield ("period",), block["period"], "an even number"
 

@@ -19,7 +19,14 @@ class Jumps(Portrait):
     studied = None
 
     energies: listed(Energy, "a list of energies", 1, 20)
-    sides: whole(4, 1_000_000)
+    sides: whole(4, 100_000)
+
+    @classmethod
+    def faults(cls, block):
+        """Sides that are compared with half and with a quarter of them."""
+        yield from super().faults(block)
+        if block["sides"] % 4:
+            yield ("sides",), block["sides"], "a multiple of four"
 
     @staticmethod
     def numbers(block, jumps, orbits):

@@ -1,6 +1,6 @@
 """The last invariant curve of the main island."""
 
-from ..fields import Between, listed, whole
+from ..fields import LARGEST, Between, listed, whole
 from ..scene import Scene
 
 
@@ -21,8 +21,23 @@ class LastCurve(Scene):
     nobles: listed(listed(whole(0, 1000), "a continued fraction"), "a list of continued fractions")
     convergents: whole(2, 20)
     between: Between
-    impacts: whole(100, 100_000_000)
-    drawn: whole(100, 10_000_000)
+    impacts: whole(100, LARGEST)
+    drawn: whole(100, LARGEST)
+
+    @classmethod
+    def faults(cls, block):
+        """Orbits that can be followed, and drawn."""
+        yield from super().faults(block)
+        for i, noble in enumerate(block["nobles"]):
+            before, period = 0, 1
+            for quotient in noble[1:] + [1] * (block["convergents"] - 1):
+                before, period = period, before + quotient * period
+            if not 0 < period <= LARGEST:
+                what = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
+                yield ("nobles", i), noble, what
+        if block["drawn"] * len(block["nobles"]) > LARGEST:
+            what = f"at most {LARGEST} points drawn, counted over all nobles"
+            yield ("drawn",), block["drawn"], what
 
     @staticmethod
     def numbers(block, last_curve):

@@ -20,7 +20,7 @@ class Spread(OfOrbits):
 
     records: whole(2, 10_000)
     between: Between
-    orbits: whole(2, 10_000)
+    orbits: whole(2, 1000)
     length: whole(100, 100_000_000)
     blocks: whole(2, 10_000)
     regular: listed(real("a fraction with -1 < start < 1", gt=-1, lt=1), "a list of fractions")
