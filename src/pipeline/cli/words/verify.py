@@ -19,15 +19,23 @@ def run(word, arguments, start) -> int:
     parser.add_argument(
         "--against",
         type=Path,
-        metavar="FOLDER",
-        help="another tree or its results: how many ulp lie between its data and these",
+        metavar="PLACE",
+        help="an archive: compare this tree with it, file by file; or a folder with another tree "
+        "or its results: say how many ulp lie between its data and these",
     )
     parser.add_argument("--strict", action="store_true", help="exit 1 for notes too")
     given = parser.parse_args(arguments)
     against = given.against and start / given.against
-    if against is not None and not against.is_dir():
-        raise UsageError(f"verify: no folder {against}")
+    if against is not None and not against.exists():
+        raise UsageError(f"verify: no archive or folder {against}")
     checked = load(ROOT / "config.yaml")
+    if against is not None and not against.is_dir():
+        from ...checks import archive
+
+        try:
+            return archive.verify(ROOT, checked, against)
+        except archive.ArchiveError as error:
+            raise UsageError(f"verify: {error}") from None
     from ...checks.verify import verify
 
     return verify(ROOT, checked, against, given.strict)
