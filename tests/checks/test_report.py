@@ -184,7 +184,7 @@ def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
     assert re.search(
         r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc", text
     )
-    assert "approximately 0.235" not in text
+    assert "<td>approximately 0.235" not in text
 
 
 def served(scenes):
