@@ -116,13 +116,13 @@ def test_every_command(clone):
                 check=False,
             )
             assert result.returncode == 0, f"{document}: {command}\n{result.stdout}"
-            assert "Traceback" not in result.stdout
+            assert "Traceback (most" not in result.stdout
 
 
 def test_the_script_for_ci(clone, tmp_path):
     """The lines of docs/bytes.md, with this copy for the repository, without and with a cache."""
     (script,) = (block for block in blocks("docs/bytes.md") if "CACHE" in block)
-    assert len(script.splitlines()) == 10
+    assert len(script.splitlines()) <= 10
     place = "git clone <this repository> pseudorigid"
     assert place in script
     script = script.replace(place, f'cp -a "{clone.path}" pseudorigid; rm -rf pseudorigid/results')
