@@ -6,9 +6,6 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-report: "workflow/report/workflow.rst"
-
-
 include: "workflow/rules/common.smk"
 
 
@@ -20,7 +17,6 @@ wildcard_constraints:
 
 
 include: "workflow/rules/results.smk"
-include: "workflow/rules/report.smk"
 
 
 rule all:

@@ -28,7 +28,6 @@ ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.pn
         ("results/sweep/plane_0012.nc", "plane", "block 12"),
         ("results/sweep/plane.nc", "plane", "data"),
         ("results/study/work.nc", "work", "data"),
-        ("results/report/labels.json", "report", "numbers"),
     ],
 )
 def test_a_result_has_the_name_of_its_scene_and_stage(result, scene, stage):

@@ -1,5 +1,4 @@
 # The checked config, and what the rules ask of it: EXPECTED says of each result what makes it.
-import json
 import shlex
 import sys
 from pathlib import Path
@@ -56,32 +55,9 @@ def made(result, what):
     return lambda wildcards: getattr(EXPECTED[result.format(**wildcards)], what)
 
 
-# Of the rules that draw scenes: where the caption of their kind is written when a report is made.
-CAPTIONS = {f"draw_{kind}": f"results/report/captions/{kind}.rst" for kind in KINDS}
-
-
 def maker(stage, result):
     """Params function: module and function that compute a stage."""
     return lambda wildcards: STAGES[stage].maker(EXPECTED[result.format(**wildcards)].config)
-
-
-def reported(drawing, rule):
-    """A drawing, with the caption of its kind of picture in the report."""
-    return report(
-        drawing,
-        caption=str(ROOT / CAPTIONS[rule]),
-        category="Figures",
-        labels=figure_labels,
-    )
-
-
-def figure_labels(wildcards):
-    """The line on a figure in the report's list, read when the report is made.
-
-    One column: a second one with two values in it would become a switch between figures.
-    """
-    labels = json.loads((ROOT / "results" / "report" / "labels.json").read_text(encoding="utf-8"))
-    return {"figure": labels[wildcards.scene]}
 
 
 def any_of(names):

@@ -39,7 +39,7 @@ for name, (result, program, scenes, given) in RULES.items():
         input:
             data=inputs(result),
         output:
-            reported(result, name) if name in CAPTIONS else result,
+            result,
             record=record_path(result),
         log:
             f"results/{folder}/logs/{file}.log",

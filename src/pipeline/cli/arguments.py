@@ -108,8 +108,20 @@ WORDS = {
         more=" Exit status 1 where one is not proved.",
     ),
     "report": Word(
-        "one HTML page with the figures, captions, numbers and run times",
+        "one HTML page with the figures, numbers, corrections and run times",
         passes=True,
+    ),
+    "archive": Word(
+        "one tar with figures, data and what they were made from",
+        (
+            "file",
+            {
+                "nargs": "?",
+                "metavar": "FILE",
+                "help": "by default results/archive/pseudorigid.tar",
+            },
+        ),
+        more=" The same to the byte wherever its files are. Everything must be made.",
     ),
     "verify": Word(
         "whether everything here is as committed, and if not, what differs",
@@ -117,9 +129,9 @@ WORDS = {
             (
                 "--against",
                 {
-                    "metavar": "FOLDER",
-                    "help": "another tree or its results: how many ulp lie between its data and "
-                    "these",
+                    "metavar": "PLACE",
+                    "help": "an archive: compare this tree with it, file by file; or a folder with "
+                    "another tree or its results: how many ulp lie between its data and these",
                 },
             ),
             ("--strict", {"action": "store_true", "help": "exit 1 for notes too"}),

@@ -60,7 +60,7 @@ def energy_surface(data, proved):
     word = HOLDS if good else FALSE
     value = "the energy of each orbit is kept to rounding"
     bound = f"below {ROUNDING:.0e}" if error < ROUNDING else f"{error:.1e}"
-    return Verdict(word, value, bound, "tests/test_derivations.py, tests/test_stability.py")
+    return Verdict(word, value, bound, "tests/test_derivations.py, tests/kernel/test_impact.py")
 
 
 @claim(
@@ -76,7 +76,7 @@ def half_of_it(data, proved):
     count = sum(s.size for s in speeds)
     value = f"least contact speed of {count:,} impacts: {least:.1e}"
     word = HOLDS if least >= 0.0 else FALSE
-    return Verdict(word, value, "none below 0", "tests/test_impact.py")
+    return Verdict(word, value, "none below 0", "tests/kernel/test_impact.py")
 
 
 @claim(

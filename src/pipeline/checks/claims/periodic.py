@@ -125,7 +125,7 @@ def differences(data, proved):
         worst = max(worst, min(errors))
     word = HOLDS if worst < 1e-3 else FALSE
     value = f"at the best step the traces of P^{period} are right to {worst:.0e}"
-    return Verdict(word, value, "about half of the digits", "tests/test_impact.py")
+    return Verdict(word, value, "about half of the digits", "tests/kernel/test_impact.py")
 
 
 def _trace(ball, point, step, period):

@@ -1,4 +1,6 @@
-"""CLAIMS.md: a row a claim, the corrections first."""
+"""CLAIMS.md: a row a claim, the corrections first; written, and read again."""
+
+import re
 
 from . import CLAIMS
 from .ledger import CORRECTED, FALSE, HOLDS, NOT_COMPUTED, OPEN, PROVED
@@ -12,6 +14,7 @@ TITLES = {
     HOLDS: "Holds",
     NOT_COMPUTED: "Not computed",
 }
+COLUMNS = ("number", "place", "words", "value", "error", "evidence")
 HEAD = """# The paper's statements, checked
 
 E. Kanso and P. Papadopoulos, *Dynamics of pseudo-rigid ball impact on rigid foundation*. Each row
@@ -54,6 +57,35 @@ def render(verdicts):
         lines += [_row(CLAIMS[number], verdicts[number]) for number in groups[word]]
         lines.append("")
     return "\n".join(lines)
+
+
+def read(text):
+    """The rows of a CLAIMS.md, in its order.
+
+    Returns
+    -------
+    list of dict
+        verdict, a word of ORDER, and number, place, words, value, error, evidence: texts.
+
+    Raises
+    ------
+    ValueError
+        Another text.
+    """
+    words = {title: word for word, title in TITLES.items()}
+    found, verdict = [], None
+    for line in text.splitlines():
+        if line.startswith("## "):
+            verdict = words.get(line[3:])
+        elif re.match(r"\| \d+ \|", line):
+            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+            cells = [cell.replace("\\|", "|") for cell in cells]
+            if verdict is None or len(cells) != len(COLUMNS):
+                raise ValueError(f"not a table of claims: {line[:60]}")
+            found.append({"verdict": verdict, **dict(zip(COLUMNS, cells, strict=True))})
+    if not found:
+        raise ValueError("not a table of claims")
+    return found
 
 
 def _row(claim, verdict):

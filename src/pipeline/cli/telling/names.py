@@ -11,8 +11,6 @@ OWN = (*places.PUBLISHED, "study", "sweep")  # folders whose names go without sa
 def step(result) -> tuple[str, str]:
     """(scene, stage) of a result; the scene of a variant with its name before it."""
     path = PurePath(result)
-    if path.parts[1] == "report":
-        return "report", "numbers"
     folder, name, stage = path.parts[1], path.stem, "data"
     if path.parts[2] == "figures":
         stage = f"drawing {path.suffix[1:]}"

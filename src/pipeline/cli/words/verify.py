@@ -2,15 +2,22 @@
 
 from ...config.checking.reading import load
 from ...records.sources import ROOT
-from ..folder import MisuseError
+from ..folder import MisuseError, UsageError
 
 
 def run(given) -> int:
     """Compare the tree with its contracts; 0 where nothing is red."""
     against = given.against and given.start / given.against
-    if against is not None and not against.is_dir():
-        raise MisuseError(f"verify: no folder {against}")
+    if against is not None and not against.exists():
+        raise MisuseError(f"verify: no archive or folder {against}")
     checked = load(ROOT / "config.yaml")
+    if against is not None and not against.is_dir():
+        from ...checks import archive
+
+        try:
+            return archive.verify(ROOT, checked, against)
+        except archive.ArchiveError as error:
+            raise UsageError(f"verify: {error}") from None
     from ...checks.verify import verify
 
     return verify(ROOT, checked, against, given.strict)

@@ -18,7 +18,18 @@ from .words import dotted, refusal, unknown
 
 PAPER = "paper"
 # Folders in results/ and words that a variant's name must leave alone.
-RESERVED = (PAPER, "claims", "proofs", "study", "sweep", "sweeps", "atlas", "compare", "report")
+RESERVED = (
+    PAPER,
+    "claims",
+    "proofs",
+    "study",
+    "sweep",
+    "sweeps",
+    "atlas",
+    "compare",
+    "report",
+    "archive",
+)
 _FOR_ALL = ("ball", "energy", "method")
 
 

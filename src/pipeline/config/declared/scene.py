@@ -62,7 +62,7 @@ class Scene(Block):
 
     @staticmethod
     def numbers(block: dict, **data) -> dict[str, str]:
-        """Quantity -> value in words, from the datasets of its stages (for the report)."""
+        """Quantity -> value in words, measured in the datasets of its stages (for the report)."""
         raise NotImplementedError
 
     @classmethod
@@ -111,11 +111,12 @@ class OfPeriodicOrbit(Scene):
 
     @staticmethod
     def about_orbit(periodic, block) -> dict[str, str]:
-        """The orbit in words, and what tells its kind of stability."""
+        """The orbit in words, its energy, and what tells its kind of stability."""
         from pseudorigid.dynamics.variables import of_type
 
         orbit = of_type(periodic, block["type"])
-        words = {"orbit": f"{block['type']}, period {block['period']}"}
+        words = {"orbit": f"{orbit['type'].item()}, period {orbit.sizes['point']}"}
+        words |= measured_energy(block, orbit)
         if block["type"] == "elliptic":
             return words | {"rotation number": f"{float(orbit['rotation_number']):.6f}"}
         return words | {"multiplier": f"{float(orbit['multiplier']):.6f}"}
@@ -164,6 +165,16 @@ def bounded(block, first, second, what) -> Iterator[Fault]:
 def each(impacts, starts) -> list[int]:
     """Impacts of each start, given as one number or as a list."""
     return impacts if isinstance(impacts, list) else [impacts] * len(starts)
+
+
+def measured_energy(block, states) -> dict[str, str]:
+    """The energy of a dataset's states, eq. (29), to twelve digits."""
+    from pseudorigid.dynamics.ball import Ball
+
+    ball = Ball(**block["ball"])
+    energy = ball.energy(*(states[name].values for name in ("x", "xdot", "udot")))
+    ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
+    return {"energy": " to ".join(ends)}
 
 
 def exact(value) -> Fraction:

@@ -43,8 +43,16 @@ class Closeup(OfManifolds):
 
     @staticmethod
     def numbers(block, periodic, manifolds):
-        """The orbit and the point."""
-        return Closeup.about_orbit(periodic, block) | {
-            "x of the point": f"{manifolds.attrs['point_x']:.7f}",
-            "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
+        """The orbit, the point, and the window around it."""
+        window = {
+            f"window, {name}": "{:.7g} to {:.7g}".format(*manifolds.attrs[f"window_{name}"])
+            for name in ("x", "xdot")
         }
+        return (
+            Closeup.about_orbit(periodic, block)
+            | window
+            | {
+                "x of the point": f"{manifolds.attrs['point_x']:.7f}",
+                "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
+            }
+        )

@@ -18,7 +18,7 @@ class Clusters(Scene):
     """
 
     stages = ("clusters",)
-    telling = "clusters"
+    telling = "time between clusters"
 
     between: Between
     orbits: whole(2, 100_000)
@@ -43,5 +43,6 @@ class Clusters(Scene):
 
     @staticmethod
     def numbers(block, clusters):
-        """How many cuts."""
-        return {"clusters": f"cut at {len(block['cuts'])} times"}
+        """The mean time from one cluster to the next, for each cut."""
+        pairs = zip(clusters["cut"].values, clusters["period"].values, strict=True)
+        return {"time between clusters": ", ".join(f"{t:.2f} cut at {cut:g}" for cut, t in pairs)}

@@ -44,5 +44,9 @@ class Exponents(OfOrbits):
         return {
             "largest exponent": ", ".join(f"{value:.4f}" for value in last),
             "their mean": f"{np.mean(last):.4f}{spread}",
+            "all three of an orbit, at the end": "; ".join(
+                ", ".join(f"{value:.4f}" for value in row)
+                for row in np.round(final_exponents(lyapunov), 4) + 0.0
+            ),
             "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
         }

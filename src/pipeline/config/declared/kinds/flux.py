@@ -34,5 +34,6 @@ class Flux(Scene):
 
     @staticmethod
     def numbers(block, flux):
-        """Of which orbit."""
-        return {"lobes": f"of period {block['period']}"}
+        """Areas of the lobes in (x, y)."""
+        pairs = zip(flux["side"].values, flux["area"].values, strict=True)
+        return {"lobes": ", ".join(f"{side} {float(area):.10g}" for side, area in pairs)}

@@ -30,5 +30,7 @@ class Jumps(Portrait):
 
     @staticmethod
     def numbers(block, jumps, orbits):
-        """At how many energies."""
-        return {"jump curve": f"at {1 + len(block['energies'])} energies"}
+        """How long the curve is in (x, y) at each energy."""
+        pairs = zip(jumps["energy"].values, jumps["length"].values, strict=True)
+        found = ", ".join(f"{length:.4f} at E = {energy:g}" for energy, length in pairs)
+        return {"jump curve": f"length {found}"}

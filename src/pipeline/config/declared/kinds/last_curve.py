@@ -16,7 +16,7 @@ class LastCurve(Scene):
     """
 
     stages = ("last_curve",)
-    telling = "convergents"
+    telling = "last residues"
 
     nobles: listed(listed(whole(0, 1000), "a continued fraction"), "a list of continued fractions")
     convergents: whole(2, 20)
@@ -41,5 +41,7 @@ class LastCurve(Scene):
 
     @staticmethod
     def numbers(block, last_curve):
-        """How many."""
-        return {"convergents": f"{block['convergents']}"}
+        """The residue of the last convergent of either number, and its period."""
+        ends = (last_curve[name].values[:, -1] for name in ("residue", "period"))
+        found = (f"{residue:.2g} at period {n}" for residue, n in zip(*ends, strict=True))
+        return {"last residues": ", ".join(found)}

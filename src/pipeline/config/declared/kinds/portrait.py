@@ -1,7 +1,7 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
 from ..fields import listed, whole
-from ..scene import OfOrbits, OnSurface
+from ..scene import OfOrbits, OnSurface, measured_energy
 
 Place = whole(0, 10_000_000)
 
@@ -38,5 +38,12 @@ class Portrait(OnSurface, OfOrbits):
 
     @staticmethod
     def numbers(block, orbits):
-        """How many orbits and impacts."""
-        return {"orbits": f"{orbits.sizes['orbit']}", "impacts": f"{orbits.sizes['point']:,}"}
+        """How many orbits and impacts, their energy, and how near they come to grazing."""
+        speed = float((orbits["xdot"] + orbits["udot"]).min())
+        return {
+            "orbits": f"{orbits.sizes['orbit']}",
+            "impacts": f"{orbits.sizes['point']:,}",
+            **measured_energy(block, orbits),
+            "least speed of contact": f"{speed:.2g}",
+            "x": f"{float(orbits['x'].min()):.4f} to {float(orbits['x'].max()):.4f}",
+        }

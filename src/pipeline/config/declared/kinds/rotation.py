@@ -15,7 +15,7 @@ class Rotation(Scene):
     """
 
     stages = ("rotation",)
-    telling = "starts"
+    telling = "at the fixed point"
 
     energies: listed(Energy, "a list of energies", 1, 20)
     starts: whole(2, 100_000)
@@ -25,5 +25,6 @@ class Rotation(Scene):
 
     @staticmethod
     def numbers(block, rotation):
-        """How many starts."""
-        return {"starts": f"{block['starts']}"}
+        """The rotation number at the fixed point, at each energy."""
+        pairs = zip(rotation["energy"].values, rotation["fixed_rotation"].values, strict=True)
+        return {"at the fixed point": ", ".join(f"{w:.6f} at E = {e:g}" for e, w in pairs)}

@@ -1,0 +1,203 @@
+"""The page: everything in one file that asks nothing of a network.
+
+But for the seconds and the commit in its last section it has the same bytes wherever the results
+behind it have.
+"""
+
+import base64
+import json
+import struct
+from pathlib import Path
+
+import jinja2
+
+from ...config import expected, places
+from ...config.declared.kinds import KINDS
+from ...records.artifacts import load
+from ...records.files import file_hash
+from ...records.record import read_record
+from .. import contracts, manifest
+from ..claims import render as claims
+from ..currency import MISSING, Currency
+from . import numbers
+
+LEDGER = "CLAIMS.md"
+# What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
+CHARTS = {
+    "work_uniform": "error against work of methods for the next impact, states all over the "
+    "section",
+    "work_grazing": "error against work of methods for the next impact, states near grazing",
+    "edges": "where methods miss the next impact: next to grazing, and where the ball just touches",
+    "energy": "what a check of the energy sees of missed impacts",
+    "apart": "how long orbits by two methods stay together",
+    "needs": "the error of each figure by each method",
+    "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
+    "line": "the regular share of the section, and the exponent of the rest, against the energy",
+}
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent),
+    autoescape=True,
+    undefined=jinja2.StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+
+
+def render(root, checked, absent) -> str:
+    """The page of the tree at `root`.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+    checked : dict
+        The checked config.
+    absent : dict
+        Variant -> scene -> why its figure cannot exist.
+
+    Raises
+    ------
+    ValueError
+        A result that cannot be read; it is named.
+    """
+    page = _Page(root, checked, absent)
+    figures = page.variant(places.PAPER)
+    made = {name: page.variant(name) for name in page.variants if name not in places.PUBLISHED}
+    more = page.on_request()
+    return _TEMPLATES.get_template("page.html").render(
+        figures=figures,
+        variants={name: shown for name, shown in made.items() if _any_made(shown)},
+        unmade=[name for name, shown in made.items() if not _any_made(shown)],
+        more=more,
+        claims=page.claims(),
+        corrected=(claims.FALSE, claims.CORRECTED),
+        results=page.provenance(),
+    )
+
+
+def _any_made(shown):
+    return any(figure["image"] for figure in shown)
+
+
+class _Page:
+    def __init__(self, root, checked, absent):
+        self.root, self.checked, self.absent = root, checked, absent
+        self.variants = checked["variants"]
+        self.serves = places.served(self.variants)
+        self.expected = expected.of_variants(self.variants)
+        self.outdated = Currency(root, self.expected).outdated()
+        self.shown = {}  # every result behind what the page shows, in order
+
+    def variant(self, name):
+        """Each scene of a set: its picture where that is current, in words and in numbers."""
+        found = []
+        for scene, block in self.variants[name].items():
+            file = places.drawn(scene, "png", name)
+            why = self.absent.get(name, {}).get(scene) or self._not_current(file)
+            about = self._about(scene, block) | {"id": f"{name}-{scene}", "missing": why}
+            about |= {"image": None, "rows": [], "telling": None}
+            if not why:
+                ours = numbers.measured(block, lambda stage: self._load(name, scene, stage))  # noqa: B023
+                about["rows"] = numbers.beside(scene, ours)
+                telling = KINDS[block["picture"]].telling
+                about["telling"] = next(row for row in about["rows"] if row[0] == telling)
+                about |= {"image": self._image(file), "file": self._file(name, scene)}
+                behind = [self.serves[name, scene, stage] for stage in places.stages(block)]
+                self.shown |= dict.fromkeys([*behind, file])
+            found.append(about)
+        return found
+
+    def on_request(self):
+        """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set."""
+        found = []
+        for contract in contracts.committed(self.checked):
+            if not contract.on_request:
+                continue
+            outdated = Currency(self.root, contract.expected).outdated()
+            made = []
+            for name, file in contract.drawn.items():
+                if not name.endswith(".png") or file in outdated:
+                    continue
+                scene = contract.scenes[name]
+                block = self.variants.get(Path(contract.results).name, {}).get(scene)
+                about = self._about(scene, block) if block else self._chart(scene)
+                about |= {"image": self._image(file), "file": f"{contract.folder}/{name}"}
+                made.append(about | {"id": f"{contract.folder}/{name}".replace("/", "-")})
+                self.shown |= dict.fromkeys([*contract.data[scene].values(), file])
+            found.append((contract.command, contract.folder, made))
+        return found
+
+    def claims(self):
+        """The rows of CLAIMS.md, or none."""
+        try:
+            return claims.read((self.root / LEDGER).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return []
+
+    def provenance(self):
+        """What made each result shown: file, sha256, commit, packages, and seconds if known."""
+        found = []
+        for path in self.shown:
+            record = read_record(self.root, path)
+            commit = (record.get("commit") or "no commit")[:12]
+            found.append(
+                {
+                    "path": path,
+                    "sha256": record["output"]["sha256"],
+                    "commit": commit + (", with changes" if record.get("dirty") else ""),
+                    "packages": ", ".join(f"{n} {v}" for n, v in record["environment"].items()),
+                    "seconds": _seconds(self.root, path),
+                }
+            )
+        return found
+
+    def _not_current(self, file):
+        why = self.outdated.get(file)
+        return why and ("not made" if why == MISSING else f"not current: {why}")
+
+    def _load(self, variant, scene, stage):
+        return load(self.root / self.serves[variant, scene, stage])
+
+    def _about(self, scene, block):
+        kind = KINDS[block["picture"]]
+        caption = jinja2.Template(kind.caption()).render(s=block)
+        shows, _, see = (" ".join(part.split()) for part in caption.partition("What to see:"))
+        number = scene.removeprefix("fig")
+        name = f"Figure {number}" if number.isdigit() and number != scene else scene
+        title = kind.__doc__.partition("\n")[0]
+        return {"name": name, "title": title, "shows": shows, "see": see[:1].upper() + see[1:]}
+
+    def _chart(self, name):
+        return {"name": name, "title": CHARTS.get(name, "a sweep"), "shows": "", "see": ""}
+
+    def _image(self, file):
+        """Its bytes as text, and its size in pixels."""
+        data = (self.root / file).read_bytes()
+        wide, high = struct.unpack(">II", data[16:24])
+        return {"data": base64.b64encode(data).decode(), "wide": wide, "high": high}
+
+    def _file(self, variant, scene):
+        """Where a picture is published, and whether it is the committed one."""
+        drawn = places.drawn(scene, "png", variant)
+        if variant != places.PAPER:
+            return drawn
+        folder = places.PUBLISHED[variant]
+        try:
+            wanted = manifest.read_sums(self.root, folder).get(f"{scene}.png")
+        except manifest.ContractError:
+            wanted = None
+        same = {
+            None: "not among the committed ones",
+            file_hash(self.root / drawn): "identical to the committed one",
+        }.get(wanted, "not the committed one")
+        return f"{folder}/{scene}.png: {same}"
+
+
+def _seconds(root, path):
+    """How long the job took that made a result, as snakemake noted it, or None."""
+    name = base64.urlsafe_b64encode(path.encode()).decode()
+    try:
+        text = (root / ".snakemake" / "metadata" / name).read_text(encoding="utf-8")
+        job = json.loads(text)
+        return float(job["endtime"]) - float(job["starttime"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
