@@ -50,4 +50,4 @@ def draw(scene, manifolds):
 def plane(scene):
     """The empty picture of a scene with its axes."""
     names = (style.NAMES["x"], style.NAMES["xdot"])
-    return Plane(scene, ("x", "xdot"), names, high=900, right=75)
+    return Plane(scene, ("x", "xdot"), names, high=975, right=75)
