@@ -48,7 +48,8 @@ class Surface:
         root = half * half - square * rest
         root = np.sqrt(np.where(root >= 0.0, root, np.nan))
         found = []
-        for far in ((-half - root) / square, (-half + root) / square):
+        for end in (-root, root):
+            far = (end - half) / square
             far = np.where(far > _NEAR * self.radius, far, np.nan)
             found.append((self.centre + x + far * one, y + far * other, z + far * up))
         return found
@@ -62,7 +63,9 @@ class Surface:
     def outline(self, view):
         """The outermost line of the half, NaN elsewhere, as a projection shows it."""
         sine, cosine = _circle()
-        towards = [across * cosine + up * sine for across, up in zip(view.right, view.up, strict=True)]
+        towards = [
+            across * cosine + up * sine for across, up in zip(view.right, view.up, strict=True)
+        ]
         x, y, z = towards
         length = np.sqrt(x * x / self.k + y * y + z * z / self.k)
         far = self.radius / length
