@@ -9,7 +9,7 @@ from ..canvas import style
 from ..canvas.ragged import rows
 
 _BACKDROP, _SADDLE, _END = 0.5, 3.6, 2.6  # points
-_WORDS = dict(enumerate("one two three four five six".split(), 1))
+_WORDS = dict(enumerate(("one", "two", "three", "four", "five", "six"), 1))
 # Stable branches first and broader: both show where they all but coincide.
 _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
