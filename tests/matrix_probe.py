@@ -125,6 +125,7 @@ RESOLUTION = {"distance": 0.05, "bend": 20}
 def scene(*axes):
     """A scene that is drawn with these axes."""
     how = {"view": {"elevation": 40, "azimuth": 115}, "sea": [3], "type": "hyperbolic"}
+    how |= {"energy": ENERGY, "ball": {"k": BALL.k, "g": BALL.g}}
     return how | {"axes": {name: AXES[name] for name in axes}}
 
 
@@ -173,7 +174,7 @@ def everything():
         "portrait": portrait.draw(scene("x", "xdot", "udot"), sea),
         "motion": motion_picture.draw(scene("t", "displacement"), moved),
         "tangle": tangle.draw(scene("x", "xdot", "udot"), sea, whole, found),
-        "closeup": closeup.draw({"axes": zoom}, near),
+        "closeup": closeup.draw(scene() | {"axes": zoom}, near),
         "exponents": exponents.draw(scene("impact", "exponent"), spread),
     }
     for name, figure in pictures.items():

@@ -41,6 +41,8 @@ SCENES = {
         }
     },
 }
+for scene in SCENES.values():
+    scene |= {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
 KINDS = list(SCENES)
 ATTRS = {"k": 0.2, "g": 0.04, "energy": 0.01}
 

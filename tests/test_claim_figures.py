@@ -69,7 +69,7 @@ def data():
 
 
 NAMES = ("spread", "clusters", "rotation", "jumps", "flux", "last_curve")
-SCENE = {"sea": [2]}
+SCENE = {"sea": [2], "energy": ENERGY, "ball": {"k": BALL.k, "g": BALL.g}}
 
 
 def image(row):

@@ -9,9 +9,11 @@ import pytest
 import xarray as xr
 
 from pipeline.checks import claims
-from pipeline.checks.claims import ledger
+from pipeline.checks.claims import ledger, soundness
 from pipeline.checks.claims.ledger import CORRECTED, FALSE, HOLDS, NOT_COMPUTED, OPEN, PROVED
 from pipeline.checks.claims.render import render
+from pipeline.cli import ledger as cli_ledger
+from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
@@ -308,6 +310,69 @@ def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
     claim = ledger.Claim(1, "", "", False, "E", (), (), lambda data, proved: proved("twist-six"))
     with pytest.raises(KeyError, match="does not name the theorem twist-six"):
         claim.judge({}, {"twist-six": PROVED})
+
+
+# -- a dataset that is handed in is one of its map -------------------------------------------------
+
+SOUND = {
+    name.rpartition("/")[2]: name
+    for name in ("fig2/orbits", "fig4/periodic", "fig4/motion", "fig6/manifolds", "fig7/lyapunov",
+                 "spread/spread", "clusters/clusters", "rotation/rotation", "jumps/jumps",
+                 "flux/flux", "last_curve/last_curve", "atlas/line", "atlas/plane")
+}  # fmt: skip
+
+
+def with_all(dataset, change):
+    """The dataset with all its numbers, but those of its axes, changed a little."""
+    found = {name: dataset[name] for name in dataset.data_vars if dataset[name].dtype.kind == "f"}
+    return dataset.assign({n: v.copy(data=change(v.values.copy())) for n, v in found.items()})
+
+
+def test_every_stage_that_claims_rest_on_has_its_check():
+    stages = {name.rpartition("/")[2] for name in claims.needed()} - {"derivations"}
+    assert stages == set(SOUND) == set(soundness.CHECKS)
+
+
+@pytest.mark.parametrize("stage", SOUND)
+def test_our_own_datasets_are_of_their_map(datasets, stage):
+    assert soundness.fault(stage, datasets[SOUND[stage]]) is None
+
+
+@pytest.mark.parametrize("stage", SOUND)
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda v: 1.02 * v,
+        lambda v: 0.95 * v,
+        lambda v: v * (1.0 + 0.03 * np.sin(np.arange(v.size)).reshape(v.shape)),
+    ],
+    ids=["more", "less", "noise"],
+)
+def test_numbers_a_little_off_are_not_of_the_map(datasets, stage, change):
+    assert soundness.fault(stage, with_all(datasets[SOUND[stage]], change))
+
+
+@pytest.mark.parametrize("stage", ["orbits", "periodic", "manifolds", "lyapunov", "spread"])
+def test_another_ball_or_energy_is_noticed(datasets, stage):
+    dataset = datasets[SOUND[stage]]
+    for name in ("k", "g", "energy"):
+        assert soundness.fault(stage, dataset.assign_attrs({name: 1.1 * dataset.attrs[name]}))
+
+
+def test_a_dataset_of_another_stage_is_refused_in_words(datasets):
+    assert "cannot be read" in soundness.fault("spread", datasets["fig2/orbits"])
+
+
+def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):
+    def said(number, name, dataset):
+        file = tmp_path / "given.nc"
+        artifacts.save(dataset, file, {}, stage=name.rpartition("/")[2])
+        return cli_ledger.check(None, number, f"{name}={file}"), str(file)
+
+    spread = datasets["spread/spread"]
+    assert said(40, "spread/spread", spread)[0].startswith(f"40  {CORRECTED}; 0.23")
+    line, file = said(40, "spread/spread", with_all(spread, lambda v: 0.9 * v))
+    assert line.startswith(f"40  {NOT_COMPUTED}: {file} is no spread/spread of its ball and energy")
 
 
 # -- the page -------------------------------------------------------------------------------------

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-import xarray as xr
-from samples import ATTRS, DATA, FLAT, SCENES, SPACE, VIEW, draw, motion, orbits
+from samples import ATTRS, DATA, FLAT, SCENES, SPACE, VIEW, draw, manifolds, motion, orbits, states
 
 from pseudorigid.figures.axes import box, projection
 from pseudorigid.figures.canvas import sheet, style
+from pseudorigid.figures.canvas.ragged import rows
+from pseudorigid.figures.canvas.render import pixels
 
 
 def test_refuses_what_the_data_do_not_have():
@@ -32,14 +33,15 @@ def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
     assert (np.interp(other_t, t, mass) >= strain - seen).all()
 
 
-def test_every_point_is_drawn_and_the_sea_comes_first():
+def test_what_the_surface_does_not_hide_is_drawn_and_the_sea_comes_first():
     data = orbits()
+    seen = box.Box(SCENES["portrait"]).seen(*(data[name].values for name in style.NAMES))
     dots = [line for line in draw("portrait").artists if line.get_marker() == "o"]
-    assert sum(len(line.get_xdata()) for line in dots) == data.sizes["point"]
-    colors = [line.get_color() for line in dots]
-    full = colors[len(colors) // 2 :]
-    assert full == [style.SEA, style.HUES[0], style.HUES[1]]
-    assert colors[: len(colors) // 2] == [style.pale(color) for color in full]
+    dots = dots[-len(data["row_size"]) :]  # before them the key's
+    sizes = [np.sum(seen[span]) for span in rows(data["row_size"].values)]
+    assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
+    assert [line.get_color() for line in dots] == [style.SEA, style.HUES[0], style.HUES[1]]
+    assert 0 < np.sum(seen) < seen.size
 
 
 def test_projection_is_orthographic_and_fits():
@@ -76,15 +78,73 @@ def test_what_lies_outside_the_box_is_not_drawn():
     small = box.Box(SCENES["portrait"] | {"axes": FLAT})
     before = len(small.figure.artists)
     x = np.array([0.0, 0.1, 0.9, 0.1, 0.0, 0.1])
-    small.points(x, 0 * x, 0 * x, style.BLUE, 1)
-    small.line(x, 0 * x, 0 * x, style.BLUE, 1)
+    y, z = 0 * x - 0.05, 0 * x + 0.24  # above the surface, so that nothing is behind it
+    small.points(x, y, z, style.BLUE, 1)
+    small.line(x, y, z, style.BLUE, 1)
     sizes = [len(artist.get_xdata()) for artist in small.figure.artists[before:]]
     assert sizes == [5, 2, 3]
 
 
-def test_box_knows_the_far_side():
-    seen = box.Box(SCENES["portrait"])
-    x = np.array([0.2, 0.2])
-    state = {"x": ("point", x), "xdot": ("point", [0.1, -0.1]), "udot": ("point", [0.0, 0.0])}
-    towards = xr.Dataset(state, attrs=ATTRS)
-    assert seen.facing(towards).tolist() == [True, False]
+@pytest.mark.parametrize("azimuth", [25, 115, 205, 295])
+def test_the_surface_hides_what_a_dense_cloud_of_it_covers(azimuth):
+    """Against a surface of many points: one is hidden if others before it fall on its pixels."""
+    scene = SCENES["portrait"] | {"view": {"elevation": 40, "azimuth": azimuth}}
+    picture = box.Box(scene)
+    cloud = np.array([*states(400_000, 7).values()])
+    some = cloud[:, :2000]
+    towards = np.array(picture.view.eye)
+    places = np.floor(np.array(picture.view(*cloud)) / 8).astype(int)
+    front = {}
+    for pixel, depth in zip(map(tuple, places.T), towards @ cloud, strict=True):
+        front[pixel] = max(front.get(pixel, -1.0), depth)
+    before = np.array([front[pixel] for pixel in map(tuple, places[:, :2000].T)]) - towards @ some
+    seen = picture.seen(*some)
+    assert before[seen].max() < 0.1  # as far as the surface rises within a square of pixels
+    assert np.mean(before[~seen] > 0.0) > 0.99  # but for squares across the outline
+    assert np.sum(before[~seen] > 0.1) > 5
+
+
+def test_no_pane_or_axis_shines_through_the_surface():
+    """No line of the box falls on the pixels of what is seen of the main island."""
+    scene = SCENES["portrait"]
+    picture = box.Box(scene)
+    state = states(200_000, 8)
+    x, y, z = state.values()
+    inner = (abs(x) < 0.1) & (abs(y - 0.2 * z) < 0.05)  # around the fixed point
+    island = set(zip(*np.floor(np.array(picture.view(x, y, z))[:, inner]).astype(int), strict=True))
+    image = pixels(picture.figure)
+    high = image.shape[0]
+    assert all((image[high - 1 - up, across] == 255).all() for across, up in island)
+    assert len(island) > 10_000
+
+
+def test_the_rim_is_where_impacts_graze_and_ends_the_outline():
+    picture = box.Box(SCENES["portrait"])
+    x, y, z = picture.surface.rim()
+    assert np.array_equal(y, -z)
+    k, g, energy = (ATTRS[name] for name in ("k", "g", "energy"))
+    assert np.allclose((y * y + k * z * z + k * x * x) / 2 - g * x, energy, rtol=0, atol=1e-15)
+    around = np.array(picture.surface.outline(picture.view))
+    x, y, z = around[:, ~np.isnan(around[0])]
+    assert np.all(y + z >= 0.0)
+    normal = np.array([k * x - g, y, k * z])
+    assert np.max(np.abs(picture.view.eye @ normal)) < 1e-15
+    assert 0 < x.size < around.shape[1]
+
+
+def test_lines_end_in_open_dots():
+    data = manifolds()
+    dots = [
+        a
+        for a in draw("tangle").artists
+        if a.get_markerfacecolor() == "white" and a.get_markeredgewidth()
+    ]
+    picture = box.Box(SCENES["tangle"])
+    ends = 0
+    for span in rows(data["row_size"].values):
+        line = [data[name].values[span] for name in style.NAMES]
+        gap = np.isnan(line[0])
+        edge = np.flatnonzero(np.diff(np.concatenate([[1], gap, [1]])))
+        last = [at - 1 for at in edge[1::2]] + [at for at in edge[2::2]]
+        ends += int(np.sum(picture.seen(*(part[last] for part in line))))
+    assert sum(len(a.get_xdata()) for a in dots) == ends + 1  # and the key's

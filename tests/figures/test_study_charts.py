@@ -49,11 +49,11 @@ def moved(before, after):
 @pytest.mark.parametrize("cost", ["evaluations", "seconds"])
 def test_work_is_drawn_where_its_numbers_are(cost):
     base = {"evaluations": 100.0, "seconds": 1e-5}[cost]
-    start = work_data(base, 1e-10, 1e-6, 0.1)
+    start = work_data(base, 1e-10, 1e-6, 0.0)
     at = marks(study.work(start, 1, cost), FAMILIES[1])
 
     def shift(**change):
-        fields = {"cost": base, "median": 1e-10, "worst": 1e-6, "wrong": 0.1} | change
+        fields = {"cost": base, "median": 1e-10, "worst": 1e-6, "wrong": 0.0} | change
         return moved(at, marks(study.work(work_data(**fields), 1, cost), FAMILIES[1]))
 
     decade = shift(cost=10 * base)
@@ -65,9 +65,12 @@ def test_work_is_drawn_where_its_numbers_are(cost):
     for name, factor, steps in (("median", 1e-4, -4), ("worst", 100.0, 2)):
         up = shift(**{name: {"median": 1e-10, "worst": 1e-6}[name] * factor})
         assert np.count_nonzero(up) == 1
-        assert up[up != 0] == pytest.approx(steps * 560 / 17, abs=0.2)  # 17 decades in 560 pixels
-    up = shift(wrong=0.4)
-    assert up[up != 0] == pytest.approx([0.3 / 0.6 * 200], abs=0.2)
+        assert up[up != 0] == pytest.approx(steps * 560 / 18, abs=0.2)  # 18 decades in 560 pixels
+    up = shift(wrong=0.009)
+    assert up[up != 0] == pytest.approx([0.009 / 0.6 * 200], abs=0.2)
+    # with many wrong roots the worst right one is what counts as wrong, and is not drawn
+    many = marks(study.work(work_data(base, 1e-10, 1e-6, 0.4), 1, cost), FAMILIES[1])
+    assert np.isfinite(many).all() and len(many) == len(at) - 1
     # the other set's numbers are not in this chart
     other = study.work(start, 0, cost)
     assert not np.array_equal(marks(other, FAMILIES[1]), at)
@@ -100,6 +103,33 @@ def test_failing_shares_are_heights():
     # nearer to grazing is further to the left
     across = at[:3, 0]
     assert across[0] > across[1] > across[2]
+
+
+def test_zeros_are_drawn_at_an_end_named_zero():
+    zeros = study.work(work_data(100.0, 0.0, 0.0, 0.0), 1, "evaluations")
+    least = marks(zeros, FAMILIES[1])[:, 1]
+    bottom = marks(study.work(work_data(100.0, 1e-30, 1e-6, 0.0), 1, "evaluations"), FAMILIES[1])
+    assert np.min(bottom[:, 1]) == np.min(least)
+    assert [text.get_text() for text in zeros.texts].count("0") >= 2
+
+
+def test_scans_that_differ_in_their_step_have_one_entry():
+    names = [
+        *(f"scan {step}, 1e-12" for step in (0.5, 0.1, 0.01)),
+        "scan 0.1, 1e-06",
+        "engine 1e-03",
+    ]
+    families = ["scan 0.5 + bisection"] * 4 + ["time stepping"]
+    data = xr.Dataset(
+        {
+            "name": ("method", np.array(names, dtype=object)),
+            "family": ("method", np.array(families, dtype=object)),
+            "apart": (("method", "impact"), np.full((5, 3), 1e-9)),
+            "impact": ("impact", [1, 2, 3]),
+        }
+    )
+    texts = [text.get_text() for text in study.separation(data).texts]
+    assert texts[-3:] == ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$", "engine $10^{-3}$"]
 
 
 def test_decades_are_placed_by_our_own_logarithm():

@@ -28,6 +28,7 @@ def lengths_scaled(data, scale):
 def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
     scene = {key: value for key, value in SCENES[kind].items() if key != "axes"}
     scene |= {"duration": 15.5, "impacts": 200_000}
+    scene |= {"ball": {"k": 0.2, "g": scale * 0.04}, "energy": scale * scale * 0.01}
     data = [lengths_scaled(part, scale) for part in DATA[kind]()]
     figure = module(kind).draw(scene, *data)
     assert_text_is_whole_and_apart(figure)
@@ -78,7 +79,7 @@ def test_text_is_legible_at_a_columns_width(kind):
 @pytest.mark.parametrize("axes", [SPACE, FLAT])
 @pytest.mark.parametrize("azimuth", [25, 115, 205, 295, 340])
 def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
-    scene = {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}, "sea": []}
+    scene = SCENES["portrait"] | {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}}
     assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
 
 

@@ -70,7 +70,8 @@ from pseudorigid.figures.kinds import returns
 def test_each_pair_is_a_dot():
     x = np.array([0.1, 0.2, 0.4, 0.3, 0.5])
     data = xr.Dataset({"x": ("point", x), "row_size": ("orbit", np.array([3, 2]))})
-    dots = [a for a in returns.draw({}, data).artists if a.get_marker() == "o"]
+    scene = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
+    dots = [a for a in returns.draw(scene, data).artists if a.get_marker() == "o"]
     assert [len(line.get_xdata()) for line in dots] == [2, 1]
 ''',
 }

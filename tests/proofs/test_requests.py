@@ -166,10 +166,11 @@ def test_the_pictures_are_drawn():
     from pseudorigid.figures.canvas.render import render
     from pseudorigid.figures.kinds import horseshoe, twist
 
+    scene = {"ball": {"k": BALL.k, "g": BALL.g}, "energy": 0.01}
     data = pictures.twist_data(["1/1000", "1/100", "29/1000", "3/100"])
-    one = render(twist.draw({"marks": [0.001, 0.01]}, data), "png")
-    assert one == render(twist.draw({"marks": [0.001, 0.01]}, data), "png")
-    assert one != render(twist.draw({"marks": []}, data), "png")
+    one = render(twist.draw(scene | {"marks": [0.001, 0.01]}, data), "png")
+    assert one == render(twist.draw(scene | {"marks": [0.001, 0.01]}, data), "png")
+    assert one != render(twist.draw(scene | {"marks": []}, data), "png")
     manifolds = scene_manifolds(
         BALL, 0.01, symmetric_orbits(BALL, 0.01, 6), 6, "hyperbolic",
         {"distance": 0.05, "bend": 40},
@@ -177,7 +178,7 @@ def test_the_pictures_are_drawn():
     )  # fmt: skip
     axes = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
     sets = pictures.horseshoe_data()
-    two = render(horseshoe.draw({"axes": axes}, manifolds, sets), "png")
-    assert two == render(horseshoe.draw({"axes": axes}, manifolds, sets), "png")
+    two = render(horseshoe.draw(scene | {"axes": axes}, manifolds, sets), "png")
+    assert two == render(horseshoe.draw(scene | {"axes": axes}, manifolds, sets), "png")
     sets["image_p"] = 1.1 * sets["image_p"]
-    assert two != render(horseshoe.draw({"axes": axes}, manifolds, sets), "png")
+    assert two != render(horseshoe.draw(scene | {"axes": axes}, manifolds, sets), "png")

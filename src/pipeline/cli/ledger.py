@@ -5,6 +5,8 @@ import re
 from pseudorigid.dynamics.ball import Ball
 
 from ..checks import claims
+from ..checks.claims import soundness
+from ..checks.claims.ledger import NOT_COMPUTED
 from ..checks.claims.render import render
 from ..checks.currency import Currency
 from ..config import expected, places
@@ -100,6 +102,9 @@ def check(checked, number, given) -> str:
     name = name if mark else (fitting or [claim.data[0]])[0]
     if name not in claim.data:
         raise UsageError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
+    wrong = soundness.fault(name.rpartition("/")[2], other)
+    if wrong:
+        return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
     data = {name: other}
     for known in claim.data:
         if known != name:

@@ -266,7 +266,15 @@ def _collect(ball, energy, orbit, requests, resolution):
 
 
 class _Branch:
-    """An unstable branch as a function of u >= 0, mirrored where a stable one is wanted."""
+    """An unstable branch as a function of u >= 0, mirrored where a stable one is wanted.
+
+    Its side is the sign of the direction's product with that from the orbit's middle. At one point
+    of Figure 5's orbit, x = -0.08267, y = -0.04873, these are at 89.99 degrees: the product is
+    0.084485 - 0.084441 = 4.4e-5, and its sign is not that of the outer branches carried
+    there by the map, which takes the other five to one another. So inner and outer, and with them
+    the two lengths, are swapped there and at the mirrored point's stable branches. A rule that
+    carried one clear side along the orbit would not do that, but would change the figure's data.
+    """
 
     def __init__(self, ball, energy, points, chart, saddle, side, mirrored):
         self.ball, self.energy, self.mirrored = ball, energy, mirrored

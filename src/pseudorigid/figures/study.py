@@ -1,6 +1,7 @@
 """The charts of the study: work and precision, where methods fail, and what each figure needs."""
 
 import math
+import re
 
 import numpy as np
 
@@ -35,7 +36,8 @@ SINGLE = {
     "engine 1e-03": "#a86f00",
 }
 LEFT, RIGHT = 150, 1010  # pixels: the frames of charts
-LEAST = 1e-17  # what is smaller is drawn here: half the distance of doubles near 0.1
+ZERO = -18  # the decade at which zeros are drawn, named so: a double's own error is above 1e-17
+FEW = 0.01  # share of wrong roots above which what counts as wrong decides the worst right one
 COSTS = {
     "evaluations": decades((0, 5), "Evaluations a flight"),
     "seconds": decades((-8, 0), "Seconds a flight"),
@@ -51,7 +53,9 @@ def draw(chart, data):
 def work(data, which, cost):
     """Error and failures against cost: a work-precision diagram.
 
-    Filled: the median error; hollow: the worst of the right roots; below: the share of wrong roots.
+    Filled: the median error; hollow: the worst of the right roots, where at most one in a hundred
+    is wrong (else it is the largest error that does not count as wrong); below: the share of wrong
+    roots.
 
     Parameters
     ----------
@@ -70,7 +74,7 @@ def work(data, which, cost):
     top = sheet.high - 70
     across = COSTS[cost]
     blank = Axis(across.limits, across.ticks, "", True, [""] * len(across.ticks))
-    error = decades((-17, 0), "Relative error of the flight time", every=4)
+    error = _from_zero(ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), blank, error)
     share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
     lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
@@ -78,10 +82,11 @@ def work(data, which, cost):
         color, marker = _style(family)
         some = data.isel(set=which, method=data["family"].values == family)
         x = some[cost].values
-        median, worst = (np.maximum(some[name].values, LEAST) for name in ("median", "worst"))
+        median, worst = (_seen(some[name].values, ZERO) for name in ("median", "worst"))
+        few = some["wrong"].values <= FEW
         upper.line(x, median, color=color, lw=0.9)
-        upper.line(x, worst, color=color, lw=0.5, ls="--")
-        upper.dots(x, worst, color, hollow=True, marker=marker)
+        upper.line(x[few], worst[few], color=color, lw=0.5, ls="--")
+        upper.dots(x[few], worst[few], color, hollow=True, marker=marker)
         upper.dots(x, median, color, marker=marker)
         if cost == "seconds":
             spans = some["seconds_low"].values, some["seconds_high"].values
@@ -89,7 +94,7 @@ def work(data, which, cost):
                 upper.line([low, high], [y, y], color=color, lw=1.6)
         lower.line(x, some["wrong"].values, color=color, lw=0.9)
         lower.dots(x, some["wrong"].values, color, marker=marker)
-    entries = [(family, *_style(family), False) for family in families]
+    entries = [(_written(family), *_style(family), False) for family in families]
     entries += [("median", style.FRAME, "", False), ("worst right root", style.FRAME, "", True)]
     key(sheet, entries, top - 960, 2)
     return sheet.figure
@@ -111,7 +116,7 @@ def edges(data):
     matplotlib.figure.Figure
     """
     methods = _methods(data)
-    sheet = _sheet(975 + math.ceil(len(methods) / 2) * 42)
+    sheet = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
     top, gap = sheet.high - 70, 40
     wide = (RIGHT - LEFT - gap) / 2
     grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
@@ -121,18 +126,18 @@ def edges(data):
         x = [float(f"1e-{n}") for n in data[exponent].values]
         across = Axis(limits, range(*limits, 4), "", True)
         for side, text in enumerate(sides):
-            left, high = LEFT + side * (wide + gap), top - row * 450
+            left, high = LEFT + side * (wide + gap), top - row * 480
             up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
             panel = Panel(sheet, (left, high - 300, left + wide, high), across, up)
             if side:
                 where = left - gap / 2, high - 300 - 16 * POINT
-                sheet.text(*where, name, ha="center", va="top", size=7.0)
+                sheet.text(*where, name, ha="center", va="top", size=8.0)
             title = text if side else f"Share failing, {text}"
-            sheet.text(left, high + 4 * POINT, title, ha="left", va="bottom", size=7.0)
+            sheet.text(left, high + 4 * POINT, title, ha="left", va="bottom", size=8.0)
             for (_, color, marker, _), share in zip(methods, data[variable].values, strict=True):
                 panel.line(x, share[side], color=color, lw=0.9)
                 panel.dots(x, share[side], color, size=2.6, marker=marker)
-    key(sheet, methods, top - 890, 2)
+    key(sheet, methods, top - 920, 2)
     return sheet.figure
 
 
@@ -153,7 +158,7 @@ def energy(data):
     """
     sheet = _sheet(1350)
     top = sheet.high - 70
-    drift = decades((-17, 1), "Largest relative error of the energy so far", every=4)
+    drift = _from_zero(ZERO, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts", every=2)
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
@@ -162,15 +167,16 @@ def energy(data):
     seen, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (seen[1] - seen[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
-    for i, (name, color, marker, _) in enumerate(_methods(data)):
+    entries = _alike(data)
+    for i, (_, color, marker, _) in enumerate(entries):
         drift = data["drift"].values[i]
-        upper.line(data["record"].values, np.maximum(drift, LEAST), color=color, lw=0.9)
+        upper.line(data["record"].values, _seen(drift, ZERO), color=color, lw=0.9)
         end = drift[-1], max(float(data["missed"].values[i]), 0.1)
         lower.dots(*end, color, marker=marker)
-        if i in (0, 1):
-            lower.note(*end, name, shift=(3, 3.5))
+        if entries.count(entries[i]) > 1:
+            lower.note(*end, _step(data["name"].values[i]), shift=(3, 3.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
-    key(sheet, _methods(data), 190, 3)
+    key(sheet, list(dict.fromkeys(entries)), 190, 2)
     return sheet.figure
 
 
@@ -190,12 +196,13 @@ def separation(data):
     sheet = _sheet(975)
     top = sheet.high - 70
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = decades((-17, 0), "Median distance in $x$ from the proved orbit", every=4)
+    up = _from_zero(ZERO, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
-    methods = _methods(data)
-    for (_, color, _, _), distance in zip(methods, data["apart"].values, strict=True):
-        panel.line(data["impact"].values, np.maximum(distance, LEAST), color=color, lw=0.9)
-    key(sheet, methods, top - 740, 3)
+    entries = _alike(data)
+    for (_, color, _, _), distance in zip(entries, data["apart"].values, strict=True):
+        panel.line(data["impact"].values, _seen(distance, ZERO), color=color, lw=0.9)
+    lines = [(name, color, "", False) for name, color, _, _ in dict.fromkeys(entries)]
+    key(sheet, lines, top - 740, 2)
     return sheet.figure
 
 
@@ -218,15 +225,16 @@ def figure_errors(data):
     sheet = _sheet(75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
-    up = Axis((0, scenes), middles, labels=data["scene"].values.tolist())
-    across = decades((-14, 6), "Error of the picture / what it can hide", every=4)
-    panel = Panel(sheet, (110, bottom, 720, top), across, up)
+    names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values.tolist()]
+    up = Axis((0, scenes), middles, labels=names)
+    across = _from_zero(-16, 6, "Error of the picture / what it can hide")
+    panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
-    sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=6.0)
+    sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=7.0)
     families = data["family"].values.tolist()
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
-        errors = np.maximum(row["error"].values / float(row["limit"]), 1e-14)
+        errors = _seen(row["error"].values / float(row["limit"]), -16)
         for family, error, missed in zip(families, errors, row["missed"].values, strict=True):
             panel.dots(error, middle, _style(family)[0], hollow=bool(missed))
         named = list(zip(row["evaluations"].values, row["name"].values, strict=True))
@@ -234,8 +242,8 @@ def figure_errors(data):
         others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
         second = "{1}: {0:.0f}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
-        for shift, text in ((12, "{1} {0:.1f}".format(*named[best])), (-14, second)):
-            sheet.text(740, y + shift, text, ha="left", va="center", size=6.0)
+        for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
+            sheet.text(740, y + shift, _written(text), ha="left", va="center", size=7.0)
     entries = [(family, *_style(family), False) for family in dict.fromkeys(families)]
     key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
     return sheet.figure
@@ -246,13 +254,49 @@ def _sheet(least):
     return Sheet(style.COLUMN, 75 * math.ceil(least / 75))
 
 
+def _from_zero(low, high, name):
+    """An axis of decades whose lower end stands for zero."""
+    ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
+    labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
+    return Axis((low, high), ticks, name, True, labels)
+
+
+def _seen(values, zero):
+    """Values for such an axis: zeros at its end."""
+    return np.maximum(values, float(f"1e{zero}"))
+
+
 def _methods(data):
     """The key's entries, one a method: name, colour, mark, not hollow."""
     entries = []
     for name, family in zip(data["name"].values, data["family"].values, strict=True):
         color, marker = _style(family)
-        entries.append((name, SINGLE.get(name, color), marker, False))
+        entries.append((_written(name), SINGLE.get(name, color), marker, False))
     return entries
+
+
+def _alike(data):
+    """The same, one entry for the scans of one tolerance: their steps cannot be told apart."""
+    entries, names = _methods(data), data["name"].values.tolist()
+    tolerances = [name.partition(", ")[2] if name.startswith("scan ") else "" for name in names]
+    for tolerance in dict.fromkeys(tolerances):
+        places = [i for i, one in enumerate(tolerances) if tolerance and one == tolerance]
+        if len(places) > 1:
+            first, last = (_step(names[i]) for i in (places[0], places[-1]))
+            text = _written(f"scan {first} to {last}, {tolerance}")
+            for i in places:
+                entries[i] = (text, style.BLUE, "o", False)
+    return entries
+
+
+def _step(name):
+    """The step of a scan, "scan STEP, TOLERANCE"."""
+    return name.partition(", ")[0].removeprefix("scan ")
+
+
+def _written(name):
+    """A method's name with powers of ten and relations as they are printed."""
+    return re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", name).replace("<=", "\N{LESS-THAN OR EQUAL TO}")
 
 
 def _style(family):

@@ -12,6 +12,8 @@ CLAIMS = []
 claim = ledger.collector(CLAIMS)
 
 SHORT = 200_000  # impacts of a run of Figure 7
+ENERGIES = (0.001, 0.01)  # of the paper's figures
+ENDS = ("", "_low", "_high")
 PRINTED = 0.235
 PARTS, FAR = 50, 5.0  # of an orbit; standard errors that an orbit's mean may be off by chance
 LITTLE = 0.01  # of a variance: what an uncorrelated cluster may seem to explain of the next
@@ -197,6 +199,11 @@ def depends_on_energy(data, proved):
     low, high = float(line["regular"].min()), float(line["regular"].max())
     word = HOLDS if low < 0.5 * high else FALSE
     value = f"regular share of the section from {low:.3f} to {high:.3f}"
+    energy = line["energy"].values * float(line.attrs["g"]) ** 2
+    for one in ENERGIES:
+        row = int(np.argmin(np.abs(energy - one)))
+        share, *ends = (float(line[f"regular{end}"].values[0, row]) for end in ENDS)
+        value += f"; {share:.3f} ({ends[0]:.3f} to {ends[1]:.3f}) at E = {energy[row]:.4g}"
     return Verdict(word, value, _widest(line), "more_figures/atlas/line.png")
 
 

@@ -39,10 +39,22 @@ def diffeomorphism(data, proved):
     energy = float(jumps["energy"].values[0])
     if length > 0.0 and known:
         said = "proved" if proved("jump-set") and proved("diffeomorphism") else "computed"
-        value = f"it jumps on a curve of length {length:.12f} at E = {energy:g}; smooth ({said}) "
-        value += f"below E = g^2 (1 + k/2) = {threshold:g}"
+        value = f"it jumps on a curve of length {length:.12f} at E = {energy:g}"
+        value += _second_length(jumps)
+        value += f"; smooth ({said}) below E = g^2 (1 + k/2) = {threshold:g}"
         return Verdict(FALSE, value, f"{error:.0e}", "more_figures/claims/jumps.png")
     return Verdict(HOLDS, f"no jump at E = {energy:g}", "", "more_figures/claims/jumps.png")
+
+
+def _second_length(jumps):
+    """Length and error of the curve at the energy next below the first that has one, as text."""
+    energy, length = jumps["energy"].values, jumps["length"].values
+    below = np.flatnonzero((length > 0.0) & (energy < energy[0]))
+    if not below.size:
+        return ""
+    row = int(below[np.argmax(energy[below])])
+    error = float(jumps["length_error"].values[row])
+    return f", {length[row]:.12f} (to {error:.0e}) at E = {energy[row]:g}"
 
 
 @claim(

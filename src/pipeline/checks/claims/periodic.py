@@ -47,10 +47,18 @@ def period_six(data, proved):
     word = HOLDS if sorted(kinds) == ["elliptic", "hyperbolic"] else CORRECTED if both else FALSE
     names = ("six-elliptic", "six-hyperbolic", "six-inverse")
     exist = "each proved to exist" if all(proved(name) for name in names) else "symmetric ones"
-    multipliers = ", ".join(f"{m:.6f}" for m in data["fig4/periodic"]["multiplier"].values)
-    value = f"{len(kinds)} orbits: {', '.join(kinds)}; multipliers {multipliers}"
+    value = f"{len(kinds)} orbits: {_named(data['fig4/periodic'])}"
     value += "; those of the first two between each other" if both else ""
     return Verdict(word, value, exist, "more_figures/claims/jumps.png")
+
+
+def _named(found):
+    """Orbits by their kinds, with rotation number or multiplier to about twelve digits."""
+    words = []
+    for i, kind in enumerate(found["type"].values.tolist()):
+        name = "rotation_number" if kind == "elliptic" else "multiplier"
+        words.append(f"{kind}, {name.replace('_', ' ')} {float(found[name].values[i]):.11f}")
+    return "; ".join(words)
 
 
 def _alternate(found):

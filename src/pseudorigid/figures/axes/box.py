@@ -1,4 +1,4 @@
-"""The box around a three-dimensional picture: back panes, grid, ticks and names in plain lines."""
+"""The box around a three-dimensional picture: the opaque energy surface between panes and axes."""
 
 import numpy as np
 
@@ -6,23 +6,31 @@ from ..canvas import style
 from ..canvas.ragged import pieces
 from ..canvas.sheet import POINT, Sheet
 from .limits import inside
+from .panel import key
 from .projection import Projection
+from .surface import Surface
 
 _WIDE = 1500  # pixels: drawn at five inches, read at a column's width
-_SIZE, _NAME = 10.5, 12.5  # points: labels, names
+_SIZE, _NAME = 11.0, 13.0  # points: labels, names
 _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
+_COLUMNS, _ROW = 4, 1.45 * _SIZE  # of the key above the box; points
+_SIDES = 2000  # of the lines that the surface may hide
 
 
 class Box:
     """A figure with a box of equal data scales for scene["axes"] seen by scene["view"].
 
-    `points` and `line` draw data into it, as far as they lie inside the box; `figure` is the
-    result.
+    The energy surface is opaque: what lies behind it, data, panes or axes, is not drawn. Its
+    outline is, and its edge, where impacts graze. `points` and `line` draw data into the box, as
+    far as they lie inside; `figure` is the result.
 
     Parameters
     ----------
     scene : dict
-        `axes`: for x, xdot, udot limits and ticks; `view`: elevation and azimuth in degrees.
+        `axes`: for x, xdot, udot limits and ticks; `view`: elevation and azimuth in degrees;
+        `energy` and `ball`: those of the surface, written above the box.
+    entries : sequence
+        What the key says beside them, as for `panel.key`.
 
     Raises
     ------
@@ -31,41 +39,44 @@ class Box:
         from above.
     """
 
-    def __init__(self, scene):
+    def __init__(self, scene, entries=()):
         if not 0 < scene["view"]["elevation"] < 90:
             raise ValueError(f"elevation {scene['view']['elevation']} is not between 0 and 90")
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
         self.view = Projection(self.spans, scene["view"])
-        self.sheet = self._fit()
+        self.surface = Surface(**scene["ball"], energy=scene["energy"])
+        cells = [None, None, *entries, ("grazing rim", style.RIM, "", False)]
+        self.sheet = self._fit(-(-len(cells) // _COLUMNS))
         self.figure = self.sheet.figure
+        self._key(style.setting(scene), cells)
         self._panes()
         self._edges()
+        self.line(*self.surface.outline(self.view), style.PANE, 0.6)
+        self.line(*self.surface.rim(), style.RIM, 0.9)
 
-    def points(self, x, y, z, color, size):
+    def points(self, x, y, z, color, size, **how):
         """Draw small opaque dots of `size` points across, in the order given."""
-        there = inside(self.spans, (x, y, z))
+        there = self.seen(x, y, z)
         across, up = self.view(x[there], y[there], z[there])
-        self.sheet.draw(across, up, ls="none", marker="o", ms=size, mew=0, color=color)
+        how = {"mew": 0} | how
+        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **how)
 
     def line(self, x, y, z, color, width):
         """Draw a line of `width` points, broken where a coordinate is NaN."""
-        x = np.where(inside(self.spans, (x, y, z)), x, np.nan)
+        x = np.where(self.seen(x, y, z), x, np.nan)
         for piece in pieces(*self.view(x, y, z)):
             self.sheet.draw(*piece, lw=width, color=color)
 
-    def facing(self, dataset):
-        """Whether the energy surface faces the eye at each state of a dataset with its k and g.
+    def seen(self, x, y, z):
+        """Whether each point lies in the box, and not behind what of the surface does."""
+        there = inside(self.spans, (x, y, z))
+        for other in self.surface.before(self.view.eye, x, y, z):
+            there &= ~(inside(self.spans, other) & self.surface.has(*other))
+        return there
 
-        The surface's normal is (k x - g, xdot, k udot), the gradient of eq. (29).
-        """
-        k, g = dataset.attrs["k"], dataset.attrs["g"]
-        x, xdot, udot = (dataset[name].values for name in style.NAMES)
-        east, north, up = self.view.eye
-        return (k * x - g) * east + xdot * north + k * udot * up > 0
-
-    def _fit(self):
-        """Place the box on a sheet with room for the labels, and return the sheet."""
+    def _fit(self, rows):
+        """Place the box on a sheet with room for labels and key, and return the sheet."""
         left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
         right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
         inner = _WIDE - (left + right) * POINT
@@ -77,18 +88,26 @@ class Box:
         for at, step, reach, _, size in self._labels():
             middle = self.view(*at)[1] + step[1] * reach * POINT
             edges += [middle - 1.5 * size * POINT, middle + 1.5 * size * POINT * (step[1] > 0.5)]
-        bottom, top = 4 * POINT - min(edges), 8 * POINT
+        bottom, top = 4 * POINT - min(edges), (10 + rows * _ROW) * POINT
         needed = bottom + max(edges) + top
         high = 75 * int(np.ceil(needed / 75))
         bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner, inner_high)
         return Sheet(_WIDE, high)
 
+    def _key(self, text, cells):
+        """Write energy and ball into the key's first two cells and name the marks in the rest."""
+        top, left = self.sheet.high - (4 + _ROW / 2) * POINT, 45
+        self.sheet.text(left - 8, top, text, ha="left", va="center", size=_SIZE)
+        key(self.sheet, cells, top, _COLUMNS, left, _WIDE - left, _SIZE)
+
     def _edge(self, start, along, color, width):
         """Draw the box's line through `start` in the direction of one axis."""
-        ends = np.array([start, start], dtype=float)
-        ends[:, along] = self.spans[along]
-        self.line(*ends.T, color, width)
+        low, high = self.spans[along]
+        places = np.array([start] * (_SIDES + 1), dtype=float)
+        places[:, along] = low + (high - low) * np.arange(_SIDES + 1) / _SIDES
+        places[-1, along] = high
+        self.line(*places.T, color, width)
 
     def _panes(self):
         """Draw the three panes behind the data: their grid lines, then their outlines."""
@@ -158,5 +177,5 @@ class Box:
 
 def _ems(ticks):
     """Return the width of the widest label in units of its size, from above."""
-    wide = {".": 0.32, "\N{MINUS SIGN}": 0.84}
-    return max(sum(wide.get(char, 0.64) for char in style.number(tick)) for tick in ticks)
+    wide = {".": 0.26, "\N{MINUS SIGN}": 0.7}
+    return max(sum(wide.get(char, 0.51) for char in style.number(tick)) for tick in ticks)

@@ -9,7 +9,7 @@ from ..canvas import style
 from ..canvas.ragged import pieces
 from ..canvas.sheet import POINT
 
-_SIZE = 7.0  # points: text in a chart
+_SIZE, _BESIDE = 8.0, 7.0  # points: text in a chart, and beside its lines
 _KEY = 60, 960  # pixels: where a key begins, and how wide it is
 
 
@@ -121,7 +121,7 @@ class Panel:
         """Write `text` beside a point, `shift` points away."""
         across, up = self.place(x, y)
         across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha=ha, va=va, size=6.0)
+        self.sheet.text(across, up, text, ha=ha, va=va, size=_BESIDE)
 
     def _label(self, x, text):
         """Where the middle of a label below the frame is."""
@@ -134,19 +134,27 @@ class Panel:
         self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
 
 
-def key(sheet, entries, top, columns, left=_KEY[0], width=_KEY[1]):
+def corner(sheet, frame, text):
+    """Write `text` above a frame's right end."""
+    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=_BESIDE)
+
+
+def key(sheet, entries, top, columns, left=_KEY[0], width=_KEY[1], size=_SIZE):
     """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left.
 
-    Without a marker it is a line, full or (hollow) dashed.
+    Without a marker it is a line, full or (hollow) dashed; None leaves a place empty.
     """
-    for i, (text, color, marker, hollow) in enumerate(entries):
+    for i, entry in enumerate(entries):
+        if entry is None:
+            continue
+        text, color, marker, hollow = entry
         x = left + (i % columns) * width / columns
-        y = top - (i // columns) * 1.45 * _SIZE * POINT
+        y = top - (i // columns) * 1.45 * size * POINT
         if marker:
             _mark(sheet, [x + 6], [y], color, 3.2, hollow, marker)
         else:
             sheet.draw([x - 8, x + 20], [y, y], lw=0.9, color=color, ls="--" if hollow else "-")
-        sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=_SIZE)
+        sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=size)
 
 
 def _mark(sheet, across, up, color, size, hollow, marker):

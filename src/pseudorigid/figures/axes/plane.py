@@ -8,7 +8,7 @@ from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 from .panel import Axis, Panel
 
-_LEFT, _BOTTOM, _TOP = 180, 135, 75  # pixels around the frame
+_LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
 
 
 class Plane(Panel):
@@ -17,6 +17,7 @@ class Plane(Panel):
     Parameters
     ----------
     scene : dict
+        Its energy and ball are written above the frame.
     axes : pair of str
         Keys of scene["axes"], which have limits and ticks.
     names : pair of str
@@ -25,14 +26,16 @@ class Plane(Panel):
         The height of the figure in pixels, a multiple of 75.
     right : int
         The margin beside the frame in pixels.
+    energy : bool
+        Whether the picture is of the scene's one energy.
     """
 
-    tick, gap, size = 3.0, 2.5, style.PLAIN
+    tick, gap, size = 3.0, 3.0, style.PLAIN
     baseline = "center_baseline"
     corners = "projecting"
     kept = (-np.inf, np.inf)
 
-    def __init__(self, scene, axes, names, high=750, right=60):
+    def __init__(self, scene, axes, names, high=825, right=60, energy=True):
         sheet = Sheet(style.COLUMN, high)
         self.figure = sheet.figure
         frame = _LEFT, _BOTTOM, style.COLUMN - right, high - _TOP
@@ -43,6 +46,8 @@ class Plane(Panel):
         factor = rf" $/\;10^{power}$" if power else ""
         self._text((_LEFT + frame[2]) / 2, 6 * POINT, names[0] + factor, "center", "bottom")
         self._text(_LEFT, frame[3] + 5 * POINT, names[1], "left", "bottom")
+        setting = style.setting(scene, energy)
+        self._text(_LEFT, high - 4 * POINT, setting, "left", "top")
 
     def line(self, x, y, **how):
         """Draw a line inside the frame, broken where a coordinate is NaN."""
@@ -62,7 +67,7 @@ class Plane(Panel):
         if any(above - below < step for above, below in pairwise(heights)):
             heights = [middle + (0.5 * (len(heights) - 1) - i) * step for i in range(len(heights))]
         for height, (_, text) in zip(heights, entries, strict=True):
-            self._text(self.frame[2] + 4 * POINT, height, text, "left", "center_baseline")
+            self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
 
     def legend(self, *entries):
         """Name lines above the frame's right-hand end, where no data can be.

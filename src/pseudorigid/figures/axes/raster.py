@@ -7,7 +7,7 @@ from ..canvas import style
 from ..canvas.sheet import POINT
 from .panel import log10
 
-_SIZE = 6.0  # points: text beside a scale
+_SIZE = 7.0  # points: text beside a scale
 _STEPS = 64  # colours of a scale
 _MINOR = 1.5  # points: the length of a minor tick
 

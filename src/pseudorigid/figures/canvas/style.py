@@ -7,7 +7,7 @@ from matplotlib import font_manager
 
 DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
-PLAIN = 8.0  # points: text in a picture of that width
+PLAIN = 9.0  # points: text in a picture of that width
 
 # Okabe and Ito's hues, which stay apart under every kind of colour blindness.
 BLUE, VERMILION, GREEN, ORANGE = "#0072b2", "#d55e00", "#009e73", "#e69f00"
@@ -18,10 +18,13 @@ HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 STABLE, UNSTABLE = "#4fa82a", "#123fb0"
 SEA, BACKDROP = "#909090", "#b4b4b4"
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
+RIM = "#7a5c3a"
 
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 
 _SETTINGS = {
+    # One family for words, numbers and formulas, of those that matplotlib brings along.
+    "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     # Simplifying a path, or rounding its joins, goes through comparisons and sines that may
     # differ in the last bit between machines.
@@ -62,6 +65,13 @@ def pale(color):
     """Return `color` (#rrggbb) mixed with twice as much white."""
     parts = (int(color[at : at + 2], 16) for at in (1, 3, 5))
     return "#" + "".join(f"{(part + 2 * 255) // 3:02x}" for part in parts)
+
+
+def setting(scene, energy=True):
+    """Return a scene's energy, unless it has several, and its ball in one line."""
+    values = {"E": scene["energy"]} if energy else {}
+    values |= scene["ball"]
+    return ", ".join(f"${name}$ = {number(value)}" for name, value in values.items())
 
 
 def number(value, power=0):

@@ -60,4 +60,4 @@ def plane(scene):
     Plane
     """
     names = (style.NAMES["x"], style.NAMES["xdot"])
-    return Plane(scene, ("x", "xdot"), names, high=900, right=75)
+    return Plane(scene, ("x", "xdot"), names, high=975, right=75)

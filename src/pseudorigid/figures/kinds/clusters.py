@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..axes.panel import Axis, Panel, key
+from ..axes.panel import Axis, Panel, corner, key
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
@@ -29,7 +29,8 @@ def draw(scene, clusters):
         variance of y there that is explained by where the earlier cluster began. Bars are 95 %
         intervals.
     """
-    sheet = Sheet(style.COLUMN, 1575)
+    sheet = Sheet(style.COLUMN, 1650)
+    sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
     correlation = clusters["correlation"].values
     span = 0.1 * (int(10.0 * float(np.abs(correlation).max())) + 1)
@@ -70,7 +71,7 @@ def _flights(sheet, frame, clusters):
         period = f"{float(clusters['period'].values[i]):.1f}"
         panel.note(cut, (0.95 - 0.1 * i) * tall, period, shift=(2, 0))
     text = "dashes: cuts, and the mean time between clusters"
-    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=6.0)
+    corner(sheet, frame, text)
 
 
 def _by_lag(sheet, frame, clusters, up, named):

@@ -4,13 +4,20 @@ import numpy as np
 
 from ...dynamics.variables import final_exponents
 from ..axes.limits import complete, of_data
+from ..axes.panel import Axis, Panel
 from ..axes.plane import Plane
 from ..canvas import style
+
+_FROM = 0.25  # of the impacts: where the inset begins
+_LEAST = 150  # pixels between the first two exponents that have room for an inset
 
 
 @style.pinned()
 def draw(scene, lyapunov):
     """The exponents' histories, one hue an orbit, named at their ends.
+
+    The largest ones have an inset below them, over the same impacts, with a line at each of its
+    ticks.
 
     Parameters
     ----------
@@ -27,17 +34,41 @@ def draw(scene, lyapunov):
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
+        largest=lambda: of_data(exponent[exponent.shape[0] // 2 :, :, 0], most=4),
     )
     picture = plane(scene)
     _, orbits, indices = exponent.shape
+    ends = np.median(final_exponents(lyapunov), axis=0)
+    inset = _inset(picture, scene["axes"]["largest"], *ends[:2])
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
+        there = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
-            there = ~np.isnan(exponent[:, orbit, index])
             picture.line(impact[there], exponent[there, orbit, index], color=hue, lw=0.8)
-    ends = np.median(final_exponents(lyapunov), axis=0)
+        if inset:
+            how = {"color": hue, "lw": 0.8, "clip": inset.frame}
+            inset.line(impact[there], exponent[there, orbit, 0], **how)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
+
+
+class _Inset(Panel):
+    kept = (-np.inf, np.inf)
+    size = 7.0
+
+
+def _inset(picture, largest, first, second):
+    """The panel between the first exponent and the second at the right, None without room."""
+    left, _, right, _ = picture.frame
+    _, (high, low) = picture.place(0.0, [first, second])
+    if not high - low > _LEAST:
+        return None
+    start, end = picture.across.limits
+    start += _FROM * (end - start)
+    across = Axis((start, end), ())
+    room = 0.2 * (high - low)
+    frame = left + _FROM * (right - left), low + room, right, high - room
+    return _Inset(picture.sheet, frame, across, Axis(**largest))
 
 
 def plane(scene):

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...kernel.arithmetic import sincos
 from ...kernel.compiled import jit
-from ..axes.panel import Axis, Panel, key
+from ..axes.panel import Axis, Panel, corner, key
 from ..axes.raster import ticks
 from ..canvas import style
 from ..canvas.sheet import Sheet
@@ -32,14 +32,17 @@ def draw(scene, flux):
         right: the distance of the inner unstable branch from the stable one, which are a line to
         the eye.
     """
-    sheet = Sheet(style.COLUMN, 1575)
+    sheet = Sheet(style.COLUMN, 1650)
     top = sheet.high - 75
-    _regions(sheet, (_LEFT, top - _WIDE, _LEFT + _WIDE, top), flux)
+    above = _LEFT, top - _WIDE, _LEFT + _WIDE, top
+    _regions(sheet, above, flux)
+    corner(sheet, above, style.setting(scene))
     entries = [
         ("edge of the inner region", _INNER, "", False),
         ("edge of the outer region", _OUTER, "", False),
         ("stable", style.STABLE, "", False),
         ("unstable", style.UNSTABLE, "", False),
+        ("grazing rim", style.BLACK, "", False),
     ]
     key(sheet, entries, top - _WIDE - 130, 2, _LEFT + 10, _WIDE)
     _outer_lobe(sheet, (_LEFT, 105, 505, 420), flux)
@@ -62,7 +65,8 @@ def _regions(sheet, frame, flux):
     for side, hue in ((1, _OUTER), (0, _INNER)):
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
         panel.line(x, y, color=hue, lw=1.1)
-        text = f"lobe {float(flux['area'].values[side]):.4g}"
+        digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
+        text = rf"lobe ${digits}\times 10^{{{int(power)}}}$"
         at = float(flux["crossing_x"].values[side].max())
         shift = (4.0, 0.0) if side else (-4.0, 0.0)
         panel.note(at, 0.0, text, ha="left" if side else "right", shift=shift)

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from ..axes.panel import Axis, Panel
+from ..axes.panel import Axis, Panel, corner
 from ..canvas import style
 from ..canvas.ragged import rows
 from ..canvas.sheet import POINT, Sheet
 
 _HIGH = 1425
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
-_SIZE = 7.0  # points: text
+_SIZE = 8.0  # points: text
 
 
 @style.pinned()
@@ -44,6 +44,7 @@ def draw(scene, manifolds, horseshoe):
     }
     _tangle(Panel(sheet, _ABOVE, axes["x"], axes["y"]), manifolds, horseshoe)
     _relation(Panel(sheet, _BELOW, axes["p"], axes["q"]), horseshoe)
+    corner(sheet, _BELOW, style.setting(scene))
     return sheet.figure
 
 
@@ -63,7 +64,7 @@ def _tangle(panel, manifolds, horseshoe):
     panel.dots(x[after], y[after], style.GREEN, size=2.0)
     panel.dots(x[saddle], y[saddle], style.VERMILION, size=3.6)
     panel.dots(x[middle], y[middle], style.BLACK, size=3.6)
-    sizes = (("saddles", 46, style.VERMILION), ("leaving", 44, style.BLUE),
+    sizes = (("saddles", 46, style.VERMILION), ("leaving", 46, style.BLUE),
              ("middle", 42, style.BLACK), ("returning", 48, style.GREEN))  # fmt: skip
     _, _, at, top = panel.frame
     for text, width, hue in reversed(sizes):
@@ -81,6 +82,6 @@ def _relation(panel, horseshoe):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=0.8)
     for edge in (0, 1):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=2.0)
-    for up, gap, text in ((1.0, 5.5, "the middle set"), (0.0, 0.0, "image of the set before it")):
+    for up, gap, text in ((1.0, 5.5, "the middle set"), (0.0, 6.5, "image of the set before it")):
         at = [float(a[0]) for a in panel.place(0.0, up)]
         panel.sheet.text(at[0], at[1] + gap * POINT, text, ha="center", va="center", size=_SIZE)

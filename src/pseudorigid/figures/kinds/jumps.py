@@ -6,7 +6,7 @@ import numpy as np
 
 from ...kernel.arithmetic import sincos
 from ...kernel.compiled import jit
-from ..axes.panel import Axis, Panel, key
+from ..axes.panel import Axis, Panel, corner, key
 from ..axes.raster import ticks
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -54,17 +54,12 @@ def draw(scene, jumps, orbits):
         ("grazing rim", style.BLACK, "", False),
         ("symmetry lines", style.PURPLE, "", True),
     ]
-    key(sheet, entries, frame[1] - 115, 2, _AT + 10, _WIDE)
-    _label(sheet, frame, float(jumps["energy"].values[0]))
+    key(sheet, entries, frame[1] - 128, 2, _AT + 10, _WIDE)
+    text = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
+    sheet.text(frame[0], frame[3] + 4 * POINT, text, ha="left", va="bottom", size=8.0)
+    corner(sheet, frame, style.setting(scene))
     _births(sheet, jumps, k, g)
     return sheet.figure
-
-
-def _label(sheet, frame, energy):
-    text = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
-    sheet.text(frame[0], frame[3] + 4 * POINT, text, ha="left", va="bottom", size=7.0)
-    text = f"$E$ = {style.number(energy)}"
-    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=7.0)
 
 
 def _orbits(panel, orbits, sea, k):

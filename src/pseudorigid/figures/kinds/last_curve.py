@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ..axes.panel import Axis, Panel, key, log10
+from ..axes.panel import Axis, Panel, corner, key, log10
 from ..axes.raster import ticks
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 150, 1005
 _CRITICAL = 0.25
@@ -30,6 +30,7 @@ def draw(scene, last_curve):
     sheet = Sheet(style.COLUMN, 1500)
     _residues(sheet, (_LEFT, 1030, _RIGHT, 1425), last_curve)
     _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
+    corner(sheet, (_LEFT, 105, _RIGHT, 760), style.setting(scene))
     names = [f"rotation number {number:.6f}" for number in last_curve["rotation"].values]
     entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
     key(sheet, entries, 855, 2, _LEFT, _RIGHT - _LEFT)
@@ -50,7 +51,8 @@ def _residues(sheet, frame, last_curve):
         above = last_curve["residue"].values[i] > 0.0
         panel.dots(periods[i][above], size[i][above], style.HUES[i])
         panel.dots(periods[i][~above], size[i][~above], style.HUES[i], hollow=True)
-    sheet.text(frame[2], frame[3] + 4 * POINT, "hollow: negative", ha="right", va="bottom", size=6)
+    panel.note(periods.max(), _CRITICAL, "1/4", shift=(2, 4))
+    corner(sheet, frame, "hollow: negative")
 
 
 def _whole(low, high):

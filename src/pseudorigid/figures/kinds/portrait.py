@@ -13,7 +13,7 @@ def draw(scene, orbits):
     """A scene's orbits in (x, xdot, udot).
 
     The orbits with index in scene["sea"] come first, in grey; each other one has a hue of its own.
-    What lies on the far side of the surface is pale and behind the rest.
+    What the surface hides is not drawn.
 
     Parameters
     ----------
@@ -33,19 +33,16 @@ def draw(scene, orbits):
     """
     scene = complete_box(scene, orbits)
     refuse_empty(scene["axes"], orbits)
-    box = Box(scene)
     spans = rows(orbits["row_size"].values)
     sea = set(scene["sea"])
     if not sea <= set(range(len(spans))):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")
+    entries = [("chaotic orbit", style.SEA, "o", False)] if sea else []
+    box = Box(scene, entries)
     others = [index for index in range(len(spans)) if index not in sea]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(others)}
-    facing = box.facing(orbits)
-    for side in (False, True):
-        for index in sorted(sea) + others:
-            span = spans[index]
-            keep = facing[span] == side
-            state = (orbits[name].values[span][keep] for name in style.NAMES)
-            hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
-            box.points(*state, hue if side else style.pale(hue), size)
+    for index in sorted(sea) + others:
+        state = (orbits[name].values[spans[index]] for name in style.NAMES)
+        hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
+        box.points(*state, hue, size)
     return box.figure

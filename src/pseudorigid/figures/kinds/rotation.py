@@ -3,10 +3,10 @@
 import numpy as np
 
 from ...evidence.rotation import island, plateaus, regular
-from ..axes.panel import Axis, Panel
+from ..axes.panel import Axis, Panel, corner, key
 from ..axes.raster import ticks
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 135, 1005
 
@@ -31,6 +31,7 @@ def draw(scene, rotation):
     """
     sheet = Sheet(style.COLUMN, 1950)
     _turns(sheet, (_LEFT, 1565, _RIGHT, 1875), rotation)
+    corner(sheet, (_LEFT, 1565, _RIGHT, 1875), style.setting(scene))
     _growth(sheet, (_LEFT, 1265, _RIGHT, 1465), rotation)
     _detail(sheet, (_LEFT, 715, _RIGHT, 1065), rotation)
     _energies(sheet, (_LEFT, 105, _RIGHT, 515), rotation)
@@ -50,8 +51,6 @@ def _turns(sheet, frame, rotation):
     panel.dots(place[~good & inside], values[~good & inside], style.BACKDROP, size=1.6)
     panel.dots(place[good], values[good], style.BLUE, size=1.6)
     panel.dots(rotation["fixed_place"].values[:1], [fixed], style.VERMILION, size=3.4)
-    energy = style.number(float(rotation["energy"].values[0]))
-    sheet.text(frame[2], frame[3] + 4 * POINT, f"$E$ = {energy}", ha="right", va="bottom", size=7)
 
 
 def _growth(sheet, frame, rotation):
@@ -109,14 +108,14 @@ def _energies(sheet, frame, rotation):
         (low, high), (-0.01, -0.005, 0, 0.005, 0.01), "Rotation number, less the fixed point's"
     )
     panel = Panel(sheet, frame, Axis((0.0, far), tuple(ticks(0.0, far, 6)), name), up)
-    clipped = 0
+    entries = []
     for number, (energy, place, change) in enumerate(curves):
         shown = np.abs(change) < high
         cut = shown.size if shown.all() else int(np.argmin(shown))
         hue = style.HUES[number % len(style.HUES)]
-        panel.line(place[:cut], change[:cut], color=hue, lw=1.0)
-        shift, ha = (2.5, 0.0), "left"
-        if cut < shown.size:  # the line leaves the frame: names to its left and to its right
-            shift, ha = ((3.0, 6.0), "left") if clipped == 0 else ((-15.0, 3.0), "right")
-            clipped += 1
-        panel.note(place[cut - 1], change[cut - 1], style.number(energy), ha=ha, shift=shift)
+        dashed = number >= len(style.HUES)
+        how = {"ls": "--"} if dashed else {}
+        panel.line(place[:cut], change[:cut], color=hue, lw=1.0, **how)
+        entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
+    deep = -(-len(entries) // 2)
+    key(sheet, entries, frame[1] + 18 + 39 * (deep - 1), 2, _LEFT + 20, 370, 6.5)

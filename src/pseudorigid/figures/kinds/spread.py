@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...evidence.spread import stretches
-from ..axes.panel import Axis, Panel, log10
+from ..axes.panel import Axis, Panel, corner, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
@@ -31,7 +31,8 @@ def draw(scene, spread, lyapunov):
         Middle: the histogram of stretches as long as a run of Figure 7. Below: exponents of regular
         orbits, and ln n/n.
     """
-    sheet = Sheet(style.COLUMN, 1500)
+    sheet = Sheet(style.COLUMN, 1575)
+    sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _lengths(sheet, (_LEFT, 1075, _RIGHT, 1425), spread)
     _short_runs(sheet, (_LEFT, 605, _RIGHT, 905), spread, lyapunov["exponent"].values[-1, :, 0])
     _regular(sheet, (_LEFT, 105, _RIGHT, 435), spread)
@@ -57,7 +58,7 @@ def _lengths(sheet, frame, spread):
         panel.line([length] * 2, values[[0, last]], color=style.VERMILION, lw=0.7)
         panel.line([length] * 2, values[[last // 4, 3 * last // 4]], color=style.VERMILION, lw=2.4)
         panel.dots([length], [values.mean()], style.BLACK, size=2.0)
-    _label(sheet, frame, "range, quartiles, mean")
+    corner(sheet, frame, "range, quartiles, mean")
 
 
 def _short_runs(sheet, frame, spread, paper_runs):
@@ -79,7 +80,7 @@ def _short_runs(sheet, frame, spread, paper_runs):
     panel.line([_PAPER] * 2, [0.0, tall], color=style.BLUE, lw=0.9, ls="--")
     panel.note(_PAPER, tall, "the paper", va="top", shift=(3, -4))
     panel.dots(paper_runs, [0.35 * counts.max()] * paper_runs.size, style.VERMILION, size=3.4)
-    _label(sheet, frame, f"{runs.size} runs; dots: Figure 7's")
+    corner(sheet, frame, f"{runs.size:,} runs; dots: Figure 7's")
 
 
 def _regular(sheet, frame, spread):
@@ -93,8 +94,4 @@ def _regular(sheet, frame, spread):
         one = np.where(values[:, island, 0] > 0.0, values[:, island, 0], np.nan)
         panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
-    _label(sheet, frame, "dashes: $\\ln\\,n/n$")
-
-
-def _label(sheet, frame, text):
-    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=7.0)
+    corner(sheet, frame, "dashes: $\\ln\\,n/n$")

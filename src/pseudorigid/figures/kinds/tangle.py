@@ -8,7 +8,8 @@ from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
 from ..canvas.ragged import rows
 
-_BACKDROP, _SADDLE = 0.5, 3.6  # points
+_BACKDROP, _SADDLE, _END = 0.5, 3.6, 2.6  # points
+_WORDS = dict(enumerate(("one", "two", "three", "four", "five", "six"), 1))
 # Stable branches first and broader: both show where they all but coincide.
 _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
@@ -17,7 +18,8 @@ _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 def draw(scene, orbits, manifolds, periodic):
     """A hyperbolic orbit's branches over a backdrop of orbits.
 
-    Stable branches are green, unstable ones blue; what lies on the surface's far side is pale.
+    Stable branches are green, unstable ones blue; a line ends in an open dot where it was
+    not followed further, or where the map jumps. What the surface hides is not drawn.
 
     Parameters
     ----------
@@ -37,29 +39,34 @@ def draw(scene, orbits, manifolds, periodic):
     """
     scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], manifolds)
-    box = Box(scene)
-    facing = box.facing(orbits)
-    for side in (False, True):
-        state = (orbits[name].values[facing == side] for name in style.NAMES)
-        box.points(*state, style.BACKDROP if side else style.pale(style.BACKDROP), _BACKDROP)
-    _branches(box, manifolds)
     saddle = of_type(periodic, scene["type"])
     state = [saddle[name].values for name in style.NAMES]
+    count = saddle.sizes["point"]
+    entries = [
+        ("stable", style.STABLE, "", False),
+        ("unstable", style.UNSTABLE, "", False),
+        (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o", False),
+        ("sea and islands", style.BACKDROP, "o", False),
+        ("end of a line", style.UNSTABLE, "o", True),
+    ]
+    box = Box(scene, entries)
+    box.points(*(orbits[name].values for name in style.NAMES), style.BACKDROP, _BACKDROP)
+    _branches(box, manifolds)
     box.points(*state, "white", _SADDLE + 1.2)
     box.points(*state, style.VERMILION, _SADDLE)
     return box.figure
 
 
 def _branches(box, manifolds):
-    facing = box.facing(manifolds)
     spans = rows(manifolds["row_size"].values)
-    for side in (False, True):
-        for stable, hue, width in _BRANCHES:
-            for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
-                hide = facing[span] != side
-                # Keep the first hidden vertex on each side, so that pale and full parts meet.
-                hide[1:-1] &= (facing[span] != side)[2:] & (facing[span] != side)[:-2]
-                state = [
-                    np.where(hide, np.nan, manifolds[name].values[span]) for name in style.NAMES
-                ]
-                box.line(*state, hue if side else style.pale(hue), width)
+    state = [manifolds[name].values for name in style.NAMES]
+    ends = []
+    for stable, hue, width in _BRANCHES:
+        for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
+            line = [values[span] for values in state]
+            box.line(*line, hue, width)
+            gap = np.isnan(line[0])
+            end = ~gap & (np.append(gap[1:], True) | np.insert(gap[:-1], 0, False))
+            ends.append((*(values[end] for values in line), hue))
+    for end in ends:
+        box.points(*end, _END, mfc="white", mew=0.6)

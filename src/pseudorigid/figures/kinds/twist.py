@@ -32,7 +32,7 @@ def draw(scene, twist):
         twist=lambda: of_data(values),
     )
     names = ("Energy $E$", r"Twist $\tau_1$ of the fixed point")
-    plane = Plane(scene, ("energy", "twist"), names)
+    plane = Plane(scene, ("energy", "twist"), names, energy=False)
     (left, right), (bottom, _) = plane.across.limits, plane.up.limits
     zero = float(twist["zero"])
     plane.line([left, right], [0.0, 0.0], color=style.BACKDROP, lw=0.6)

@@ -9,7 +9,8 @@ class Exponents(OfOrbits):
 
     The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
     number of impacts, up to {{ s.impacts|max if s.impacts is iterable else s.impacts }}, at
-    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}.
+    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. The inset has the largest
+    ones on a finer scale, over the same impacts.
 
     What to see: one exponent stays above zero, so neighbours part exponentially; one is zero,
     since the energy is kept; and the third mirrors the first, since areas are kept. Single runs
@@ -22,7 +23,7 @@ class Exponents(OfOrbits):
     studied = "exponents"
 
     records: whole(2, 10_000)
-    axes: axes_of("impact", "exponent") = None
+    axes: axes_of("impact", "exponent", "largest") = None
 
     @classmethod
     def faults(cls, block):
