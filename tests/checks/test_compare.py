@@ -9,6 +9,7 @@ from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
 
 NAMES = ("one", "two")
+NAMED = "paper, low, doubled"  # what can be compared
 
 
 def dataset(**values):
@@ -122,14 +123,14 @@ def test_a_damaged_artifact_is_made_again_first(variants, tmp_path):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        ((), "reproduce: compare needs two names of paper, low, doubled"),
-        (("low",), "reproduce: compare needs two names of paper, low, doubled"),
-        (("low", "low"), "reproduce: compare needs two names of paper, low, doubled"),
+        ((), f"reproduce: compare needs two names of {NAMED}"),
+        (("low",), f"reproduce: compare needs two names of {NAMED}"),
+        (("low", "low"), f"reproduce: compare needs two names of {NAMED}"),
         (
             ("low", "lo"),
-            "reproduce: no variant lo: did you mean low? config.yaml has paper, low, doubled",
+            f"reproduce: no variant lo: did you mean low? config.yaml has {NAMED}",
         ),
-        (("low", "-n"), "reproduce: compare needs two names of paper, low, doubled"),
+        (("low", "-n"), f"reproduce: compare needs two names of {NAMED}"),
     ],
 )
 def test_bad_names_are_one_line(variants, words, line):

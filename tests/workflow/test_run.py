@@ -41,8 +41,8 @@ def test_everything_of_a_fresh_clone_is_planned(tree, finished):
 def test_each_edit_makes_again_what_uses_it_alone(done):
     """A stage's field, an axis, a format, a module, and another whose time is the one before."""
     done.edit("fig7", impacts=61)
-    axes = {"t": {"limits": [0, 16], "ticks": [0]}, "displacement": {"limits": [-1, 1]}}
-    done.edit("fig3", axes=axes)
+    other = {"limits": [-1, 17], "ticks": [0]}
+    done.edit("fig3", axes={"t": other, "displacement": other})
     done.edit("fig4", formats=["png", "svg", "pdf"])
     dynamics = done.path / "src" / "pseudorigid" / "dynamics"
     (dynamics / "orbits.py").touch()
@@ -51,11 +51,11 @@ def test_each_edit_makes_again_what_uses_it_alone(done):
         file.write("# edited\n")
     os.utime(dynamics / "manifolds.py", ns=(then.st_atime_ns, then.st_mtime_ns))
     shutil.rmtree(done.path / ".snakemake")  # its memory of parameters and times
-    drawings = "fig3.png fig3.svg fig4.pdf fig5.png fig6.png fig6.svg fig7.png fig7.svg".split()
-    data = ("lyapunov_fig7.nc", "manifolds_fig5.nc", "manifolds_fig6.nc")
-    assert done.planned() == {f"results/paper/figures/{name}" for name in drawings} | {
-        f"results/paper/{name}" for name in data
-    }
+    drawings = {f"fig{number}.png" for number in (3, 5, 6, 7)}
+    drawings |= {f"fig{number}.svg" for number in (3, 6, 7)} | {"fig4.pdf"}
+    data = {"lyapunov_fig7.nc", "manifolds_fig5.nc", "manifolds_fig6.nc"}
+    made = data | {f"figures/{name}" for name in drawings}
+    assert done.planned() == {f"results/paper/{name}" for name in made}
 
 
 def test_what_was_deleted_comes_back(done):
