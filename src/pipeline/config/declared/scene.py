@@ -50,10 +50,15 @@ class Scene(Block):
     studied: ClassVar[str | None] = None
 
     picture: Annotated[str, Field(description="the kind of picture: one of those below")]
+    """what is drawn"""
     ball: BallBlock = None
+    """the ball of this scene, where it is another"""
     energy: Energy
+    """the energy, which each impact keeps"""
     method: Method = None
+    """how impacts are found, where not by the certified first root"""
     formats: Formats = ["png"]
+    """the files drawn"""
 
     @classmethod
     def caption(cls) -> str:
@@ -86,7 +91,9 @@ class OfOrbits(Scene):
     """A scene of orbits from given starts."""
 
     starts: Starts
+    """where the orbits start, on y = 0 or at a point of the section"""
     impacts: Impacts
+    """how many impacts of each orbit"""
 
     @classmethod
     def faults(cls, block):
@@ -107,7 +114,9 @@ class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
     period: Period
+    """impacts after which the orbit closes"""
     type: OrbitType
+    """its stability"""
 
     @staticmethod
     def about_orbit(periodic, block) -> dict[str, str]:
@@ -127,6 +136,7 @@ class OfManifolds(OfPeriodicOrbit):
     method: FineMethod = None
     type: Saddle
     resolution: Resolution
+    """how finely the manifolds are traced"""
 
     @classmethod
     def lengths(cls, block) -> dict[tuple, float]:
@@ -147,6 +157,7 @@ class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
     view: View = {"elevation": 40, "azimuth": 115}
+    """from where the surface is seen"""
     axes: SECTION = None
 
 

@@ -22,6 +22,7 @@ class Exponents(OfOrbits):
     studied = "exponents"
 
     records: whole(2, 10_000)
+    """how many numbers of impacts have their exponents kept"""
     axes: axes_of("impact", "exponent") = None
 
     @classmethod

@@ -27,7 +27,9 @@ class Horseshoe(OfManifolds):
     telling = "sets"
 
     branches: Branches
+    """the manifolds drawn"""
     connection: Side
+    """along which branches the orbit is connected with itself"""
     axes: axes_of("x", "y", "p", "q")
 
     @classmethod

@@ -19,10 +19,15 @@ class LastCurve(Scene):
     telling = "convergents"
 
     nobles: listed(listed(whole(0, 1000), "a continued fraction"), "a list of continued fractions")
+    """rotation numbers, each a continued fraction with ones after its end"""
     convergents: whole(2, 20)
+    """how many convergents of each"""
     between: Between
+    """the part of y = 0 on which their orbits are sought"""
     impacts: whole(100, 100_000_000)
+    """impacts of the orbit at the last convergent"""
     drawn: whole(100, 10_000_000)
+    """how many of these are drawn"""
 
     @staticmethod
     def numbers(block, last_curve):

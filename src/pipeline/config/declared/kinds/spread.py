@@ -19,14 +19,23 @@ class Spread(OfOrbits):
     telling = "long-run exponent"
 
     records: whole(2, 10_000)
+    """how many numbers of impacts have their exponents kept"""
     between: Between
+    """the part of y = 0 on which chaotic orbits start"""
     orbits: whole(2, 10_000)
+    """how many chaotic orbits"""
     length: whole(100, 100_000_000)
+    """impacts of each of them"""
     blocks: whole(2, 10_000)
+    """stretches into which each is cut"""
     regular: listed(real("a fraction with -1 < start < 1", gt=-1, lt=1), "a list of fractions")
+    """starts of regular orbits"""
     regular_impacts: whole(2, 10_000_000)
+    """impacts of each of them"""
     cells: whole(2, 1000)
+    """cells to a side of the grid over the section"""
     visits: whole(2, 100_000_000)
+    """impacts counted in those cells"""
 
     @classmethod
     def faults(cls, block):

@@ -20,6 +20,7 @@ class Tangle(OfManifolds, OfOrbits, OnSurface):
     studied = "tangle"
 
     branches: Branches
+    """which branches, and how far"""
 
     @classmethod
     def lengths(cls, block):
