@@ -15,6 +15,7 @@ from .fields import (
     LARGEST,
     BallBlock,
     Block,
+    Branches,
     Energy,
     FineMethod,
     Formats,
@@ -27,6 +28,7 @@ from .fields import (
     Starts,
     View,
     axes_of,
+    whole,
 )
 
 Fault = tuple[tuple, Any, str]  # place in the scene, value, what is allowed
@@ -110,6 +112,21 @@ class OfOrbits(Scene):
             yield ("impacts",), impacts, what
 
 
+class OfRecords(OfOrbits):
+    """A scene of exponents along orbits."""
+
+    records: whole(2, 10_000)
+    """how many numbers of impacts have their exponents kept"""
+
+    @classmethod
+    def faults(cls, block):
+        """No more records than impacts."""
+        yield from super().faults(block)
+        least = min(each(block["impacts"], block["starts"]))
+        if block["records"] > least:
+            yield ("records",), block["records"], f"at most impacts = {least}"
+
+
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
@@ -151,6 +168,19 @@ class OfManifolds(OfPeriodicOrbit):
         for place, length in cls.lengths(block).items():
             if length > longest:
                 yield place, length, f"at most {LARGEST} times resolution.distance = {longest:g}"
+
+
+class OfBranches(OfManifolds):
+    """A scene of branches of both sides, each as long as it says."""
+
+    branches: Branches
+    """which branches, and how far"""
+
+    @classmethod
+    def lengths(cls, block):
+        """Those of the branches."""
+        branches = block["branches"]
+        return {("branches", side, "length"): branches[side]["length"] for side in branches}
 
 
 class OnSurface(Scene):

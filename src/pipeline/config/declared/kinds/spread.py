@@ -1,10 +1,10 @@
 """Exponents of many orbits, at many lengths."""
 
 from ..fields import Between, listed, real, whole
-from ..scene import OfOrbits, each
+from ..scene import OfRecords
 
 
-class Spread(OfOrbits):
+class Spread(OfRecords):
     """Lyapunov exponents of many orbits at many lengths
 
     Lyapunov exponents of {{ s.orbits }} chaotic orbits of {{ s.length }} impacts, at energy {{
@@ -18,8 +18,6 @@ class Spread(OfOrbits):
     stages = ("spread", "lyapunov")
     telling = "long-run exponent"
 
-    records: whole(2, 10_000)
-    """how many numbers of impacts have their exponents kept"""
     between: Between
     """the part of y = 0 on which chaotic orbits start"""
     orbits: whole(2, 10_000)
@@ -39,11 +37,8 @@ class Spread(OfOrbits):
 
     @classmethod
     def faults(cls, block):
-        """Records fit the impacts, blocks the length."""
+        """Blocks fit the length."""
         yield from super().faults(block)
-        least = min(each(block["impacts"], block["starts"]))
-        if block["records"] > least:
-            yield ("records",), block["records"], f"at most impacts = {least}"
         if block["length"] % block["blocks"]:
             yield ("blocks",), block["blocks"], f"a divisor of length = {block['length']}"
 
