@@ -5,7 +5,8 @@ import subprocess
 import sys
 
 import pytest
-from project import ROOT, Tree, fresh_tree, once
+from project import ROOT, Tree, fresh_tree, of_scenes, once
+from runs import VARIANTS
 
 from pipeline.records import sources
 
@@ -70,6 +71,21 @@ def done(finished, tmp_path):
 def accepted(shared, finished):
     """A finished copy whose small figures were accepted; not to be changed."""
     return Tree(shared("accepted here", lambda folder: _accept(folder, finished.path)))
+
+
+def _compare_variants(folder):
+    tree = fresh_tree(folder, of_scenes("fig3", "fig4", "fig7", variants=VARIANTS))
+    result = tree.run("compare", "paper", "low")
+    assert result.returncode == 0, result.stdout
+    (folder / "said of paper and low").write_text(result.stdout)
+    result = tree.run("variant", "doubled")
+    assert result.returncode == 0, result.stdout
+
+
+@pytest.fixture(scope="session")
+def variants(shared):
+    """Three small scenes and variants that were made, two of them compared; to be left as it is."""
+    return Tree(shared("variants in a folder with spaces", _compare_variants))
 
 
 @pytest.fixture

@@ -32,31 +32,38 @@ def computed(name, block, inputs):
     return function(ball, block["energy"], *inputs, **fields)
 
 
+class Results:
+    """The results of variants, each dataset computed when it is asked for, in a folder."""
+
+    def __init__(self, folder, variants):
+        self.folder, self.expected = Path(folder), expected.of_variants(variants)
+
+    def data(self, path):
+        """A dataset after a round through its file."""
+        file = self.folder / path
+        if not file.exists():
+            file.parent.mkdir(parents=True, exist_ok=True)
+            block = self.expected[path].config
+            stage = file.stem.rpartition("_")[0]
+            about = block["ball"] | {"energy": float(block["energy"]), "stage": stage}
+            artifacts.save(computed(stage, block, self.inputs(path)), file, block, **about)
+        return artifacts.load(file)
+
+    def inputs(self, path):
+        """The datasets that a result is made from."""
+        return [self.data(used) for used in self.expected[path].inputs]
+
+
 def paper(folder, names=()):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
     variants = config.load(SHIPPED)["variants"]
     variants = {places.PAPER: variants[places.PAPER]}
     figures = places.figures(variants).values()
-    wanted = [behind[-1] for scene, behind in figures if not names or scene in names]
-    results = expected.of_scenes(variants)
-
-    def data(path):
-        """A dataset after a round through its file."""
-        file = Path(folder) / Path(path).name
-        if not file.exists():
-            block = results[path].config
-            stage = file.stem.rpartition("_")[0]
-            about = block["ball"] | {"energy": float(block["energy"]), "stage": stage}
-            artifacts.save(computed(stage, block, inputs(path)), file, block, **about)
-        return artifacts.load(file)
-
-    def inputs(path):
-        return [data(used) for used in results[path].inputs]
-
-    for path in wanted:
-        block = results[path].config
+    results = Results(folder, variants)
+    for path in (behind[-1] for scene, behind in figures if not names or scene in names):
+        block = results.expected[path].config
         kind = import_module(f"pseudorigid.figures.kinds.{block['picture']}")
-        picture = render(kind.draw(block, *inputs(path)), Path(path).suffix[1:])
+        picture = render(kind.draw(block, *results.inputs(path)), Path(path).suffix[1:])
         yield Path(path).name, hashlib.sha256(picture).hexdigest()
 
 

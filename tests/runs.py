@@ -7,7 +7,8 @@ FIG3 = {
     "results/paper/motion_fig3.nc",
     "results/paper/figures/fig3.png",
 }
-FIG7 = {f"results/paper/figures/fig7.{extension}" for extension in ("png", "svg")}
+# Of the small scenes 3, 4 and 7; one without Figure 4, at an energy without such an orbit.
+VARIANTS = {"low": {"energy": 0.0017}, "doubled": {"scale": 2}}
 
 
 def rows(said):

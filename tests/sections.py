@@ -18,3 +18,12 @@ def section_states(ball, count, seed=0, energy=None):
     keep = x * x + y * y < 0.999
     height = radius * math.sqrt(ball.k * (1.0 + ball.k))
     return ball.state_xy(centre + radius * x[keep][:count], height * y[keep][:count], energy)
+
+
+def sea(n, energy=0.01, ball=BALL):
+    """n states over the section, islands and sea."""
+    rng = np.random.default_rng(n)
+    radius, angle = np.sqrt(rng.random(n)), 2.0 * np.pi * rng.random(n)
+    centre, size = ball.section(energy)
+    y = size * np.sqrt(ball.k * (1.0 + ball.k)) * radius * np.sin(angle)
+    return ball.state_xy(centre + size * radius * np.cos(angle), y, energy)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
-from project import Tree, fresh_tree, of_scenes
 
 from pipeline.checks.compare import cycles, exponents, norms
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
 
 NAMES = ("one", "two")
+NAMED = "paper, low, doubled"  # what can be compared
 
 
 def dataset(**values):
@@ -81,22 +81,8 @@ def test_the_spread_is_the_standard_deviation_between_orbits():
     assert exponents.spread(np.array([-1e-9])) == "0.0000"
 
 
-def make(folder):
-    """Three small scenes, and what comparing the paper and a variant printed."""
-    variants = {"low": {"energy": 0.0017}}
-    tree = fresh_tree(folder, of_scenes("fig3", "fig4", "fig7", variants=variants))
-    result = tree.run("compare", "paper", "low")
-    assert result.returncode == 0, result.stdout
-    (folder / "said").write_text(result.stdout)
-
-
-@pytest.fixture(scope="module")
-def compared(shared):
-    return Tree(shared("compared here", make))
-
-
-def test_what_is_missing_is_made_and_everything_is_said(compared):
-    said = (compared.path / "said").read_text().partition("\npaper | low\n")[2]
+def test_what_is_missing_is_made_and_everything_is_said(variants):
+    said = (variants.path / "said of paper and low").read_text().partition("\npaper | low\n")[2]
     assert "  energy: 0.01 | 0.0017\n" in said
     assert "  cannot exist in low: no elliptic orbit of period 6 at energy 0.0017" in said
     assert "  motion      variable " in said
@@ -106,8 +92,8 @@ def test_what_is_missing_is_made_and_everything_is_said(compared):
     assert "lambda 1" in said
 
 
-def test_both_figures_are_side_by_side(compared):
-    results = compared.path / "results"
+def test_both_figures_are_side_by_side(variants):
+    results = variants.path / "results"
     for name in ("fig3", "fig7"):
         both = pixels(results / "compare" / "paper..low" / f"{name}.png")
         parts = [
@@ -123,8 +109,8 @@ def test_both_figures_are_side_by_side(compared):
     assert np.array_equal(one[75:, : drawn.shape[1]], drawn)
 
 
-def test_a_damaged_artifact_is_made_again_first(compared, tmp_path):
-    tree = compared.copy(tmp_path / "damaged")
+def test_a_damaged_artifact_is_made_again_first(variants, tmp_path):
+    tree = variants.copy(tmp_path / "damaged")
     artifact = tree.path / "results" / "low" / "lyapunov_fig7.nc"
     whole = artifact.read_bytes()
     artifact.write_bytes(whole[:3000])
@@ -137,13 +123,16 @@ def test_a_damaged_artifact_is_made_again_first(compared, tmp_path):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        ((), "reproduce: compare needs two names of paper, low"),
-        (("low",), "reproduce: compare needs two names of paper, low"),
-        (("low", "low"), "reproduce: compare needs two names of paper, low"),
-        (("low", "lo"), "reproduce: no variant lo: did you mean low? config.yaml has paper, low"),
-        (("low", "-n"), "reproduce: compare needs two names of paper, low"),
+        ((), f"reproduce: compare needs two names of {NAMED}"),
+        (("low",), f"reproduce: compare needs two names of {NAMED}"),
+        (("low", "low"), f"reproduce: compare needs two names of {NAMED}"),
+        (
+            ("low", "lo"),
+            f"reproduce: no variant lo: did you mean low? config.yaml has {NAMED}",
+        ),
+        (("low", "-n"), f"reproduce: compare needs two names of {NAMED}"),
     ],
 )
-def test_bad_names_are_one_line(compared, words, line):
-    result = compared.run("compare", *words)
+def test_bad_names_are_one_line(variants, words, line):
+    result = variants.run("compare", *words)
     assert (result.returncode, result.stdout) == (1, line + "\n")

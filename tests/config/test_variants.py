@@ -55,6 +55,22 @@ def test_the_paper_s_axes_are_left_where_they_no_longer_fit(change, scene, kept)
     assert ("axes" in with_variants(v=change)["v"][scene]) == kept
 
 
+def test_a_scale_reaches_every_energy_and_leaves_numbers_of_starts():
+    document = shipped()
+    document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
+    document |= {"variants": {"v": {"scale": 2}}, "claims": {}}
+    scenes = config.check(document)["variants"]["v"]
+    assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
+    assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
+
+
+def test_axes_that_a_kind_must_have_stay():
+    document = shipped()
+    document["scenes"] = {"sets": document["proofs"]["horseshoe"]}
+    document |= {"variants": {"v": {"energy": 0.0099}}}
+    assert config.check(document)["variants"]["v"]["sets"]["axes"]["p"]["limits"] == [-1.6, 1.6]
+
+
 def test_a_variant_s_own_axes_stay():
     axes = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
     change = {"energy": 0.002, "scenes": {"fig3": {"axes": axes}}}

@@ -184,7 +184,7 @@ def test_a_kind_of_three_files(copy):
 
     page = docs(copy)
     assert "### picture: returns\n\nThe next position against the present one." in page
-    assert "| `axes` | a mapping with the keys x and next, or some of them |" in page
+    assert "| a mapping with the keys x and next, or some of them |" in page
 
     variant = copy.run("variant", "low")
     assert variant.returncode == 0, variant.stdout

@@ -56,6 +56,7 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     module = done.path / "src" / "pseudorigid" / "dynamics" / "lyapunov.py"
     text = module.read_text()
     module.write_text(f"{text}\n\ndef scene_exponents(*_, **__):\n    return 1 / 0\n")
+    done.warm()
     result = done.run("paper_figures/fig7.png")
     assert result.returncode == 1
     log = "results/paper/logs/lyapunov_fig7.nc.log"
@@ -89,7 +90,7 @@ def test_a_failing_publication_leaves_the_figures_as_they_were(done):
     assert contents(done)["fig3.png"] != before["fig3.png"]
 
 
-@pytest.mark.parametrize("everyone", [False, True])
+@pytest.mark.parametrize("everyone", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_a_killed_run_leaves_whole_files_and_no_lock(done, everyone):
     before = contents(done)
     results = done.path / "results"

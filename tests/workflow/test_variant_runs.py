@@ -7,35 +7,20 @@ import time
 
 import numpy as np
 import pytest
-from project import Tree, fresh_tree, of_scenes
-from runs import contents, rows
+import yaml
+from paper_probe import Results
+from project import of_scenes
+from runs import VARIANTS, contents, rows
 
-from pipeline.records.artifacts import load
+from pipeline import config
 
 LENGTHS = {"x", "xdot", "udot", "position", "strain", "impact_position"}
-VARIANTS = {"thin": {"ball": {"k": 0.3333333333333333}}, "doubled": {"scale": 2}}
-ABSENT = "cannot exist: no elliptic orbit of period 6 at energy 0.01"
-
-
-def make(folder):
-    """Four small scenes of which the paper and two variants were made."""
-    tree = fresh_tree(folder, of_scenes("fig4", "fig5", "fig6", "fig7", variants=VARIANTS))
-    for name in ("doubled", "thin"):
-        result = tree.run("variant", name)
-        assert result.returncode == 0, result.stdout
-        (folder / f"said of {name}").write_text(result.stdout)
-    result = tree.run()
-    assert result.returncode == 0, result.stdout
-
-
-@pytest.fixture(scope="module")
-def made(shared):
-    return Tree(shared("variants in a folder with spaces", make))
+ABSENT = "cannot exist: no elliptic orbit of period 6 at energy 0.0017"
 
 
 @pytest.fixture
-def done(made, tmp_path):
-    return made.copy(tmp_path / "done")
+def done(variants, tmp_path):
+    return variants.copy(tmp_path / "done")
 
 
 def edit(tree, name, block):
@@ -46,6 +31,16 @@ def edit(tree, name, block):
 
 def figures_of(tree, name):
     return {path.name for path in (tree.path / "results" / name / "figures").iterdir()}
+
+
+@pytest.fixture(scope="module")
+def scaled(tmp_path_factory):
+    """(variant, name of a dataset) -> the dataset, of small scenes as they are and times two."""
+    folder = tmp_path_factory.mktemp("scaled")
+    document = of_scenes("fig4", "fig5", "fig6", "fig7", variants=VARIANTS)
+    (folder / "config.yaml").write_text(yaml.safe_dump(document))
+    results = Results(folder, config.load(folder / "config.yaml")["variants"])
+    return lambda variant, name: results.data(f"results/{variant}/{name}.nc")
 
 
 @pytest.mark.parametrize(
@@ -59,10 +54,8 @@ def figures_of(tree, name):
         "lyapunov_fig7",
     ],
 )
-def test_the_copy_scaled_by_two_is_equal_in_every_bit(made, name):
-    paper, doubled = (
-        load(made.path / "results" / variant / f"{name}.nc") for variant in ("paper", "doubled")
-    )
+def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
+    paper, doubled = (scaled(variant, name) for variant in ("paper", "doubled"))
     assert doubled.attrs["g"] == 2.0 * paper.attrs["g"]
     assert doubled.attrs["energy"] == 4.0 * paper.attrs["energy"]
     assert set(paper.variables) == set(doubled.variables)
@@ -81,55 +74,55 @@ def test_the_copy_scaled_by_two_is_equal_in_every_bit(made, name):
         assert np.array_equal(doubled.attrs[key], value * 2.0 if key in lengths else value), key
 
 
-def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(made):
-    assert figures_of(made, "thin") == {"fig5.png", "fig6.png", "fig7.png"}
-    assert figures_of(made, "doubled") == {"fig4.png", "fig5.png", "fig6.png", "fig7.png"}
-    said = (made.path / "said of thin").read_text()
-    (line,) = (line for line in said.splitlines() if ABSENT in line)
-    assert line.startswith("fig4  ")
-    assert len(rows(said)) == 3
+def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
+    assert figures_of(variants, "low") == {"fig3.png", "fig7.png"}
+    assert figures_of(variants, "doubled") == {"fig3.png", "fig4.png", "fig7.png"}
+    said = (variants.path / "said of paper and low").read_text()
+    assert [line.split()[0] for line in said.splitlines() if ABSENT in line] == ["fig4"]
+    table = {file: state for file, state in rows(said).items() if "results/low" in file}
+    assert [*table.values()] == ["recomputed"] * 2
 
 
 def test_a_second_run_has_nothing_to_do(done):
-    again = done.run("variant", "thin")
+    again = done.run("variant", "low")
     assert again.returncode == 0
     assert "snakemake" not in again.stdout
-    assert [*rows(again.stdout).values()] == ["current"] * 3
+    assert [*rows(again.stdout).values()] == ["current"] * 2
     assert ABSENT in again.stdout
 
 
 def test_one_figure_of_variants(done):
-    figure = done.path / "results" / "thin" / "figures" / "fig7.png"
+    figure = done.path / "results" / "low" / "figures" / "fig7.png"
     figure.unlink()
-    assert rows(done.run("variant", "thin", "fig5").stdout) == {
-        "results/thin/figures/fig5.png": "current"
+    assert rows(done.run("variant", "low", "fig3").stdout) == {
+        "results/low/figures/fig3.png": "current"
     }
-    said = done.run("compare", "paper", "thin", "fig7").stdout
+    said = done.run("compare", "paper", "low", "fig7").stdout
     assert rows(said) == {
         "paper_figures/fig7.png": "current",
-        "results/thin/figures/fig7.png": "recomputed",
+        "results/low/figures/fig7.png": "recomputed",
     }
-    assert "thin/fig7  drawing png" in said
-    assert "side by side: results/compare/paper..thin/fig7.png" in said
-    assert "fig5" not in said
-    result = done.run("variant", "thin", "fig55")
+    assert "low/fig7  drawing png" in said
+    assert "side by side: results/compare/paper..low/fig7.png" in said
+    assert "fig3" not in said
+    result = done.run("variant", "low", "fig33")
     assert result.returncode == 2
-    assert result.stdout.startswith("reproduce: no figure fig55: did you mean fig5? ")
+    assert result.stdout.startswith("reproduce: no figure fig33: did you mean fig3? ")
 
 
-def test_a_variant_s_figures_are_not_published(made):
-    assert set(contents(made)) == {"fig4.png", "fig5.png", "fig6.png", "fig7.png"}
-    data = (made.path / "results" / "paper" / "figures" / "fig7.png").read_bytes()
-    assert contents(made)["fig7.png"] == data
+def test_a_variant_s_figures_are_not_published(variants):
+    assert set(contents(variants)) == {"fig3.png", "fig4.png", "fig7.png"}
+    data = (variants.path / "results" / "paper" / "figures" / "fig7.png").read_bytes()
+    assert contents(variants)["fig7.png"] == data
 
 
 def test_a_deleted_file_of_a_variant_comes_back(done):
-    figure = done.path / "results" / "thin" / "figures" / "fig7.png"
-    data = done.path / "results" / "thin" / "lyapunov_fig7.nc"
+    figure = done.path / "results" / "low" / "figures" / "fig7.png"
+    data = done.path / "results" / "low" / "lyapunov_fig7.nc"
     before = figure.read_bytes(), data.read_bytes()
     figure.unlink()
     data.unlink()
-    assert done.run("variant", "thin").returncode == 0
+    assert done.run("variant", "low").returncode == 0
     assert (figure.read_bytes(), data.read_bytes()) == before
 
 
@@ -138,7 +131,7 @@ def test_a_figure_that_can_no_longer_exist_is_removed(done):
     result = done.run("variant", "doubled")
     assert result.returncode == 0, result.stdout
     assert "cannot exist: no elliptic orbit of period 5" in result.stdout
-    assert figures_of(done, "doubled") == {"fig5.png", "fig6.png", "fig7.png"}
+    assert figures_of(done, "doubled") == {"fig3.png", "fig7.png"}
     edit(done, "doubled", VARIANTS["doubled"])
     assert done.run("variant", "doubled").returncode == 0
     assert "fig4.png" in figures_of(done, "doubled")
@@ -152,29 +145,29 @@ def test_what_is_shared_is_not_computed_again(done):
     made = {path.name for path in (done.path / "results" / "more").glob("*.nc")}
     assert made == {"lyapunov_fig7.nc"}
     assert {p: p.stat().st_mtime_ns for p in before} == before
-    fresh = (done.path / "results" / "more" / "figures" / "fig5.png").read_bytes()
-    assert fresh == (done.path / "results" / "paper" / "figures" / "fig5.png").read_bytes()
+    fresh = (done.path / "results" / "more" / "figures" / "fig4.png").read_bytes()
+    assert fresh == (done.path / "results" / "paper" / "figures" / "fig4.png").read_bytes()
 
 
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (("thinn",), "no variant thinn: did you mean thin? config.yaml has thin, doubled"),
-        (("a/b",), "no variant a/b: config.yaml has thin, doubled"),
-        (("paper",), "no variant paper: config.yaml has thin, doubled"),
-        ((), "variant needs a name: config.yaml has thin, doubled"),
-        (("-n",), "variant needs a name: config.yaml has thin, doubled"),
+        (("lowr",), "no variant lowr: did you mean low? config.yaml has low, doubled"),
+        (("a/b",), "no variant a/b: config.yaml has low, doubled"),
+        (("paper",), "no variant paper: config.yaml has low, doubled"),
+        ((), "variant needs a name: config.yaml has low, doubled"),
+        (("-n",), "variant needs a name: config.yaml has low, doubled"),
     ],
 )
-def test_a_name_that_is_no_variant_is_one_line(made, words, line):
-    result = made.run("variant", *words)
+def test_a_name_that_is_no_variant_is_one_line(variants, words, line):
+    result = variants.run("variant", *words)
     assert (result.returncode, result.stdout) == (1, f"reproduce: {line}\n")
 
 
 def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
     edit(done, "bad", {"energy": 0.9})
     line = "config.yaml: variants.bad.energy: 0.9 is not allowed: expected a number below k/2 - g"
-    for words in ((), ("variant", "thin"), ("variant", "bad"), ("verify",)):
+    for words in ((), ("variant", "low"), ("variant", "bad"), ("verify",)):
         result = done.run(*words)
         assert result.returncode == 1
         assert result.stdout.startswith(line)
@@ -182,12 +175,12 @@ def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
 
 
 def test_damaged_findings_drawings_and_data_are_made_again(done):
-    folder = done.path / "results" / "thin"
+    folder = done.path / "results" / "low"
     files = folder / "absent.json", folder / "figures" / "fig7.png", folder / "lyapunov_fig7.nc"
     before = [file.read_bytes() for file in files]
     for file, content in zip(files, before, strict=True):
         file.write_bytes(content[:10])
-    result = done.run("variant", "thin")
+    result = done.run("variant", "low")
     assert result.returncode == 0, result.stdout
     assert [file.read_bytes() for file in files] == before
     assert "lyapunov_fig7.nc: changed after it was made: made again" in result.stdout
@@ -195,10 +188,10 @@ def test_damaged_findings_drawings_and_data_are_made_again(done):
 
 @pytest.mark.slow
 def test_a_killed_run_is_taken_up_again(done):
-    folder = done.path / "results" / "thin"
+    folder = done.path / "results" / "low"
     before = {path.name: path.read_bytes() for path in (folder / "figures").iterdir()}
     shutil.rmtree(folder)
-    run = done.start("variant", "thin", start_new_session=True)
+    run = done.start("variant", "low", start_new_session=True)
     try:
         for _ in range(1200):
             if list(folder.glob("figures/*.png")):
@@ -207,7 +200,7 @@ def test_a_killed_run_is_taken_up_again(done):
         assert run.poll() is None
         os.killpg(run.pid, signal.SIGKILL)
         run.wait()
-        again = done.run("variant", "thin")
+        again = done.run("variant", "low")
         assert again.returncode == 0, again.stdout
         assert {path.name: path.read_bytes() for path in (folder / "figures").iterdir()} == before
     finally:

@@ -1,14 +1,18 @@
 """docs/config.md, from the declarations: `.venv/bin/python -m pipeline.config.reference`."""
 
+import ast
+import inspect
+from itertools import pairwise
+
 from ..records.files import replacing
 from ..records.sources import ROOT
 from .checking.mistakes import allowed_at
-from .declared.fields import BallBlock
+from .declared.fields import Axis, BallBlock, Block, Scan
 from .declared.kinds import KINDS
 from .declared.scene import Scene
 from .declared.stages import STAGES, behind
 from .declared.sweep import Sweep
-from .declared.variant import Variant
+from .declared.variant import Prove, Variant
 
 HEAD = """\
 # config.yaml, field by field
@@ -24,6 +28,7 @@ refused before anything runs, all mistakes at once.
 The ball of every scene without one of its own.
 
 """
+AXES = "limits and ticks of each axis; without them those of the data"
 
 
 def page() -> str:
@@ -41,6 +46,14 @@ def page() -> str:
         drawn = ", ".join(f"`{stage}`" for stage in behind(kind.stages))
         parts.append(f"\n### picture: {name}\n\n{_sentence(kind.__doc__)} Computed: {drawn}.\n\n")
         parts.append(_table(kind, [*own, *narrowed]))
+    parts.append("\n## An axis\n\n")
+    parts.append(_table(Axis, Axis.model_fields))
+    parts.append("\n## A method\n\nThe paper's own, by steps and bisection:\n\n")
+    parts.append(_table(Scan, Scan.model_fields))
+    parts.append(
+        "\nOr `{exact: true}`: the orbits of the starts as they are written, in portraits and\n"
+    )
+    parts.append("backdrops, every number a rounded true value.\n")
     parts.append("\n## Stages\n\nWhat decides the data of a stage, beside ball and energy:\n\n")
     parts.append("| stage | fields | made from | with `method` |\n|---|---|---|---|\n")
     for name, stage in STAGES.items():
@@ -51,18 +64,43 @@ def page() -> str:
     parts.append(_table(Variant, Variant.model_fields))
     parts.append("\n## sweeps\n\nA sweep is a grid over k and E/g^2:\n\n")
     parts.append(_table(Sweep, Sweep.model_fields))
+    parts.append("\n## claims, proofs\n\nScenes that are made on request: `./reproduce claims`, ")
+    parts.append(
+        "`./reproduce prove --pictures`.\n\n## prove\n\n`./reproduce prove --impacts`:\n\n"
+    )
+    parts.append(_table(Prove, Prove.model_fields))
     return "".join(parts)
 
 
 def _table(model, names) -> str:
-    lines = ["| field | allowed | default |", "|---|---|---|"]
+    lines = ["| field | meaning | allowed | default |", "|---|---|---|---|"]
+    return "\n".join([*lines, *_rows(model, names)]) + "\n"
+
+
+def _rows(model, names, place=""):
+    """A line for each field, and below it those of the mapping that it is."""
+    meanings = {"axes": AXES} | _meanings(model)
     for name in names:
         field = model.model_fields[name]
         default = "" if field.default is None else f"`{field.default}`"
         default = "required" if field.is_required() else default
-        allowed = " ".join(allowed_at(model, (name,))[1].split()).replace("|", "\\|")
-        lines.append(f"| `{name}` | {allowed} | {default} |")
-    return "\n".join(lines) + "\n"
+        kind, allowed = allowed_at(model, (name,))
+        allowed = " ".join(allowed.split()).replace("|", "\\|")
+        yield f"| `{place}{name}` | {meanings[name]} | {allowed} | {default} |"
+        if isinstance(kind, type) and issubclass(kind, Block) and name not in ("ball", "axes"):
+            yield from _rows(kind, kind.model_fields, f"{place}{name}.")
+
+
+def _meanings(model):
+    """Field -> the text below it, in its class or in one that this derives from."""
+    found = {}
+    for part in reversed(model.__mro__):
+        if issubclass(part, Block):
+            (declared,) = ast.parse(inspect.getsource(part)).body
+            for field, text in pairwise(declared.body):
+                if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr):
+                    found[field.target.id] = text.value.value
+    return found
 
 
 def _sentence(text) -> str:

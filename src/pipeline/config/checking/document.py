@@ -16,7 +16,7 @@ Scenes = Annotated[dict[Name, Any], Field(description="a mapping from names to s
 MORE = ("claims", "proofs")
 # The words of ./reproduce, which are told from names of figures by being words.
 WORDS = ("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report")
-WORDS += ("verify", "accept", "clean", "benchmark", "test", "help", "all")
+WORDS += ("archive", "verify", "accept", "clean", "benchmark", "test", "help", "all")
 
 
 class Document(Block):

@@ -69,10 +69,12 @@ def _derived(block, variant, change):
     if "method" in variant:  # one method instead of another
         block = {key: value for key, value in block.items() if key != "method"}
     after = merged(merged(block, given), change)
-    framing = ("ball", "energy", *KINDS[block["picture"]].framed_by)
+    kind = KINDS[block["picture"]]
+    framing = ("ball", "energy", *kind.framed_by)
     moved = variant.get("scale", 1) != 1 or any(block.get(f) != after.get(f) for f in framing)
     if moved and "axes" not in change:
-        after.pop("axes", None)
+        if "axes" in kind.model_fields and not kind.model_fields["axes"].is_required():
+            after.pop("axes", None)
     elif moved:
         after["axes"] = change["axes"]
     return after
@@ -101,7 +103,9 @@ def scaled(block, scale):
     """A complete block in another unit of length."""
     ball = block["ball"] | {"g": _product(block["ball"]["g"], scale)}
     block = block | {"ball": ball, "energy": _product(block["energy"], scale, scale)}
-    if "starts" in block:
+    for name in {"energies", "marks"} & block.keys():
+        block[name] = [_product(energy, scale, scale) for energy in block[name]]
+    if isinstance(block.get("starts"), list):
         block["starts"] = [
             {key: _product(value, scale) for key, value in start.items()}
             if isinstance(start, dict)

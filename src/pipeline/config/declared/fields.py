@@ -1,6 +1,7 @@
 """The types of the fields of config.yaml: pydantic's checks, and the words for what is allowed.
 
-A field's description is what a refusal says and what docs/config.md lists. Models only check:
+A field's description is what a refusal says is allowed; the text below a field says what it means.
+docs/config.md has both. Models only check:
 blocks stay the plain mappings that were written, so that 1 and 1.0 stay what they are.
 """
 
@@ -66,21 +67,27 @@ class BallBlock(Block):
     """a mapping with the keys k and g"""
 
     k: Inertia
+    """dimensionless Euler inertia: 1/5 for a solid sphere, 1/3 for a thin shell"""
     g: Gravity
+    """gravity, in units of R omega^2"""
 
 
 class PartOfBall(Block):
     """a mapping with the keys k and g, or one of them"""
 
     k: Inertia = None
+    """inertia"""
     g: Gravity = None
+    """gravity"""
 
 
 class Scan(Block):
     """a mapping with the keys scan and tolerance"""
 
     scan: real("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
+    """the step with which the sign of the gap is looked at"""
     tolerance: real("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
+    """the width at which bisection ends"""
 
 
 class FineScan(Scan):
@@ -94,6 +101,7 @@ class Exact(Block):
     """a mapping with the key exact"""
 
     exact: Annotated[Literal[True], Field(description="true, or no method at all")]
+    """orbits of the starts as written, each number a rounded true value"""
 
 
 def _is_exact(value):
@@ -109,14 +117,18 @@ class Axis(Block):
     """a mapping with the keys limits and ticks"""
 
     limits: Range
+    """the ends of the axis"""
     ticks: listed(Number, "a list of 1 to 50 numbers", 1, 50)
+    """where its numbers stand"""
 
 
 class View(Block):
     """a mapping with the keys elevation and azimuth"""
 
     elevation: real("a number of degrees with 0 < elevation < 90", gt=0, lt=90)
+    """the eye's angle above the plane of x and xdot"""
     azimuth: real("a number of degrees from -360 to 360", ge=-360, le=360)
+    """its angle around the axis of udot"""
 
 
 class Point(Block):
@@ -131,27 +143,34 @@ class Branch(Block):
     """a mapping with the key length"""
 
     length: real("a positive number, in radii of the section", gt=0)
+    """how far the branch is followed from the orbit"""
 
 
 class Branches(Block):
     """a mapping with the keys outer and inner, or one of them"""
 
     outer: Branch = None
+    """the branches that leave away from the fixed point"""
     inner: Branch = None
+    """the branches on the fixed point's side"""
 
 
 class Resolution(Block):
     """a mapping with the keys distance and bend"""
 
     distance: real("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
+    """the longest piece of a line"""
     bend: real("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
+    """the largest angle between neighbouring pieces"""
 
 
 class Window(Block):
     """a mapping with the keys x and xdot"""
 
     x: Range
+    """ends of the window, from the point, in section radii"""
     xdot: Range
+    """the same in xdot"""
 
 
 Between = listed(

@@ -15,6 +15,7 @@ from .fields import (
     LARGEST,
     BallBlock,
     Block,
+    Branches,
     Energy,
     FineMethod,
     Formats,
@@ -27,6 +28,7 @@ from .fields import (
     Starts,
     View,
     axes_of,
+    whole,
 )
 
 Fault = tuple[tuple, Any, str]  # place in the scene, value, what is allowed
@@ -50,10 +52,15 @@ class Scene(Block):
     studied: ClassVar[str | None] = None
 
     picture: Annotated[str, Field(description="the kind of picture: one of those below")]
+    """what is drawn"""
     ball: BallBlock = None
+    """the ball of this scene, where it is another"""
     energy: Energy
+    """the energy, which each impact keeps"""
     method: Method = None
+    """how impacts are found, where not by the certified first root"""
     formats: Formats = ["png"]
+    """the files drawn"""
 
     @classmethod
     def caption(cls) -> str:
@@ -86,7 +93,9 @@ class OfOrbits(Scene):
     """A scene of orbits from given starts."""
 
     starts: Starts
+    """where the orbits start, on y = 0 or at a point of the section"""
     impacts: Impacts
+    """how many impacts of each orbit"""
 
     @classmethod
     def faults(cls, block):
@@ -103,11 +112,28 @@ class OfOrbits(Scene):
             yield ("impacts",), impacts, what
 
 
+class OfRecords(OfOrbits):
+    """A scene of exponents along orbits."""
+
+    records: whole(2, 10_000)
+    """how many numbers of impacts have their exponents kept"""
+
+    @classmethod
+    def faults(cls, block):
+        """No more records than impacts."""
+        yield from super().faults(block)
+        least = min(each(block["impacts"], block["starts"]))
+        if block["records"] > least:
+            yield ("records",), block["records"], f"at most impacts = {least}"
+
+
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
     period: Period
+    """impacts after which the orbit closes"""
     type: OrbitType
+    """its stability"""
 
     @staticmethod
     def about_orbit(periodic, block) -> dict[str, str]:
@@ -128,6 +154,8 @@ class OfManifolds(OfPeriodicOrbit):
     method: FineMethod = None
     type: Saddle
     resolution: Resolution
+    """how finely the manifolds are traced"""
+
     sides: ClassVar[int] = 2  # of a point on which branches leave it
 
     @classmethod
@@ -148,10 +176,24 @@ class OfManifolds(OfPeriodicOrbit):
                 yield place, length, f"{what}, shared by {branches} branches = {longest:g}"
 
 
+class OfBranches(OfManifolds):
+    """A scene of branches of both sides, each as long as it says."""
+
+    branches: Branches
+    """which branches, and how far"""
+
+    @classmethod
+    def lengths(cls, block):
+        """Those of the branches."""
+        branches = block["branches"]
+        return {("branches", side, "length"): branches[side]["length"] for side in branches}
+
+
 class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
     view: View = {"elevation": 40, "azimuth": 115}
+    """from where the surface is seen"""
     axes: SECTION = None
 
 

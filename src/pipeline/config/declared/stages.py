@@ -41,42 +41,17 @@ STAGES = {
         ("period", "type", "branches", "point", "window", "length", "resolution"),
         ("periodic",),
     ),
-    "spread": Stage(
-        "pseudorigid.evidence.spread",
-        "spread",
-        ("between", "orbits", "length", "blocks", "regular", "regular_impacts", "cells", "visits"),
-        follows=False,
-    ),
-    "clusters": Stage(
-        "pseudorigid.evidence.clusters",
-        "clusters",
-        ("between", "orbits", "impacts", "cuts", "lags", "resamples", "seed"),
-        follows=False,
-    ),
-    "rotation": Stage(
-        "pseudorigid.evidence.rotation",
-        "rotation",
-        ("energies", "starts", "impacts", "detail", "detail_impacts"),
-        follows=False,
-    ),
-    "jumps": Stage(
-        "pseudorigid.evidence.jumps",
-        "jumps",
-        ("energies", "sides"),
-        follows=False,
-    ),
-    "flux": Stage(
-        "pseudorigid.evidence.flux",
-        "flux",
-        ("period", "distance", "grid", "between", "orbits", "impacts"),
-        follows=False,
-    ),
-    "last_curve": Stage(
-        "pseudorigid.evidence.last_curve",
-        "last_curve",
-        ("nobles", "convergents", "between", "impacts", "drawn"),
-        follows=False,
-    ),
+    **{
+        name: Stage(f"pseudorigid.evidence.{name}", name, tuple(fields.split()), follows=False)
+        for name, fields in {
+            "spread": "between orbits length blocks regular regular_impacts cells visits",
+            "clusters": "between orbits impacts cuts lags resamples seed",
+            "rotation": "energies starts impacts detail detail_impacts",
+            "jumps": "energies sides",
+            "flux": "period distance grid between orbits impacts",
+            "last_curve": "nobles convergents between impacts drawn",
+        }.items()
+    },
     "horseshoe": Stage(
         "pseudorigid.proofs.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
     ),

@@ -31,8 +31,14 @@ class Sweep(Block):
     """a mapping with the keys k, energy, starts, impacts and block"""
 
     k: Values
+    """inertias of the grid"""
     energy: Values
+    """energies of the grid, as E/g^2"""
     g: Gravity = None
+    """gravity, where the axis is to show E itself"""
     starts: whole(1, 1_000_000)
+    """orbits of a cell, even in area over the section"""
     impacts: whole(100, 10_000_000)
+    """impacts of each orbit"""
     block: whole(1, 100_000)
+    """cells computed by one job"""

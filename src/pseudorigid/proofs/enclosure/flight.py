@@ -15,7 +15,9 @@ from .jets import Jet
 
 MARCH_BITS = 64  # one word of the processor: a march needs no more unless it nearly touches
 _SHY = 1.0 - 1e-6  # of a parabola's root: far enough for its value there to be below zero
-_MOST_STEPS = 400
+# Steps that know f'', then steps that know f''' too: near grazing the first kind crawls. It comes
+# first because certificates state margins of what it encloses.
+_PLAIN_STEPS, _MOST_STEPS = 400, 800
 
 
 class UndecidedError(ArithmeticError):
@@ -53,6 +55,11 @@ class Gap:
         versine = 1 - cosine
         height = t * (gt / 2 - self.s) + c * (sine - t) + x * versine
         return height, gt - self.s - c * versine + x * sine, self.g + x * cosine - c * sine
+
+    def jolt(self, t):
+        """f'''(t)."""
+        sine, cosine = t.sin_cos()
+        return -self.x * sine - self.c * cosine
 
     def rounded(self):
         """The same flights in balls of the context's precision."""
@@ -181,7 +188,7 @@ def _march(gap, after):
     jerk = amplitude.upper()
     t = _first_step(x, c, s, g, jerk) if after is None else after
     far = _long_flight(gap, amplitude)
-    for _ in range(_MOST_STEPS):
+    for count in range(_MOST_STEPS):
         if far is not None and far[0] < t < far[1]:
             t = far[1]
         height, slope, curve = gap.at(t)
@@ -191,24 +198,34 @@ def _march(gap, after):
             high = (t - 2 * height.lower() / slope.lower()).mid()
             if gap.slope(t.union(high)) > 0 and gap.height(high) > 0:
                 return t, high
-        step = _step(height, slope, curve, bend, jerk)
+        jolt = None if count < _PLAIN_STEPS else gap.jolt(t).upper()
+        step = _step(height, slope, curve, bend, jerk, jolt)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
         t = (t + step).mid()
     raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
-def _step(height, slope, curve, bend, jerk):
-    """A time within which f stays below zero, from f, f' and f'' here."""
-    # f(t + h) <= f + f' h + m h^2/2 for h <= reach, m = min(f'' + A reach/3, g + A), or 0
+def _step(height, slope, curve, bend, jerk, jolt=None):
+    """A time within which f stays below zero, from f, f', f'' and perhaps f''' here."""
+    # f(t + h) <= f + f' h + m h^2/2 for h <= reach, m = min(grown(reach), g + A), or 0
     f, d, m = (float(a) for a in (height.upper(), slope.upper(), bend))
     if not f < 0.0:
         return 0
-    reach = 2.0 * _parabola_root(f, d, m)
-    flat = (curve + jerk * arb(reach) / 3).upper()
+
+    def grown(reach):
+        if jolt is None:
+            return (curve + jerk * reach / 3).upper()
+        return (curve + (max(jolt, arb(0)) + jerk * reach / 4) * reach / 3).upper()
+
+    reach = arb(2.0 * _parabola_root(f, d, m))
+    if jolt is not None:
+        while _parabola_root(f, d, min(m, max(0.0, float(grown(2 * reach))))) > 2 * reach:
+            reach *= 2
+    flat = grown(reach)
     if flat < bend:
         bend = flat if flat > 0 else arb(0)
-    step = arb(min(_SHY * _parabola_root(f, d, float(bend)), reach))
+    step = arb(min(_SHY * _parabola_root(f, d, float(bend)), float(reach)))
     return step if height + step * (slope + step * bend / 2) < 0 else 0
 
 

@@ -21,8 +21,11 @@ class Closeup(OfManifolds):
     studied = "closeup"
 
     point: whole(0, 11)
+    """which point of the orbit"""
     window: Window
+    """what is shown around the point"""
     length: real("a number above 0, in section radii", gt=0)
+    """how far the branches are followed"""
     axes: axes_of("x", "xdot") = None
 
     @classmethod

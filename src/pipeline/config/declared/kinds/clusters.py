@@ -21,12 +21,19 @@ class Clusters(Scene):
     telling = "time between clusters"
 
     between: Between
+    """the part of y = 0 on which orbits start"""
     orbits: whole(2, 100_000)
+    """how many orbits"""
     impacts: whole(100, 10_000_000)
+    """impacts of each orbit"""
     cuts: listed(real("a time above 0", gt=0), "a list of times")
+    """a longer flight parts two clusters; an analysis for each"""
     lags: whole(1, 100)
+    """up to how many clusters later correlations are computed"""
     resamples: whole(10, 100_000)
+    """resamplings of the orbits behind each interval"""
     seed: whole(0, 2**31)
+    """of the resampling"""
 
     @classmethod
     def faults(cls, block):

@@ -1,10 +1,10 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
-from ..fields import axes_of, whole
-from ..scene import OfOrbits, each
+from ..fields import axes_of
+from ..scene import OfRecords
 
 
-class Exponents(OfOrbits):
+class Exponents(OfRecords):
     """Lyapunov exponents against the number of impacts
 
     The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
@@ -22,16 +22,7 @@ class Exponents(OfOrbits):
     telling = "largest exponent"
     studied = "exponents"
 
-    records: whole(2, 10_000)
     axes: axes_of("impact", "exponent", "largest") = None
-
-    @classmethod
-    def faults(cls, block):
-        """No more records than impacts."""
-        yield from super().faults(block)
-        least = min(each(block["impacts"], block["starts"]))
-        if block["records"] > least:
-            yield ("records",), block["records"], f"at most impacts = {least}"
 
     @staticmethod
     def numbers(block, lyapunov):

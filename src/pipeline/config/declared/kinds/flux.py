@@ -18,11 +18,17 @@ class Flux(Scene):
     telling = "lobes"
 
     period: Period
+    """of the hyperbolic orbit"""
     distance: real("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
+    """between points along the branches"""
     grid: whole(10, 3000)
+    """points to a side of the grid on which the flux is counted"""
     between: Between
+    """the part of y = 0 on which orbits of the sea start"""
     orbits: whole(2, 100_000)
+    """how many orbits of the sea"""
     impacts: whole(100, 10_000_000)
+    """impacts of each of them"""
 
     @classmethod
     def faults(cls, block):

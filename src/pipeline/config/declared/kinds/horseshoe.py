@@ -4,13 +4,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from ..fields import Branches, axes_of
-from ..scene import OfManifolds
+from ..fields import axes_of
+from ..scene import OfBranches
 
 Side = Annotated[Literal["outer", "inner"], Field(description="outer or inner")]
 
 
-class Horseshoe(OfManifolds):
+class Horseshoe(OfBranches):
     """the sets of a proved horseshoe along a connection of the orbit
 
     The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its {{
@@ -26,15 +26,9 @@ class Horseshoe(OfManifolds):
     stages = ("manifolds", "horseshoe")
     telling = "sets"
 
-    branches: Branches
     connection: Side
+    """along which branches the orbit is connected with itself"""
     axes: axes_of("x", "y", "p", "q")
-
-    @classmethod
-    def lengths(cls, block):
-        """Those of the branches."""
-        branches = block["branches"]
-        return {("branches", side, "length"): branches[side]["length"] for side in branches}
 
     @staticmethod
     def numbers(block, periodic, manifolds, horseshoe):

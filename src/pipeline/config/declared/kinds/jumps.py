@@ -19,7 +19,9 @@ class Jumps(Portrait):
     studied = None
 
     energies: listed(Energy, "a list of energies", 1, 20)
+    """further energies, drawn below"""
     sides: whole(4, 100_000)
+    """sides of each curve as it is drawn and measured"""
 
     @classmethod
     def faults(cls, block):

@@ -19,10 +19,15 @@ class LastCurve(Scene):
     telling = "last residues"
 
     nobles: listed(listed(whole(0, 1000), "a continued fraction"), "a list of continued fractions")
+    """rotation numbers, each a continued fraction with ones after its end"""
     convergents: whole(2, 20)
+    """how many convergents of each"""
     between: Between
+    """the part of y = 0 on which their orbits are sought"""
     impacts: whole(100, LARGEST)
+    """impacts of the orbit at the last convergent"""
     drawn: whole(100, LARGEST)
+    """how many of these are drawn"""
 
     @classmethod
     def faults(cls, block):

@@ -22,6 +22,7 @@ class Motion(OfPeriodicOrbit):
     studied = "motion"
 
     duration: real("a number with 0 < duration <= 10000", gt=0, le=10_000)
+    """how much time is drawn"""
     axes: axes_of("t", "displacement") = None
 
     @staticmethod

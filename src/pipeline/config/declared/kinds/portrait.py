@@ -25,6 +25,7 @@ class Portrait(OnSurface, OfOrbits):
     studied = "portrait"
 
     sea: listed(Place, "a list of places in starts, counted from 0, none of them twice", 0) = []
+    """which orbits are chaotic, drawn in grey"""
 
     @classmethod
     def faults(cls, block):

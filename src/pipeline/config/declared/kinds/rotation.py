@@ -18,10 +18,15 @@ class Rotation(Scene):
     telling = "at the fixed point"
 
     energies: listed(Energy, "a list of energies", 1, 20)
+    """further energies, drawn with the first"""
     starts: whole(2, 100_000)
+    """how many starts from the fixed point to the rim"""
     impacts: whole(100, 10_000_000)
+    """impacts of each orbit"""
     detail: Between
+    """a part of y = 0 over which as many starts lie again"""
     detail_impacts: whole(100, 10_000_000)
+    """impacts of each orbit there"""
 
     @staticmethod
     def numbers(block, rotation):

@@ -1,10 +1,9 @@
 """Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
 
-from ..fields import Branches
-from ..scene import OfManifolds, OfOrbits, OnSurface
+from ..scene import OfBranches, OfOrbits, OnSurface
 
 
-class Tangle(OfManifolds, OfOrbits, OnSurface):
+class Tangle(OfBranches, OfOrbits, OnSurface):
     """manifolds on the energy surface
 
     Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period
@@ -20,14 +19,6 @@ class Tangle(OfManifolds, OfOrbits, OnSurface):
     stages = ("orbits", "manifolds", "periodic")
     telling = "orbit"
     studied = "tangle"
-
-    branches: Branches
-
-    @classmethod
-    def lengths(cls, block):
-        """Those of the branches."""
-        branches = block["branches"]
-        return {("branches", side, "length"): branches[side]["length"] for side in branches}
 
     @classmethod
     def faults(cls, block):

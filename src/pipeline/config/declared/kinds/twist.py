@@ -22,7 +22,9 @@ class Twist(Scene):
     telling = "zero of the twist"
 
     energies: listed(Energy, "a list of energies in rising order", 2, 1000)
+    """where the coefficient is computed"""
     marks: listed(Energy, "a list of energies among those", 0, 10) = []
+    """energies that are marked"""
     axes: axes_of("energy", "twist") = None
 
     @classmethod

@@ -4,21 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sections import sea
 
 from pseudorigid import orbit
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import impact, lanes
 
 BALL = Ball(k=0.2, g=0.04)
-
-
-def sea(n, energy=0.01, ball=BALL):
-    """n states over the section, islands and sea."""
-    rng = np.random.default_rng(n)
-    radius, angle = np.sqrt(rng.random(n)), 2.0 * np.pi * rng.random(n)
-    centre, size = ball.section(energy)
-    y = size * np.sqrt(ball.k * (1.0 + ball.k)) * radius * np.sin(angle)
-    return ball.state_xy(centre + size * radius * np.cos(angle), y, energy)
 
 
 def alone(states, ball, impacts):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_lanes import sea
+from sections import sea
 
 from pseudorigid import lyapunov_spectrum
 from pseudorigid.dynamics.ball import Ball

@@ -1,0 +1,28 @@
+"""CONTRIBUTING's table of guarantees names tests that exist."""
+
+import re
+
+from project import ROOT
+
+TESTS = ROOT / "tests"
+TABLE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("| Guarantee |")[2]
+ROWS = [line.strip("| ").split(" | ") for line in TABLE.splitlines()[2:] if line.startswith("|")]
+NAMED = re.compile(r"`(\w+/test_\w+\.py)(?:::(\w+))?`")
+
+
+def test_each_row_names_tests_that_exist():
+    assert len(ROWS) > 25
+    for guarantee, tests in ROWS:
+        named = NAMED.findall(tests)
+        assert named, guarantee
+        for file, test in named:
+            text = (TESTS / file).read_text(encoding="utf-8")
+            assert f"\ndef {test}(" in text if test else "\ndef test_" in text, (file, test)
+            assert "slow:" not in tests.partition(file)[0] or "mark.slow" in text, file
+
+
+def test_no_file_of_tests_is_without_a_guarantee():
+    named = {file for _, tests in ROWS for file, _ in NAMED.findall(tests)}
+    here = {str(path.relative_to(TESTS)) for path in TESTS.glob("*/test_*.py")}
+    assert named <= here
+    assert {path.partition("/")[0] for path in here} == {x.partition("/")[0] for x in named}

@@ -1,0 +1,158 @@
+"""The time to the next impact against the judge, on families of hard states."""
+
+import hashlib
+
+import mpmath
+import numpy as np
+import pytest
+from flights import FAMILIES, TAU, ahead, before, by_mpmath, error
+from judge import judge
+from mpmath import mpf
+
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.proofs.judge import first_root
+
+# sha256 of the doubles of the flights of test_bits_of_many_flights.
+FROZEN = "17974d2c018124caaa0b355ed33a3819b44222e6f11b4825fe09d60f1405d4c0"
+
+
+def states(family, seed, count):
+    rng = np.random.default_rng([seed, FAMILIES.index(family)])
+    return [tuple(float(a) for a in family(rng)) for _ in range(count)]
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_tau_against_the_judge(family):
+    worst, state = max((error(state), state) for state in states(family, 1, 400))
+    assert worst <= TAU, state
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_judges_agree_and_tau_fits_both(family):
+    """Each finds the first root by a method of its own: here they say the same to 40 digits."""
+    decided = 0
+    for state in states(family, 2, 150):
+        true = judge(*state)
+        tau = Ball(*state[:2]).time_to_impact(*state[2:])
+        assert by_mpmath(tau, true) <= TAU, state
+        try:
+            root = first_root(*state)
+        except ArithmeticError:
+            assert true.depth < 1e-15 or true.slope == 0, state
+            continue
+        decided += 1
+        with mpmath.workdps(60):
+            mantissa, exponent = root.mid().man_exp()
+            off = abs(mpmath.ldexp(mpf(int(mantissa)), int(exponent)) - true.tau)
+            assert off <= true.tau * max(1, true.condition) * mpf(10) ** -40, state
+    assert decided > 100
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("seed", range(100, 114))
+@pytest.mark.parametrize("family", FAMILIES)
+def test_tau_against_the_judge_at_length(family, seed):
+    worst, state = max((error(state), state) for state in states(family, seed, 1250))
+    assert worst <= TAU, state
+
+
+@pytest.mark.parametrize("depth", [10.0**-n for n in range(2, 14)])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_either_side_of_a_grazing(depth, side):
+    """A touching flight moved by +-depth: the judge says which root comes first."""
+    k, g, x, t = 0.2, 0.04, 0.4, mpf(7)
+    cosine, sine = mpmath.cos_sin(t)
+    c = (x * (1 - t * sine - cosine) - g * t * t / 2) / (t * cosine - sine)
+    b = -g * t - (x * sine + c * cosine)
+    v, w = (float(a) for a in before(mpf(k), b, c))
+    assert v + w > 0
+    assert error((k, g, x, v * (1.0 + side * depth), w)) <= TAU
+
+
+# Every state here was once wrong.
+REGRESSIONS = {
+    "crawl near x = -g": [
+        (0.3289125415507421, 0.017647215105901212, -0.01764721512065695,
+         5.873262117074811e-06, -5.873262117074811e-06),
+        (0.04535202124096532, 0.5431580930869265, -0.5431580954767156,
+         -0.016077036100503712, 0.016077036100503712),
+        (0.014719917971985214, 0.004874144455380341, -0.004874140553574476,
+         -0.00040587674124387894, 0.0004058767412579457),
+    ],
+    "rounded first coefficients of the tails": [
+        (0.12648022627918645, 0.7302986566236053, -0.7302986566236053,
+         0.19784995088390755, -0.19784995087390705),
+        (0.028899114230446245, 0.005521998014898891, -0.005518066548890867,
+         0.1390151388881047, -0.13900687152499422),
+    ],
+    "f'' without g + x grouped": [
+        (0.20579185302188838, 0.020898535157525072, -0.020898535157525114,
+         0.004666515600934809, -0.004666515600934809),
+        (0.08464709262553416, 0.03564797776194839, -0.03564797776197182,
+         0.00039232098767921894, -0.00039232098767921894),
+    ],
+    "wide arguments of sincos": [
+        (1.0, 2.0**-22, 0.25, *ahead(*before(1.0, -0.5, 0.125)))
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REGRESSIONS)
+def test_regressions(name):
+    for state in REGRESSIONS[name]:
+        assert error(state) <= TAU, state
+
+
+@pytest.mark.parametrize("v", [0.3, 1e-8, 0.0, -1e-8, -0.3])
+@pytest.mark.parametrize("k", [1e-9, 0.01, 0.2, 1 / 3, 1.0])
+@pytest.mark.parametrize("g", [1e-4, 0.04, 1.0])
+@pytest.mark.parametrize("share", [0.0, 0.5, -0.5, -1.0, -2.0, 3.0, 1000.0])
+def test_corners(k, g, share, v):
+    """k towards 0, 1/3 and 1; x = 0, above, at and below -g; on the rim and a hair inside it."""
+    for s in (0.0, 1e-12, 0.1):
+        if s > 0.0 or v != 0.0:
+            assert error((k, g, share * g, v, s - v)) <= TAU, s
+
+
+def test_without_vibration():
+    """k = 1, v = x = 0 leaves no strain: a ball thrown up, tau = 2 w/g."""
+    for g in (1e-4, 0.04, 1.0):
+        for w in (1e-12, 0.3, 7.0):
+            assert Ball(1.0, g).time_to_impact(0.0, 0.0, w) == pytest.approx(2 * w / g, rel=2e-16)
+
+
+def test_at_rest_on_the_floor():
+    assert Ball(0.2, 0.04).impact(0.04 / 0.2, 0.0, 0.0) == (0.04 / 0.2, 0.0, 0.0, 0.0)
+    assert Ball(0.2, 0.04).impact(-0.04, 0.0, 0.0)[3] == 0.0
+    assert Ball(0.2, 0.04).time_to_impact(-0.05, 0.0, 0.0) > 0.0
+
+
+def test_the_judge_knows_a_solved_flight():
+    """The symmetric fixed point: tau = 2 theta, with x, v, w in closed form."""
+    k, g, theta = mpf(0.2), mpf(0.04), mpf(1.25)
+    v, w = g * theta, g * theta / k
+    x = w * mpmath.cot(theta)
+    true = judge(k, g, x, v, w)
+    assert abs(true.tau - 2 * theta) < 1e-14
+    assert max(abs(a - b) for a, b in zip(true.state, (x, v, w), strict=True)) < 1e-15
+
+
+def test_bits_of_many_flights():
+    """The same on every machine: tau at 12,000 states of three balls."""
+    rng = np.random.default_rng(20)
+    x, v, w = rng.random((3, 12_000)) - 0.5
+    v, w = np.where(v + w < 0, -v, v), np.where(v + w < 0, -w, w)
+    tau = np.concatenate([Ball(0.2, g).time_to_impact(x, v, w) for g in (2.0**-12, 0.04, 0.9)])
+    digest = hashlib.sha256(tau.astype("<f8").tobytes()).hexdigest()
+    assert digest == FROZEN
+
+
+@pytest.mark.parametrize("exponent", [-1000, -700, 700, 1000])
+def test_no_unit_of_length_is_too_small_or_large(exponent):
+    """Squares of such lengths under- or overflow; the march once hung on them."""
+    unit = 2.0**exponent
+    state = (-0.05, 0.1, 0.3)
+    expected = Ball(0.2, 0.04).impact(*state)
+    *after, tau = Ball(0.2, 0.04 * unit).impact(*(unit * a for a in state))
+    assert (*after, tau) == (*(unit * a for a in expected[:3]), expected[3])
