@@ -12,17 +12,21 @@ import numpy as np
 from ..kernel import impact, lanes
 
 
+WORTH = 20_000  # impacts, half a millisecond, that a thread does at least
+
+
 def threads() -> int:
     """How many threads to use: OMP_NUM_THREADS, or one for each core of this process."""
     given = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, int(given)) if given.isdigit() else len(os.sched_getaffinity(0))
 
 
-def shared(work, *arrays):
+def shared(work, impacts, *arrays):
     """The sum of what `work` returns for the pieces of the arrays, cut along their first axis, the
-    orbits: one piece a thread.
+    orbits, of which each does `impacts`: one piece a thread, if that is worth starting one.
     """
-    workers = min(threads(), len(arrays[0]) // lanes.LANES)
+    orbits = len(arrays[0])
+    workers = min(threads(), orbits // lanes.LANES, orbits * impacts // WORTH)
     if workers < 2:
         return work(*arrays)
     pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)
@@ -89,7 +93,7 @@ class ImpactMap:
         def some(x, v, w, tau, out):
             return self._some(x, v, w, k, g, impacts, tau, out)
 
-        self.count(impacts * x.size, shared(some, x, v, w, tau, out))
+        self.count(impacts * x.size, shared(some, impacts, x, v, w, tau, out))
 
     def _some(self, x, v, w, k, g, impacts, tau, out):
         """One thread's share; how many impacts it missed."""

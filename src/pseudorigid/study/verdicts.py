@@ -53,7 +53,7 @@ def verdicts(cells=36, orbits=128):
         the true share of regular orbits; exponent and exponent_error as `sweep.cell` has them;
         exponent_long, from all LONG impacts of the orbits that are chaotic.
     """
-    places = [place for number in range(len(SETS)) for place in _places(cells, number)]
+    places = [place for number in range(len(SETS)) for place in places(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
         found = list(pool.map(lambda place: _cell(*place, orbits), places))
     sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
@@ -108,7 +108,7 @@ def _about(dims, values, text):
     return dims, values, {"long_name": text, "units": "1"}
 
 
-def _places(count, number):
+def places(count, number):
     """(k, e) of the cells of a set: energies evenly in their logarithm, to six digits."""
     random = np.random.default_rng([7, number])
     found = []
