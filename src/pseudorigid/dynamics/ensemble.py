@@ -11,7 +11,6 @@ import numpy as np
 
 from ..kernel import impact, lanes
 
-
 WORTH = 20_000  # impacts, half a millisecond, that a thread does at least
 
 

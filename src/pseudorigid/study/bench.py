@@ -122,7 +122,9 @@ def run(repetitions=REPETITIONS):
     for name in ("three sincos", "spectrum", "cells"):
         lines.append(f"{BASES[name]}: {_spread(each[name])}")
     rate = 1.0 / each["cells"][0]
-    lines.append(f"{rate:.1f} cells a second; a million of them: {1e6 / rate / 3600:.1f} core hours")
+    lines.append(
+        f"{rate:.1f} cells a second; a million of them: {1e6 / rate / 3600:.1f} core hours"
+    )
     lines.append(", ".join(f"{key} {value}" for key, value in machine().items()))
     return lines
 
