@@ -1,25 +1,74 @@
-"""Branches of the period-six saddles at the paper's values."""
+"""Branches: their promises, the map that carries them, windows, jumps and weak saddles."""
+
+import math
 
 import numpy as np
 import pytest
 
 from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid.dynamics import manifolds
 from pseudorigid.dynamics.variables import of_type
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
+RADIUS = BALL.section(ENERGY)[1]
+NAMES = "x", "xdot", "udot"
 
 
 @pytest.fixture(scope="module")
-def saddle():
-    return of_type(symmetric_orbits(BALL, ENERGY, 6), "hyperbolic")
+def orbits():
+    return symmetric_orbits(BALL, ENERGY, 6)
+
+
+@pytest.fixture(scope="module")
+def saddle(orbits):
+    return of_type(orbits, "hyperbolic")
+
+
+@pytest.fixture(scope="module")
+def inverse(orbits):
+    return of_type(orbits, "inverse hyperbolic")
+
+
+@pytest.fixture(scope="module")
+def weak():
+    """The period-ten saddle of E = 0.001, whose multiplier is 1.34."""
+    return of_type(symmetric_orbits(BALL, 0.001, 10), "hyperbolic")
+
+
+def stacked(branch):
+    return np.stack([branch[name].values for name in NAMES])
+
+
+def sides_of(points):
+    return np.sqrt(np.sum(np.diff(points, axis=1) ** 2, axis=0))
+
+
+def distances(points, line):
+    """How far each of points (3, n) is from the nearest side of a polyline (3, m)."""
+    start, along = line[:, :-1], np.diff(line, axis=1)
+    good = ~np.isnan(along[0]) & (np.sum(along * along, axis=0) > 0)
+    start, along = start[:, good], along[:, good]
+    found = []
+    for point in points.T:
+        offset = point[:, None] - start
+        share = np.clip(np.sum(offset * along, axis=0) / np.sum(along * along, axis=0), 0, 1)
+        found.append(np.sqrt(np.min(np.sum((offset - share * along) ** 2, axis=0))))
+    return np.array(found)
+
+
+def mapped(points, impacts, ball=BALL):
+    """The points (3, n), on the energy surface but for rounding, some impacts later."""
+    columns = [a.copy() for a in points]
+    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(points.shape[1]))
+    return np.stack(columns)
 
 
 @pytest.mark.parametrize("side", ["inner", "outer"])
 def test_sides_and_bends_keep_their_promise(saddle, side):
     branch = trace_manifold(BALL, ENERGY, saddle, side=side, length=2.0, distance=0.01, bend=10.0)
-    points = np.stack([branch[name].values for name in ("x", "xdot", "udot")])
-    assert np.all(points[:, 0] == [saddle[name].values[0] for name in ("x", "xdot", "udot")])
-    steps = np.diff(points, axis=1) / BALL.section(ENERGY)[1]
+    points = stacked(branch)
+    assert np.all(points[:, 0] == [saddle[name].values[0] for name in NAMES])
+    steps = np.diff(points, axis=1) / RADIUS
     sides = np.sqrt(np.sum(steps**2, axis=0))
     assert np.nanmax(sides) <= 0.01
     cosine = np.sum(steps[:, 1:] * steps[:, :-1], axis=0) / (sides[1:] * sides[:-1])
@@ -29,18 +78,251 @@ def test_sides_and_bends_keep_their_promise(saddle, side):
     assert branch.attrs["start_error"] < 1e-10
 
 
+@pytest.mark.parametrize("side", ["inner", "outer"])
+def test_a_branch_is_mapped_into_itself(saddle, side):
+    """P^6 takes the first part of a branch onto the branch, twice as far out."""
+    branch = stacked(trace_manifold(BALL, ENERGY, saddle, side=side, length=1.0, bend=2.0))
+    travelled = np.concatenate([[0.0], np.cumsum(sides_of(branch))]) / RADIUS
+    some = branch[:, (travelled > 1e-4) & (travelled < 0.1)]
+    assert some.shape[1] > 20
+    assert np.max(distances(mapped(some, 6), branch)) < 3e-5 * RADIUS
+
+
+def test_a_branch_leaves_its_point_by_the_multiplier(saddle):
+    """Near the point, P^6 multiplies the distance from it by the multiplier."""
+    branch = stacked(trace_manifold(BALL, ENERGY, saddle, 2, length=0.01))
+    point = branch[:, :1]
+    off = np.sqrt(np.sum((branch - point) ** 2, axis=0))
+    near = (off > 1e-6 * RADIUS) & (off < 1e-5 * RADIUS)
+    after = np.sqrt(np.sum((mapped(branch[:, near], 6) - point) ** 2, axis=0))
+    assert after / off[near] == pytest.approx(float(saddle["multiplier"]), rel=1e-3)
+
+
 def test_the_stable_branch_is_the_mirror_image(saddle):
     unstable = trace_manifold(BALL, ENERGY, saddle, 1, length=0.5)
     stable = trace_manifold(BALL, ENERGY, saddle, 0, stable=True, length=0.5)
-    mirrored = BALL.reflect(*(unstable[name].values for name in ("x", "xdot", "udot")))
-    # rounding may put points elsewhere on the line; none is further from it than a side is long
-    across = mirrored[0][:, None] - stable["x"].values
-    along = mirrored[1][:, None] - stable["xdot"].values
-    near = np.min(np.sqrt(across**2 + along**2), axis=1)
-    assert np.max(near) < 0.01 * BALL.section(ENERGY)[1]
+    mirrored = np.stack(BALL.reflect(*stacked(unstable)))
+    # rounding may put points elsewhere on the line
+    assert np.max(distances(mirrored, stacked(stable))) < 1e-4 * RADIUS
 
 
-def test_an_elliptic_orbit_has_none():
-    elliptic = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
+def test_a_stable_branch_comes_to_its_point(saddle):
+    branch = stacked(trace_manifold(BALL, ENERGY, saddle, 3, stable=True, length=0.05))
+    point, last = branch[:, 0], branch[:, [-1]]
+    off = np.sqrt(np.sum((last[:, 0] - point) ** 2))
+    for _ in range(6):
+        last = mapped(last, 6)
+        nearer = np.sqrt(np.sum((last[:, 0] - point) ** 2))
+        assert nearer < 0.75 * off
+        off = nearer
+
+
+def test_inner_and_outer_leave_on_opposite_sides(saddle):
+    for point in range(6):
+        inner, outer = (
+            stacked(trace_manifold(BALL, ENERGY, saddle, point, side=side, length=0.001))
+            for side in ("inner", "outer")
+        )
+        a, b = (branch[:, -1] - branch[:, 0] for branch in (inner, outer))
+        assert np.sum(a * b) < -0.99 * math.sqrt(np.sum(a * a) * np.sum(b * b))
+
+
+# ---- the inverse hyperbolic orbit ----
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+def test_an_inverse_hyperbolic_branch_changes_sides(inverse, side):
+    """P^6 takes each branch onto the other, P^12 onto itself, by the multiplier's square."""
+    multiplier = float(inverse["multiplier"])
+    assert multiplier < -2
+    other = "outer" if side == "inner" else "inner"
+    one, across = (
+        stacked(trace_manifold(BALL, ENERGY, inverse, 1, side=s, length=0.5, bend=2.0))
+        for s in (side, other)
+    )
+    off = np.sqrt(np.sum((one - one[:, :1]) ** 2, axis=0))
+    near = (off > 2e-6 * RADIUS) & (off < 1e-3 * RADIUS)
+    assert near.sum() > 20
+    six, twelve = mapped(one[:, near], 6), mapped(one[:, near], 12)
+    assert np.max(distances(six, across)) < 1e-5 * RADIUS
+    assert np.max(distances(twelve, one)) < 1e-5 * RADIUS
+    first = off[near] < 1e-5 * RADIUS
+    grown = np.sqrt(np.sum((twelve[:, first] - one[:, :1]) ** 2, axis=0)) / off[near][first]
+    assert grown == pytest.approx(multiplier**2, rel=1e-3)
+
+
+# ---- windows ----
+
+
+def window_around(saddle, point, size):
+    x, v = float(saddle["x"][point]), float(saddle["xdot"][point])
+    return (x - size, x + 0.7 * size, v - 0.8 * size, v + size)
+
+
+def test_a_window_keeps_what_passes_through_it(saddle):
+    """As the whole branch, drawn finely, has it; and nothing else but ends of sides that enter."""
+    window = window_around(saddle, 1, 0.02)
+    fine = {"distance": 2e-4, "bend": 2.0, "length": 1.0}
+    whole = stacked(trace_manifold(BALL, ENERGY, saddle, 0, side="inner", **fine))
+    seen = trace_manifold(
+        BALL, ENERGY, saddle, 0, side="inner", length=1.0, distance=0.01, bend=2.0, window=window
+    )
+    points = stacked(seen)
+
+    def inside(line):
+        low, high = np.array(window[::2])[:, None], np.array(window[1::2])[:, None]
+        return np.all((line[:2] >= low) & (line[:2] <= high), axis=0)
+
+    there = whole[:, inside(whole)]
+    assert there.shape[1] > 100
+    assert np.max(distances(there, points)) < 2e-4 * 0.02
+    shown = ~np.isnan(points[0])
+    near = inside(points) | np.append(inside(points)[1:], False)
+    near |= np.append(False, inside(points)[:-1])
+    crossing = ~near & shown  # both ends outside: the side's box meets the window
+    assert crossing.sum() <= 0.05 * shown.sum()
+    sides = np.diff(points[:2], axis=1) / np.array([[0.034], [0.036]])
+    both = inside(points)[1:] & inside(points)[:-1]
+    assert np.nanmax(np.sqrt(np.sum(sides**2, axis=0))[both]) <= 0.01
+
+
+def test_a_window_elsewhere_shows_nothing(saddle):
+    centre, radius = BALL.section(ENERGY)
+    window = (centre + 2 * radius, centre + 3 * radius, 0.0, 0.1)
+    branch = trace_manifold(BALL, ENERGY, saddle, length=0.3, window=window)
+    assert branch.sizes["vertex"] == 0
+
+
+def test_a_window_collects_all_saddles(orbits):
+    found = manifolds.scene_manifolds(
+        BALL, ENERGY, orbits, 6, "hyperbolic", {"distance": 0.02, "bend": 10},
+        point=0, window={"x": [-0.01, 0.01], "xdot": [-0.01, 0.01]}, length=0.3,
+    )  # fmt: skip
+    assert found.sizes["branch"] == 24
+    assert int(found["row_size"].sum()) == found.sizes["vertex"]
+    own = (found["saddle"].values == 0) & (found["row_size"].values > 0)
+    assert own.sum() == 4
+    assert found.attrs["window_x"][0] < found.attrs["point_x"] < found.attrs["window_x"][1]
+
+
+# ---- jumps ----
+
+
+def test_a_branch_is_interrupted_where_the_map_jumps(saddle):
+    """The outer branch meets the curve where the last flight nearly touched the floor."""
+    branch = trace_manifold(BALL, ENERGY, saddle, 0, side="outer", length=8.0)
+    points = stacked(branch)
+    (gaps,) = np.nonzero(np.isnan(points[0]))
+    assert gaps.size > 0
+    apart = np.sqrt(np.sum((points[:, gaps + 1] - points[:, gaps - 1]) ** 2, axis=0)) / RADIUS
+    assert np.all(apart > 1e-6)
+    wide = apart > 0.05
+    assert wide.any()
+    # one impact before a wide jump both ends are one state: s' -> 0, or a common place
+    for gap in gaps[wide]:
+        ends = points[:, [gap - 1, gap + 1]]
+        history = [ends]
+        for _ in range(12):
+            back = np.stack(BALL.inverse_impact(*history[-1])[:3])
+            history.append(back)
+        spread = [np.max(np.abs(a[:, 0] - a[:, 1])) for a in history]
+        assert min(spread) < 1e-3 * RADIUS
+    steps = sides_of(points) / RADIUS
+    assert np.nanmax(steps) <= 0.01 + 1e-12
+
+
+def test_no_jumps_below_their_onset():
+    orbit = of_type(symmetric_orbits(BALL, 0.0017, 10), "hyperbolic")
+    branch = trace_manifold(BALL, 0.0017, orbit, side="outer", length=3.0)
+    assert not np.any(np.isnan(branch["x"].values))
+
+
+# ---- weak saddles ----
+
+
+def test_weak_is_below_a_multiplier_and_the_papers_is_not(saddle, weak):
+    assert float(saddle["multiplier"]) > manifolds.WEAK > float(weak["multiplier"]) > 1
+
+
+def test_a_weak_branch_keeps_its_promises_without_going_to_and_fro(weak):
+    radius = BALL.section(0.001)[1]
+    for side in ("inner", "outer"):
+        branch = trace_manifold(BALL, 0.001, weak, side=side, length=0.5)
+        points = stacked(branch)
+        sides = sides_of(points) / radius
+        assert sides.max() <= 0.01
+        assert sides.sum() == pytest.approx(0.5, abs=0.02)
+        assert branch.sizes["vertex"] < 4000  # 14,000 and 47,000 of points on their own
+        assert "ended" not in branch.attrs
+
+
+def test_a_weak_branch_is_mapped_into_itself(weak):
+    """To within what its sides allow, over the whole way to the next saddle and on."""
+    radius = BALL.section(0.001)[1]
+    branch = stacked(trace_manifold(BALL, 0.001, weak, side="outer", length=0.5, bend=2.0))
+    travelled = np.concatenate([[0.0], np.cumsum(sides_of(branch))]) / radius
+    some = branch[:, (travelled > 1e-4) & (travelled < 0.35)][:, ::3]
+    assert np.max(distances(mapped(some, 10), branch)) < 5e-5 * radius
+
+
+def test_image_by_image_and_from_the_segment_are_one_line(saddle, monkeypatch):
+    """Where both ways are good: the paper's saddle, as if it were weak."""
+    for side, length in (("inner", 0.8), ("outer", 0.6)):
+        how = {"side": side, "length": length, "distance": 0.005, "bend": 3.0}
+        exact = stacked(trace_manifold(BALL, ENERGY, saddle, **how))
+        with monkeypatch.context() as patch:
+            patch.setattr(manifolds, "WEAK", 3.0)
+            one = trace_manifold(BALL, ENERGY, saddle, **how)
+        assert "ended" not in one.attrs
+        off = distances(stacked(one)[:, :-2], exact)  # one may be a vertex longer
+        assert np.max(off) < 1e-5 * RADIUS
+
+
+def test_a_branch_ends_where_rounding_takes_over():
+    """At E = 0.0008 the inner branches part by less than rounding: past the next saddle nothing
+    is known of them.
+    """
+    orbit = of_type(symmetric_orbits(BALL, 0.0008, 10), "hyperbolic")
+    radius = BALL.section(0.0008)[1]
+    branch = trace_manifold(BALL, 0.0008, orbit, side="inner", length=0.5)
+    points = stacked(branch)
+    assert branch.attrs["ended"] == pytest.approx(np.sum(sides_of(points)) / radius, rel=1e-3)
+    assert branch.attrs["ended"] < 0.2
+    others = np.stack([orbit[name].values for name in NAMES])[:, 1:]
+    gaps = np.sqrt(np.sum((others - points[:, [-1]]) ** 2, axis=0))
+    assert gaps.min() < 1e-4 * radius
+
+
+def test_what_does_not_come_that_far_is_refused(weak, monkeypatch):
+    monkeypatch.setattr(manifolds, "MOST_IMAGES", 20)
+    with pytest.raises(ValueError, match=r"section radii long after 27 images, .* 1\.34235"):
+        trace_manifold(BALL, 0.001, weak, length=0.5)
+
+
+# ---- what is refused ----
+
+
+def test_an_elliptic_orbit_has_none(orbits):
     with pytest.raises(ValueError, match="elliptic"):
-        trace_manifold(BALL, ENERGY, elliptic)
+        trace_manifold(BALL, ENERGY, of_type(orbits, "elliptic"))
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"saddle": 6}, "saddle = 6 is not allowed: an index from 0 to 5"),
+        ({"side": "left"}, "side = 'left' is not allowed"),
+        ({"length": 0.0}, "length = 0.0 is not allowed: above 0"),
+        ({"distance": -1.0}, "distance = -1.0 is not allowed"),
+        ({"bend": 180.0}, "bend = 180.0 is not allowed"),
+        ({"window": (1.0, 0.0, 0.0, 1.0)}, "window = .* is not allowed"),
+    ],
+)
+def test_arguments_out_of_range_are_refused(saddle, fields, words):
+    with pytest.raises(ValueError, match=words):
+        trace_manifold(BALL, ENERGY, saddle, **fields)
+
+
+def test_another_energy_is_refused(saddle):
+    with pytest.raises(ValueError, match=r"energy = 0\.02 is not allowed: the orbit's own, 0\.01"):
+        trace_manifold(BALL, 0.02, saddle)

@@ -62,6 +62,17 @@ def test_cells_fill_whole_pixels():
             assert all("#" + bytes(pixel).hex() == wanted for pixel in patch)
 
 
+def test_values_beyond_the_scale_have_the_colours_of_its_ends():
+    share = np.full((3, 4), -0.2)
+    share[1] = 1.7
+    image = render.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share)))
+    scale = raster.palette("viridis")
+    height = atlas.HIGH // 3
+    at = int(atlas.LEFT + 0.3 * atlas.WIDE / 4), int(UPPER + 0.3 * height)
+    assert commonest(image, *at) == scale[0]
+    assert commonest(image, at[0], at[1] + height) == scale[-1]
+
+
 def test_the_scales_are_sixty_four_colours_in_order():
     for name in ("viridis", "magma"):
         colors = raster.palette(name)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from sections import sea
 
 from pseudorigid import orbit
+from pseudorigid.dynamics import ensemble
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import impact, lanes
 
@@ -90,13 +91,14 @@ def test_few_flights_leave_their_lane(monkeypatch):
 @pytest.mark.parametrize("threads", ["1", "3", "8", "", "many"])
 def test_threads_do_not_matter(threads, monkeypatch):
     states = sea(300)
-    expected = alone(states, BALL, 60)
+    assert 3 * ensemble.WORTH < 300 * 400
+    expected = alone(states, BALL, 400)
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     out = np.empty_like(expected)
     BALL.map.history(*(a.copy() for a in states), BALL.k, BALL.g, out)
     assert np.array_equal(out, expected)
     ends, tau = [a.copy() for a in states], np.empty(300)
-    BALL.map.steps(*ends, BALL.k, BALL.g, 60, tau)
+    BALL.map.steps(*ends, BALL.k, BALL.g, 400, tau)
     assert np.array_equal(np.stack([*ends, tau], axis=1), expected[:, -1])
 
 

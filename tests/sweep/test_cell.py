@@ -113,6 +113,30 @@ def test_nothing_is_chaotic_near_rest():
     assert found["chain_period"] == 0
 
 
+def test_a_chaotic_cell_has_the_exponent_of_long_orbits():
+    found = cell.cell(0.2, 6.25, 1500, 500)
+    # 64 orbits of 1e7 impacts give 0.23171 +- 0.00007
+    assert found["exponent"] == pytest.approx(0.23171, abs=4 * found["exponent_error"])
+    assert 0.001 < found["exponent_error"] < 0.003
+    assert found["exponent_low"] < found["exponent"] < found["exponent_high"]
+
+
+def test_the_interval_holds_the_thresholds_own_uncertainty():
+    found = cell.cell(0.2, 0.625, 400, 1000)
+    low, _ = cell.wilson(round(400 * found["regular_strict"]), 400)
+    _, high = cell.wilson(round(400 * found["regular_lenient"]), 400)
+    assert (found["regular_low"], found["regular_high"]) == (low, high)
+    assert found["regular_strict"] < found["regular"] < found["regular_lenient"]
+
+
+def test_cells_are_the_same_together_and_alone():
+    energies = [0.3, 2.0, 6.25]
+    together = cell.cells(0.2, energies, 150, 1000)
+    for e, found in zip(energies, together, strict=True):
+        for name, value in cell.cell(0.2, e, 150, 1000).items():
+            assert np.array_equal(found[name], value, equal_nan=True), name
+
+
 def joined(size):
     """The dataset of the small sweep, computed in blocks of this size."""
     sweep = SMALL | {"block": size}

@@ -5,6 +5,7 @@ from importlib import import_module
 from job import one_line_errors, recorded
 from pipeline.records import artifacts
 from pseudorigid.study import failures, figure_errors, states, work
+from pseudorigid.study.machine import machine
 
 
 def libraries():
@@ -33,6 +34,7 @@ PARTS = {
     "edges": lambda: failures.edges(failures.EDGE_METHODS),
     "orbits": failures.orbits,
     "needs": errors_of_figures,
+    "verdicts": lambda: import_module("pseudorigid.study.verdicts").verdicts(),
     "work_all": lambda: work.measured([*work.METHODS, *libraries()]),
     "edges_all": lambda: failures.edges(edge_rivals(), 40),
     "missed_all": lambda: failures.missed(edge_rivals()),
@@ -42,7 +44,7 @@ with one_line_errors(snakemake), recorded(snakemake):
     part = snakemake.wildcards.scene
     dataset = PARTS[part]()
     if part.endswith("_all"):
-        dataset.attrs |= import_module("pseudorigid.study.bench").machine()
+        dataset.attrs |= machine()
     artifacts.save(
         dataset,
         snakemake.output[0],

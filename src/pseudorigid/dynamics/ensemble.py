@@ -12,6 +12,8 @@ import numpy as np
 
 from ..kernel import impact, lanes
 
+WORTH = 20_000  # impacts, half a millisecond, that a thread does at least
+
 
 def threads() -> int:
     """How many threads to use.
@@ -25,13 +27,15 @@ def threads() -> int:
     return max(1, int(given)) if given.isdigit() else len(os.sched_getaffinity(0))
 
 
-def shared(work, *arrays):
-    """Do work on pieces of arrays, one piece a thread.
+def shared(work, impacts, *arrays):
+    """Do work on pieces of arrays, one piece a thread, if that is worth starting one.
 
     Parameters
     ----------
     work : callable
         Takes the pieces, returns a number.
+    impacts : int
+        Of each orbit: a thread is started only where it has WORTH of them to do.
     *arrays : ndarray
         Cut along their first axis, the orbits.
 
@@ -40,7 +44,8 @@ def shared(work, *arrays):
     int
         The sum of what `work` returns.
     """
-    workers = min(threads(), len(arrays[0]) // lanes.LANES)
+    orbits = len(arrays[0])
+    workers = min(threads(), orbits // lanes.LANES, orbits * impacts // WORTH)
     if workers < 2:
         return work(*arrays)
     pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)
@@ -155,7 +160,7 @@ class ImpactMap:
         def some(x, v, w, tau, out):
             return self._some(x, v, w, k, g, impacts, tau, out)
 
-        self.count(impacts * x.size, shared(some, x, v, w, tau, out))
+        self.count(impacts * x.size, shared(some, impacts, x, v, w, tau, out))
 
     def _some(self, x, v, w, k, g, impacts, tau, out):
         """One thread's share; how many impacts it missed."""

@@ -69,7 +69,7 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     def some(x, v, w, out):
         return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)
 
-    missed = shared(some, *(a.flatten() for a in state), out)
+    missed = shared(some, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
     exponent = (
         ("impact", *dims, "index"),

@@ -6,6 +6,8 @@ starts on Fix R and is on Fix RP after m impacts. On Fix RP the flight that foll
 time: b + g tau/2 = 0. Orbits without that symmetry are not looked for.
 """
 
+from itertools import product
+
 import numpy as np
 import xarray as xr
 
@@ -73,15 +75,16 @@ def symmetric_orbits(ball, energy, period):
     """
     period = whole_number("period", period)
     _, radius = ball.section(energy)
-    seen, found = np.empty((3, 0)), []
+    seen, orbits, found = _Points(SAME * radius), 0, []
     for line in _lines(ball, energy, period):
         for state in _solutions(ball, line, period, radius):
             points = _follow(ball, state, period)
-            # known already, or back before the period is over: its prime period is a divisor
-            others = np.hstack((seen, points[:3, 1:]))
-            if np.any(np.all(np.abs(points[:3, :1] - others) < SAME * radius, axis=0)):
+            if seen.has(points[:3, 0]):
                 continue
-            seen = np.hstack((seen, points[:3]))
+            if np.any(np.all(np.abs(points[:3, :1] - points[:3, 1:]) < SAME * radius, axis=0)):
+                continue  # its prime period is a divisor
+            seen.add(points[:3])
+            orbits += 1
             # the third eigenvalue of eq. (33)'s product is 1
             trace = float(np.trace(ball.jacobian(*points[:3, 0], impacts=period)) - 1.0)
             limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
@@ -95,8 +98,32 @@ def symmetric_orbits(ball, energy, period):
     names = NAMES | {"tau": "time of flight to the next point"}
     data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
     attrs = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
-    attrs |= {"resolution": RESOLUTION, "unsolved": seen.shape[1] // period - len(found)}
+    attrs |= {"resolution": RESOLUTION, "unsolved": orbits - len(found)}
     return xr.Dataset(data | _stability(np.array([t for t, _ in found]), points[:, 3]), attrs=attrs)
+
+
+class _Points:
+    """Points of space, kept in boxes of the size `near`, so that a neighbour is found at once."""
+
+    def __init__(self, near):
+        self.near, self.boxes = near, {}
+
+    def add(self, points):
+        """Add points (3, n)."""
+        for point in points.T.tolist():
+            self.boxes.setdefault(self._box(point), []).append(point)
+
+    def has(self, point):
+        """Whether a point is nearer than `near` in every coordinate."""
+        i, j, k = self._box(point)
+        for box in product((i - 1, i, i + 1), (j - 1, j, j + 1), (k - 1, k, k + 1)):
+            for other in self.boxes.get(box, ()):
+                if max(abs(a - b) for a, b in zip(point, other, strict=True)) < self.near:
+                    return True
+        return False
+
+    def _box(self, point):
+        return tuple(int(value / self.near // 1.0) for value in point)
 
 
 def _stability(traces, tau):
@@ -163,11 +190,13 @@ def _solutions(ball, line, period, radius):
         ball.map.steps(*state, ball.k, ball.g, period // 2, np.empty(p.size))
         return defect(*state)
 
-    for ends in zip(*_sign_changes(value, parameters), strict=True):
-        states = start(np.array(ends))
-        _, gaps = _gaps(ball, states, period)
-        if np.min(gaps) < JUMP * radius:  # a jump changes sign too, but does not close
-            yield states[:, np.argmin(gaps)]
+    ends = np.concatenate(_sign_changes(value, parameters))
+    states = start(ends)
+    _, gaps = _gaps(ball, states, period)
+    states, gaps = states.reshape(3, 2, -1), gaps.reshape(2, -1)
+    for root in range(gaps.shape[1]):
+        if np.min(gaps[:, root]) < JUMP * radius:  # a jump changes sign too, but does not close
+            yield states[:, np.argmin(gaps[:, root]), root]
 
 
 def _sign_changes(value, parameters):
@@ -222,6 +251,8 @@ def _closest(ball, energy, state, period):
         y = state[1] - ball.k * state[2]
         fx, fy = after[0, 0] - state[0], (after[1, 0] - ball.k * after[2, 0]) - y
         determinant = (a - 1.0) * (d - 1.0) - b * c
+        if determinant == 0.0:
+            break
         dx = (b * fy - (d - 1.0) * fx) / determinant
         dy = (c * fx - (a - 1.0) * fy) / determinant
         try:

@@ -5,7 +5,9 @@ import re
 
 import numpy as np
 
-from .axes.panel import Axis, Panel, decades, key
+from .axes.panel import Axis, Panel, decades, key, log10
+from .axes.raster import decades as decade_ticks
+from .axes.raster import minor
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
 
@@ -34,6 +36,14 @@ SINGLE = {
     "scan 0.1, 1e-06": style.PURPLE,
     "scan 0.1, 1e-09": "#8f4772",
     "engine 1e-03": "#a86f00",
+}
+# The same for the ways to tell regular orbits from chaotic ones.
+VERDICTS = {
+    "growth, below 3": (style.BLACK, "s"),
+    "growth": (style.BLUE, "o"),
+    "SALI": (style.GREEN, "D"),
+    "weighted Birkhoff average": (style.ORANGE, "^"),
+    "as soon as safe": (style.VERMILION, "o"),
 }
 LEFT, RIGHT = 150, 1010  # pixels: the frames of charts
 ZERO = -18  # the decade at which zeros are drawn, named so: a double's own error is above 1e-17
@@ -246,6 +256,49 @@ def figure_errors(data):
             sheet.text(740, y + shift, _written(text), ha="left", va="center", size=7.0)
     entries = [(family, *_style(family), False) for family in dict.fromkeys(families)]
     key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
+    return sheet.figure
+
+
+@style.pinned()
+def verdicts(data):
+    """Share of wrong verdicts against impacts an orbit, for both sets of cells.
+
+    Bars: one standard error of the share.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of study.verdicts.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    sheet = _sheet(1275)
+    top = sheet.high - 70
+    ticks = log10(data["length"].values).tolist()
+    names = [f"{length:,}" for length in data["length"].values.tolist()]
+    across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
+    blank = Axis(across.limits, ticks, "", True, [""] * len(ticks))
+    up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
+    orbits = data.attrs["orbits"] * data.sizes["cell"]
+    for row, axis in enumerate((blank, across)):
+        frame = (LEFT, top - 420 - row * 500, RIGHT, top - row * 500)
+        panel = Panel(sheet, frame, axis, up)
+        minor(panel, up=decade_ticks(*up.limits))
+        title = f"Wrong verdicts, {data['cells'].values[row]}"
+        sheet.text(LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
+        for i, name in enumerate(data["name"].values):
+            color, marker = VERDICTS[name]
+            cost, wrong = data["cost"].values[row, i], data["wrong"].values[row, i]
+            error = np.sqrt(wrong * (1.0 - wrong) / orbits)
+            shown = np.maximum((wrong, wrong - error, wrong + error), 10.0 ** up.limits[0])
+            panel.line(cost, shown[0], color=color, lw=0.9)
+            for x, low, high in zip(cost, *shown[1:], strict=True):
+                panel.line([x, x], [low, high], color=color, lw=0.6)
+            panel.dots(cost, shown[0], color, marker=marker)
+    entries = [(name, *VERDICTS[name], False) for name in data["name"].values]
+    key(sheet, entries, top - 1070, 2)
     return sheet.figure
 
 

@@ -1,28 +1,64 @@
 """Ratios of speed: medians of repetitions taken in turn, in one run.
 
-`run` returns rows of text; nothing here enters a figure. One core throughout.
+`run` returns rows of text; nothing here enters a figure. One core throughout; seconds are the
+processor's, so that other work on the machine shows less.
 """
 
+import math
 import os
-import platform
 import statistics
 import time
-from functools import cache
-from importlib.metadata import version
+from functools import cache, partial
+from unittest.mock import patch
 
 import numpy as np
 
+from ..dynamics import manifolds
+from ..dynamics.ball import Ball
+from ..dynamics.follow import KEPT, VECTOR, follow
 from ..dynamics.lyapunov import lyapunov_spectrum
+from ..dynamics.periodic import symmetric_orbits
+from ..dynamics.variables import of_type
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
+from ..sweep.cell import cells
 from . import states
+from .machine import machine
 from .methods import counted as own
-from .methods import scipy_events, taylor, toolkit
+from .methods import scipy_events, taylor, to_the_end, toolkit
+from .verdicts import places
 
 REPETITIONS = 9
 IMPACTS = 200_000
 LANES = 1024
-PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys")
+CELLS = 3, 6  # values of k, and energies of each, at random over the atlas's plane
+WEAK = 0.001  # the energy of a weak saddle of period 10
+MANY = 1e5  # E/g^2 where orbits of period 12 are many
+UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
+BASES = {
+    "one sincos": "one dependent sincos",
+    "three sincos": "three dependent sincos",
+    "orbit": "one orbit",
+    "spectrum": "spectrum here",
+    "cells": "a cell here",
+    "branch": "that branch here",
+    "none": "a search that finds none",
+}
+# what, its call, what it is compared with, and the aim
+ROWS = (
+    ("one orbit, an impact", "orbit", "three sincos", "at most 2.3"),
+    ("scan 0.1 and bisection to 1e-12", "scan", "orbit", "at least 5"),
+    ("heyoka, default tolerance", "heyoka", "orbit", "at least 25"),
+    ("solve_ivp DOP853, rtol 1e-9", "DOP853", "orbit", "at least 2000"),
+    ("spectrum by pynamicalsys, an impact", "pynamicalsys", "spectrum", "at least 3"),
+    ("ensemble, the end only, an impact", "ensemble", "one sincos", "at most 1.2"),
+    ("ensemble, every impact stored", "stored", "one sincos", "at most 1.6"),
+    ("ensemble with a tangent vector each", "vectors", "one sincos", "at most 3; 5 with AVX2"),
+    ("spectra of an ensemble, an impact", "spectra", "spectrum", "at most 0.5"),
+    ("a cell, each orbit alone and to its end", "to the end", "cells", "at least 6"),
+    ("weak branch, each image from the segment", "from the segment", "branch", "at least 5"),
+    ("period 12 at E/g^2 = 1e5: 2,006 orbits", "many", "none", "at most 50"),
+)
 
 
 @jit
@@ -37,10 +73,10 @@ def _three_sincos(t, count):
 
 
 def timed(call):
-    """Seconds that a call takes."""
-    start = time.perf_counter()
+    """Seconds of the processor that a call takes."""
+    start = time.process_time()
     call()
-    return time.perf_counter() - start
+    return time.process_time() - start
 
 
 def interleaved(calls, repetitions=REPETITIONS):
@@ -55,7 +91,7 @@ def interleaved(calls, repetitions=REPETITIONS):
 
 
 def run(repetitions=REPETITIONS):
-    """The table as lines: what, nanoseconds, ratio; then the machine and the versions."""
+    """The table as lines: what, seconds, ratio; then the machine and the versions."""
     ball = states.BALL
     chaotic = states.chaotic()
     few = _along(chaotic, 20)
@@ -63,65 +99,69 @@ def run(repetitions=REPETITIONS):
     scan = own.scan_method(0.1, 1e-12)
     dop = scipy_events.ivp_method("DOP853", 1e-9)
     hey = taylor.taylor_method(1e-15, "positive")
-    calls = {
-        "three sincos": (lambda: _three_sincos(1.0, IMPACTS), IMPACTS),
-        "orbit": (lambda: _orbit(chaotic, IMPACTS), IMPACTS),
-        "scan": (lambda: scan.solve(ball, *some), 500),
-        "heyoka": (lambda: hey.solve(ball, *some), 500),
-        "DOP853": (lambda: dop.solve(ball, *few), 20),
-        "spectrum": (lambda: lyapunov_spectrum(ball, chaotic, IMPACTS, records=1), IMPACTS),
-        "pynamicalsys": (lambda: toolkit.spectrum(ball, chaotic, IMPACTS), IMPACTS),
-        "ensemble": (lambda: _ensemble(LANES, 200), 200 * LANES),
-        "stored": (lambda: _stored(LANES, 200), 200 * LANES),
-    }
+    calls = {  # name: (what is called, how many of what the row counts it does)
+        "three sincos": (partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
+        "orbit": (partial(_orbit, chaotic, IMPACTS), IMPACTS),
+        "scan": (partial(scan.solve, ball, *some), 500),
+        "heyoka": (partial(hey.solve, ball, *some), 500),
+        "DOP853": (partial(dop.solve, ball, *few), 20),
+        "spectrum": (partial(lyapunov_spectrum, ball, chaotic, IMPACTS, records=1), IMPACTS),
+        "pynamicalsys": (partial(toolkit.spectrum, ball, chaotic, IMPACTS), IMPACTS),
+        "ensemble": (partial(_ensemble, LANES, 200), 200 * LANES),
+        "stored": (partial(_stored, LANES, 200), 200 * LANES),
+        "vectors": (partial(_vectors, LANES, 192), 192 * LANES),
+        "spectra": (partial(lyapunov_spectrum, ball, _start(LANES), 192, records=1), 192 * LANES),
+    } | _whole()
     found = interleaved({name: call for name, (call, _) in calls.items()}, repetitions)
-    each = {name: tuple(1e9 * s / calls[name][1] for s in found[name]) for name in calls}
-    chain, one, spectrum = (each[name][0] for name in ("three sincos", "orbit", "spectrum"))
-    bases = {
-        "three dependent sincos": chain,
-        "one dependent sincos": chain / 3.0,
-        "one orbit": one,
-        "spectrum here": spectrum,
-    }
-    rows = [
-        ("one orbit, an impact", "orbit", "three dependent sincos", "at most 2.3"),
-        ("scan 0.1 and bisection to 1e-12", "scan", "one orbit", "at least 5"),
-        ("heyoka, default tolerance", "heyoka", "one orbit", "at least 25"),
-        ("solve_ivp DOP853, rtol 1e-9", "DOP853", "one orbit", "at least 2000"),
-        ("spectrum by pynamicalsys", "pynamicalsys", "spectrum here", "at least 3"),
-        ("ensemble, the end only", "ensemble", "one dependent sincos", "at most 1.2"),
-        ("ensemble, every impact stored", "stored", "one dependent sincos", "at most 1.6"),
-    ]
-    lines = [f"{'':34}{'ns an impact':>24}  {'ratio':>9}  {'to':24}aim"]
-    for text, name, base, aim in rows:
-        middle, low, high = each[name]
-        spread = f"{middle:.4g} ({low:.4g}-{high:.4g})"
-        lines.append(f"{text:34}{spread:>24}  {middle / bases[base]:9.4g}  {base:24}{aim}")
-    lines.append(f"three dependent sincos: {chain:.1f} ns; spectrum here: {spectrum:.0f} ns")
+    each = {name: tuple(s / calls[name][1] for s in found[name]) for name in calls}
+    each["one sincos"] = tuple(s / 3.0 for s in each["three sincos"])
+    lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
+    for text, name, base, aim in ROWS:
+        ratio = each[name][0] / each[base][0]
+        lines.append(f"{text:42}{_spread(each[name]):>30}  {ratio:7.4g}  {BASES[base]:24}{aim}")
+    for name in ("three sincos", "spectrum", "cells"):
+        lines.append(f"{BASES[name]}: {_spread(each[name])}")
+    rate = 1.0 / each["cells"][0]
+    lines.append(
+        f"{rate:.1f} cells a second; a million of them: {1e6 / rate / 3600:.1f} core hours"
+    )
     lines.append(", ".join(f"{key} {value}" for key, value in machine().items()))
     return lines
 
 
-def machine():
-    """The machine and the versions behind a measurement."""
+def _whole():
+    """Calls of whole cells, branches and searches, as those of `run`."""
+    drawn = places(math.prod(CELLS), 2)
+    rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
+    plane = [(row[0][0], [e for _, e in row]) for row in rows]
+    saddle = of_type(symmetric_orbits(states.BALL, WEAK, 10), "hyperbolic")
+    branch = partial(manifolds.trace_manifold, states.BALL, WEAK, saddle, length=0.5)
+    ball = Ball(k=states.BALL.k, g=1.0)
+
+    def each_to_the_end():
+        for k, energies in plane:
+            for e in energies:
+                to_the_end.cell(k, e, 200, 4000)
+
+    def from_the_segment():
+        with patch.object(manifolds, "WEAK", 0.0):
+            branch()
+
     return {
-        "processor": _processor(),
-        "cores": str(os.cpu_count()),
-        "load": f"{os.getloadavg()[0]:.1f}",
-        "python": platform.python_version(),
-    } | {name: version(name) for name in PACKAGES}
+        "cells": (lambda: [cells(k, e, 200, 8000) for k, e in plane], len(drawn)),
+        "to the end": (each_to_the_end, len(drawn)),
+        "branch": (branch, 1),
+        "from the segment": (from_the_segment, 1),
+        "many": (partial(symmetric_orbits, ball, MANY, 12), 1),
+        "none": (partial(symmetric_orbits, ball, 6.25, 12), 1),
+    }
 
 
-def _processor():
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            lines = file.read().splitlines()
-    except OSError:
-        return platform.processor() or platform.machine()
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    flags = next((line for line in lines if line.startswith(("flags", "Features"))), "")
-    wide = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"
-    return f"{names[0] if names else platform.machine()} ({wide})"
+def _spread(seconds):
+    """Median, lowest and highest in a unit that suits them."""
+    size, unit = next((u for u in UNITS if seconds[0] >= u[0]), UNITS[-1])
+    middle, low, high = (s / size for s in seconds)
+    return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
 
 
 def _orbit(state, impacts):
@@ -143,6 +183,16 @@ def _stored(lanes, impacts):
 def _room(lanes, impacts):
     """Memory for a history, kept between calls: fresh pages are not the method's cost."""
     return np.empty((lanes, impacts, 4))
+
+
+def _vectors(lanes, impacts):
+    """An ensemble with a tangent vector each, as a sweep follows it."""
+    ball = states.BALL
+    x, v, w = (a / ball.g for a in _start(lanes))
+    orbits = np.zeros((KEPT, lanes))
+    orbits[:VECTOR], orbits[VECTOR + 1], orbits[VECTOR + 2] = (x, v, w), ball.k * w, -v
+    windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, lanes))
+    follow(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
 
 
 def _many(lanes):

@@ -7,7 +7,8 @@ vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps bef
     growth            the same with the best threshold
     SALI              the smaller alignment index of two tangent vectors (Skokos 2001); in two
                       dimensions GALI_2 is the same up to a factor
-    winding number    how far apart its two halves are, weighted Birkhoff averages (Das et al. 2017)
+    weighted Birkhoff average    of the turns around the fixed point: how far apart the winding
+                      numbers of the two halves are (Das et al. 2017)
     as soon as safe   `sweep.verdict`, with at most that many impacts
 
 The best thresholds are those with the fewest wrong verdicts on the first set of cells; the second
@@ -32,7 +33,7 @@ METHODS = {
     "growth, below 3": "growth",
     "growth": "growth",
     "SALI": "alignment",
-    "winding number": "unsettled",
+    "weighted Birkhoff average": "unsettled",
     "as soon as safe": "safe",
 }
 SETS = ("cells on which thresholds were chosen", "unseen cells")
@@ -64,7 +65,7 @@ def verdicts(cells=36, orbits=128):
     orbits, J. Phys. A 34 (2001). Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity,
     Nonlinearity 30 (2017).
     """
-    places = [place for number in range(len(SETS)) for place in _places(cells, number)]
+    places = [place for number in range(len(SETS)) for place in places(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
         found = list(pool.map(lambda place: _cell(*place, orbits), places))
     sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
@@ -119,7 +120,7 @@ def _about(dims, values, text):
     return dims, values, {"long_name": text, "units": "1"}
 
 
-def _places(count, number):
+def places(count, number):
     """(k, e) of the cells of a set: energies evenly in their logarithm, to six digits."""
     random = np.random.default_rng([7, number])
     found = []

@@ -4,7 +4,7 @@ from ...records import sources
 from .kinds import KINDS
 
 # Data whose bytes are part of the contract, and measurements.
-FIXED = ("work", "edges", "orbits", "needs")
+FIXED = ("work", "edges", "orbits", "needs", "verdicts")
 MEASURED = ("work_all", "edges_all", "missed_all")
 # chart -> (its data, the function of figures.study, further arguments)
 CHARTS = {
@@ -14,6 +14,7 @@ CHARTS = {
     "energy": ("orbits", "energy", ()),
     "apart": ("orbits", "separation", ()),
     "needs": ("needs", "figure_errors", ()),
+    "verdicts": ("verdicts", "verdicts", ()),
     "work_all_uniform": ("work_all", "work", (0, "evaluations")),
     "work_all_grazing": ("work_all", "work", (1, "evaluations")),
     "seconds_uniform": ("work_all", "work", (0, "seconds")),
@@ -63,8 +64,9 @@ def artifacts(part, scenes, serves):
 
 def code(part):
     """The project's files that a part runs, the libraries' rivals where they are measured."""
-    rivals = ("methods.scipy_events", "methods.taylor", "bench") if part in MEASURED else ()
-    return sources.code("study.py", *(f"pseudorigid.study.{name}" for name in rivals))
+    own = ("verdicts",) if part == "verdicts" else ()
+    rivals = ("methods.scipy_events", "methods.taylor") if part in MEASURED else ()
+    return sources.code("study.py", *(f"pseudorigid.study.{name}" for name in own + rivals))
 
 
 def drawing(chart):

@@ -13,7 +13,8 @@ _MINOR = 1.5  # points: the length of a minor tick
 
 
 def cells(panel, sweep, shades, table):
-    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN.
+    """A rectangle a cell, shades (k, energy) from 0 to 1, what is beyond as at the end, grey where
+    NaN.
 
     They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
     they would weigh megabytes.
@@ -23,7 +24,7 @@ def cells(panel, sweep, shades, table):
     along = log10(energy) if panel.across.decades else energy
     x = _pixels(edges(along), panel.across.limits, 0, right - left)
     y = _pixels(edges(k), panel.up.limits, 0, top - bottom)
-    steps = np.minimum((np.nan_to_num(shades) * _STEPS).astype(np.int64), _STEPS - 1)
+    steps = np.clip((np.nan_to_num(shades) * _STEPS).astype(np.int64), 0, _STEPS - 1)
     colors = np.where(
         np.isnan(shades)[..., None], _bytes([style.GRID]), _bytes(palette(table))[steps]
     )
