@@ -13,8 +13,7 @@ _MINOR = 1.5  # points: the length of a minor tick
 
 
 def cells(panel, sweep, shades, table):
-    """A rectangle a cell, shades (k, energy) from 0 to 1, what is beyond as at the end, grey where
-    NaN.
+    """A rectangle a cell, shades (k, energy) from 0 to 1; beyond as at the end, grey where NaN.
 
     They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
     they would weigh megabytes.
