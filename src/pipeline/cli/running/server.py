@@ -45,11 +45,18 @@ def serving():
         if edit or elsewhere or script.shadow_dir or script.threads > 1:
             usual(script, name, edit)
             return
-        job = JOBS.Process(target=run, args=(name,))
+        # Not by its exit status: where other threads start jobs, multiprocessing may lose that.
+        done, answer = JOBS.Pipe(duplex=False)
+        job = JOBS.Process(target=run, args=(name, answer))
         job.start()
-        job.join()
-        if job.exitcode:
-            raise subprocess.CalledProcessError(job.exitcode, name)
+        answer.close()
+        with done:
+            try:
+                done.recv()
+            except EOFError:
+                raise subprocess.CalledProcessError(1, name) from None
+            finally:
+                job.join()
 
     PythonScript.execute_script = execute_script
     try:
@@ -58,6 +65,7 @@ def serving():
         PythonScript.execute_script = usual
 
 
-def run(name) -> None:
-    """In a job: a script as a program of its own."""
+def run(name, answer) -> None:
+    """In a job: a script as a program of its own; it answers once that came to its end."""
     runpy.run_path(name, run_name="__main__")
+    answer.send("done")
