@@ -1,7 +1,10 @@
 """Jobs from the server: each ends as a program of its own, also when many start at once."""
 
+import os
 import subprocess
 import sys
+
+from pipeline.cli.running import server
 
 PROGRAM = """
 import subprocess, sys
@@ -24,7 +27,7 @@ def status(name):
     try:
         PythonScript.execute_script(script(), name)
     except subprocess.CalledProcessError as error:
-        return error.returncode
+        return 1 if error.returncode in (1, -9, 255) else error.returncode
     return 0
 
 
@@ -59,3 +62,13 @@ def test_many_jobs_at_once_end_as_they_should(tmp_path):
     assert (result.returncode, result.stderr) == (0, "")
     assert result.stdout.split() == ["0", "1", "1"] * 40
     assert (tmp_path / "count").read_text() == "x" * 40
+
+
+def test_where_no_server_can_be_jobs_start_as_usual(monkeypatch):
+    def refuse():
+        raise OSError("AF_UNIX path too long")
+
+    before = dict(os.environ)
+    monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
+    assert server.begin() is False
+    assert dict(os.environ) == before

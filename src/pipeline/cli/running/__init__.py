@@ -1,6 +1,7 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
 import sys
+from contextlib import nullcontext
 from functools import cache
 from unittest.mock import patch
 
@@ -128,8 +129,8 @@ def run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from . import server
 
-    if not (arguments and only_says(arguments)):
-        server.begin()
+    makes = not (arguments and only_says(arguments))
+    served = server.serving if makes and server.begin() else nullcontext
     from snakemake.cli import main as snakemake
 
     from ..telling import steps
@@ -140,11 +141,11 @@ def run(targets, forced, arguments) -> int:
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
         command += ["--cores", "all"]
-    told = not (only_says(arguments) or given.logger or given.quiet or given.verbose)
+    told = makes and not (given.logger or given.quiet or given.verbose)
     if told:
         command += ["--logger", steps.register()]
     executable, status = sys.executable, 0
-    with interruptible() as caught, server.serving():
+    with interruptible() as caught, served():
         try:
             snakemake(command)
         except SystemExit as end:

@@ -9,7 +9,7 @@ import os
 import runpy
 import signal
 import subprocess
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
 
 JOBS = multiprocessing.get_context("forkserver")
@@ -18,8 +18,8 @@ THREADS = [f"{name}_NUM_THREADS" for name in ("OMP", "GOTO", "OPENBLAS", "MKL", 
 THREADS.append("VECLIB_MAXIMUM_THREADS")
 
 
-def begin() -> None:
-    """Start the server, which loads while this process goes on."""
+def begin() -> bool:
+    """Start the server, which loads while this process goes on; whether that can be done."""
     before = dict(os.environ)
     os.environ.update(dict.fromkeys(THREADS, "1"))
     # Inherited: Ctrl-C is for this process alone, which then ends the jobs.
@@ -27,10 +27,13 @@ def begin() -> None:
     try:
         JOBS.set_forkserver_preload([f"{__package__}.loaded"])
         forkserver.ensure_running()
+    except OSError:  # of a temporary folder whose name is too long for a socket
+        return False
     finally:
         signal.signal(signal.SIGINT, handler)
         os.environ.clear()
         os.environ.update(before)
+    return True
 
 
 @contextmanager
@@ -50,13 +53,12 @@ def serving():
         job = JOBS.Process(target=run, args=(name, answer))
         job.start()
         answer.close()
-        with done:
-            try:
-                done.recv()
-            except EOFError:
-                raise subprocess.CalledProcessError(1, name) from None
-            finally:
-                job.join()
+        ended = False
+        with done, suppress(EOFError):
+            ended = done.recv()
+        job.join()
+        if not ended:
+            raise subprocess.CalledProcessError(job.exitcode or 1, name)
 
     PythonScript.execute_script = execute_script
     try:
@@ -68,4 +70,4 @@ def serving():
 def run(name, answer) -> None:
     """In a job: a script as a program of its own; it answers once that came to its end."""
     runpy.run_path(name, run_name="__main__")
-    answer.send("done")
+    answer.send(True)
