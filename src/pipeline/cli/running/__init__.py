@@ -146,6 +146,7 @@ def run(targets, forced, arguments) -> int:
         command += ["--logger", steps.register()]
     executable, status = sys.executable, 0
     with interruptible() as caught, served():
+        steps.LogHandler.interrupted = caught
         try:
             snakemake(command)
         except SystemExit as end:

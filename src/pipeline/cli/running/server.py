@@ -70,4 +70,5 @@ def serving():
 def run(name, answer) -> None:
     """In a job: a script as a program of its own; it answers once that came to its end."""
     runpy.run_path(name, run_name="__main__")
-    answer.send(True)
+    with suppress(OSError):  # of a run that was killed
+        answer.send(True)
