@@ -3,7 +3,6 @@
 import sys
 from contextlib import nullcontext
 from functools import cache
-from unittest.mock import patch
 
 import yaml
 
@@ -28,8 +27,11 @@ def _parser():
         # What makes reports takes long to import, and snakemake goes on where it is not there.
         from snakemake_interface_report_plugins.registry import ReportPluginRegistry
 
-        with patch.dict(sys.modules, {"snakemake.report": None}):
+        sys.modules["snakemake.report"] = None
+        try:
             ReportPluginRegistry()
+        finally:
+            del sys.modules["snakemake.report"]
     from snakemake.cli import get_argument_parser
 
     parser = get_argument_parser()
