@@ -150,12 +150,22 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     for job, path in enumerate((ORBITS, DRAWING)):
         handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
         handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[job]))
-        handler.emit(event(LogEvent.ERROR, 9.0, msg="In file x:\nCommand died with SIGKILL."))
+        handler.emit(
+            event(LogEvent.ERROR, 9.0, msg="In file x:\nCommand died with SIGKILL.\n  File y")
+        )
         handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=job))
     first, second = capsys.readouterr().err.splitlines()
     assert first.split(maxsplit=2)[2] == "not made: the disk is full: 0.1 MB"
     assert second.endswith("not made: Command died with SIGKILL.")
     assert handler.failed
+
+
+def test_an_interrupt_is_no_failure_of_its_jobs(handler, capsys, monkeypatch):
+    handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=0, output=[ORBITS]))
+    handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[0]))
+    monkeypatch.setattr(steps.LogHandler, "interrupted", [2])
+    handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=0))
+    assert capsys.readouterr().err == ""
 
 
 def test_a_log_of_an_earlier_run_is_no_reason(handler, capsys, tmp_path):

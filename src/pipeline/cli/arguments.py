@@ -194,6 +194,9 @@ def read(arguments):
         return argparse.Namespace(word=word, options=rest)
     own, options = _split(WORDS.get(word, NO_WORD), rest if word else arguments)
     given = parser.parse_args(own)
+    if not word and given.version:
+        print(_versions())
+        sys.exit(0)
     given.word, given.options = word, options
     return given
 
@@ -265,7 +268,8 @@ def _parser(name):
     for key, how in (*word.names, *word.flags):
         parser.add_argument(key, **how)
     if not name:
-        parser.add_argument("--version", action="version", version=_versions())
+        text = "print the versions of this project and of snakemake"
+        parser.add_argument("--version", action="store_true", help=text)
     return parser
 
 

@@ -58,7 +58,8 @@ def make(checked, variant, options, named=None, others=()) -> int:
         currency = Currency(ROOT, results)
         absent = _find_absent(variants, variant, currency)
     outdated = currency.outdated([*made.values(), *others])
-    if status and all(wanted[p][0] in absent for p in made if made[p] in outdated):
+    missing = {wanted[path][0] for path in made if made[path] in outdated}
+    if status and missing and missing <= set(absent):
         status = int(bool(set(others) & set(outdated)))
     good = {path: scene for path, (scene, _) in wanted.items() if made[path] not in outdated}
     if variant in places.PUBLISHED:

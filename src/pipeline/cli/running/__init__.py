@@ -1,8 +1,8 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
 import sys
+from contextlib import nullcontext
 from functools import cache
-from unittest.mock import patch
 
 import yaml
 
@@ -27,8 +27,11 @@ def _parser():
         # What makes reports takes long to import, and snakemake goes on where it is not there.
         from snakemake_interface_report_plugins.registry import ReportPluginRegistry
 
-        with patch.dict(sys.modules, {"snakemake.report": None}):
+        sys.modules["snakemake.report"] = None
+        try:
             ReportPluginRegistry()
+        finally:
+            del sys.modules["snakemake.report"]
     from snakemake.cli import get_argument_parser
 
     parser = get_argument_parser()
@@ -128,8 +131,8 @@ def run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from . import server
 
-    if not (arguments and only_says(arguments)):
-        server.begin()
+    makes = not (arguments and only_says(arguments))
+    served = server.serving if makes and server.begin() else nullcontext
     from snakemake.cli import main as snakemake
 
     from ..telling import steps
@@ -140,11 +143,12 @@ def run(targets, forced, arguments) -> int:
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
         command += ["--cores", "all"]
-    told = not (only_says(arguments) or given.logger or given.quiet or given.verbose)
+    told = makes and not (given.logger or given.quiet or given.verbose)
     if told:
         command += ["--logger", steps.register()]
     executable, status = sys.executable, 0
-    with interruptible() as caught, server.serving():
+    with interruptible() as caught, served():
+        steps.LogHandler.interrupted = caught
         try:
             snakemake(command)
         except SystemExit as end:

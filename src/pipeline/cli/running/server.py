@@ -9,7 +9,7 @@ import os
 import runpy
 import signal
 import subprocess
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
 
 JOBS = multiprocessing.get_context("forkserver")
@@ -18,8 +18,8 @@ THREADS = [f"{name}_NUM_THREADS" for name in ("OMP", "GOTO", "OPENBLAS", "MKL", 
 THREADS.append("VECLIB_MAXIMUM_THREADS")
 
 
-def begin() -> None:
-    """Start the server, which loads while this process goes on."""
+def begin() -> bool:
+    """Start the server, which loads while this process goes on; whether that can be done."""
     before = dict(os.environ)
     os.environ.update(dict.fromkeys(THREADS, "1"))
     # Inherited: Ctrl-C is for this process alone, which then ends the jobs.
@@ -27,10 +27,13 @@ def begin() -> None:
     try:
         JOBS.set_forkserver_preload([f"{__package__}.loaded"])
         forkserver.ensure_running()
+    except OSError:  # of a temporary folder whose name is too long for a socket
+        return False
     finally:
         signal.signal(signal.SIGINT, handler)
         os.environ.clear()
         os.environ.update(before)
+    return True
 
 
 @contextmanager
@@ -45,11 +48,17 @@ def serving():
         if edit or elsewhere or script.shadow_dir or script.threads > 1:
             usual(script, name, edit)
             return
-        job = JOBS.Process(target=run, args=(name,))
+        # Not by its exit status: where other threads start jobs, multiprocessing may lose that.
+        done, answer = JOBS.Pipe(duplex=False)
+        job = JOBS.Process(target=run, args=(name, answer))
         job.start()
+        answer.close()
+        ended = False
+        with done, suppress(EOFError):
+            ended = done.recv()
         job.join()
-        if job.exitcode:
-            raise subprocess.CalledProcessError(job.exitcode, name)
+        if not ended:
+            raise subprocess.CalledProcessError(job.exitcode or 1, name)
 
     PythonScript.execute_script = execute_script
     try:
@@ -58,6 +67,8 @@ def serving():
         PythonScript.execute_script = usual
 
 
-def run(name) -> None:
-    """In a job: a script as a program of its own."""
+def run(name, answer) -> None:
+    """In a job: a script as a program of its own; it answers once that came to its end."""
     runpy.run_path(name, run_name="__main__")
+    with suppress(OSError):  # of a run that was killed
+        answer.send(True)

@@ -22,6 +22,7 @@ class LogHandler(LogHandlerBase):
     writes_to_stream = has_filter = has_formatter = True
     writes_to_file = needs_rulegraph = False
     last = None  # the one of the last run
+    interrupted = ()  # by which signals
 
     def __post_init__(self):
         LogHandler.last = self
@@ -44,7 +45,8 @@ class LogHandler(LogHandlerBase):
                 )
             case LogEvent.JOB_ERROR:
                 self.failed = True
-                self._tell(record.jobid, f"not made: {self._reason(record.jobid)}")
+                if not self.interrupted:
+                    self._tell(record.jobid, f"not made: {self._reason(record.jobid)}")
             case LogEvent.ERROR:
                 self.errors.append(record.getMessage())
             case None if record.getMessage().startswith(_LOGS):
@@ -66,8 +68,9 @@ class LogHandler(LogHandlerBase):
             if log.stat().st_mtime > self.started[job] - 2:  # some file systems keep whole seconds
                 lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
         said = [line.split(": ", 2)[2] for line in lines if line.startswith("pseudorigid: ")]
-        said = said or "".join(self.errors[-1:]).strip().splitlines() or ["no reason is known"]
-        return said[-1]
+        words = "".join(self.errors[-1:]).splitlines()
+        said = said or [line for line in words if line and not line.startswith("  File ")]
+        return said[-1] if said else "no reason is known"
 
 
 def register() -> str:

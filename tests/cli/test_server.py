@@ -1,0 +1,74 @@
+"""Jobs from the server: each ends as a program of its own, also when many start at once."""
+
+import os
+import subprocess
+import sys
+
+from pipeline.cli.running import server
+
+PROGRAM = """
+import subprocess, sys
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
+
+from snakemake.script import PythonScript
+
+from pipeline.cli.running import server
+
+usual = PythonScript.execute_script
+
+
+def script(**about):
+    names = ("conda_env", "container_img", "env_modules", "shadow_dir")
+    return SimpleNamespace(**dict.fromkeys(names), threads=1, **about)
+
+
+def status(name):
+    try:
+        PythonScript.execute_script(script(), name)
+    except subprocess.CalledProcessError as error:
+        return 1 if error.returncode in (1, -9, 255) else error.returncode
+    return 0
+
+
+if __name__ == "__main__":
+    good, bad, killed = sys.argv[1:]
+    server.begin()
+    with server.serving(), ThreadPoolExecutor(8) as pool:
+        print(*pool.map(status, [good, bad, killed] * 40))
+    assert PythonScript.execute_script is usual
+"""
+
+
+def test_many_jobs_at_once_end_as_they_should(tmp_path):
+    programs = {
+        "good.py": f"open({str(tmp_path / 'count')!r}, 'a').write('x')",
+        "bad.py": "import sys; sys.exit(1)",
+        "killed.py": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
+        "main.py": PROGRAM,
+    }
+    for name, text in programs.items():
+        (tmp_path / name).write_text(text)
+    result = subprocess.run(
+        [
+            sys.executable,
+            *(str(tmp_path / n) for n in ("main.py", "good.py", "bad.py", "killed.py")),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+    )
+    assert (result.returncode, result.stderr) == (0, "")
+    assert result.stdout.split() == ["0", "1", "1"] * 40
+    assert (tmp_path / "count").read_text() == "x" * 40
+
+
+def test_where_no_server_can_be_jobs_start_as_usual(monkeypatch):
+    def refuse():
+        raise OSError("AF_UNIX path too long")
+
+    before = dict(os.environ)
+    monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
+    assert server.begin() is False
+    assert dict(os.environ) == before
