@@ -31,6 +31,7 @@ CHARTS = {
     "energy": "what a check of the energy sees of missed impacts",
     "apart": "how long orbits by two methods stay together",
     "needs": "the error of each figure by each method",
+    "verdicts": "how often a verdict on an orbit, regular or chaotic, is wrong, and what it costs",
     "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
     "line": "the regular share of the section, and the exponent of the rest, against the energy",
 }
@@ -167,7 +168,12 @@ class _Page:
         return {"name": name, "title": title, "shows": shows, "see": see[:1].upper() + see[1:]}
 
     def _chart(self, name):
-        return {"name": name, "title": CHARTS.get(name, "a sweep"), "shows": "", "see": ""}
+        return {
+            "name": name,
+            "title": CHARTS.get(name, "a picture made on request"),
+            "shows": "",
+            "see": "",
+        }
 
     def _image(self, file):
         """Its bytes as text, and its size in pixels."""
