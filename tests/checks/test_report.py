@@ -13,6 +13,7 @@ import pytest
 from project import ROOT, Tree, fresh_tree, shipped, small
 
 from pipeline import config
+from pipeline.checks import contracts
 from pipeline.checks.claims import render as claims
 from pipeline.checks.report import numbers, page
 from pipeline.config import places
@@ -185,6 +186,24 @@ def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
         r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc", text
     )
     assert "<td>approximately 0.235" not in text
+
+
+def test_what_cannot_exist_is_said(reported):
+    checked = config.load(reported.config)
+    text = page.render(reported.path, checked, {"paper": {"fig6": "no hyperbolic orbit"}})
+    Outline(text)
+    assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
+
+
+def test_every_chart_has_words():
+    checked = config.load(ROOT / "config.yaml")
+    scenes = {
+        scene
+        for contract in contracts.committed(checked)
+        for scene in contract.scenes.values()
+        if contract.folder.rpartition("/")[2] in ("study", "atlas")
+    }
+    assert len(scenes) >= 8 and scenes <= set(page.CHARTS)
 
 
 def served(scenes):

@@ -98,6 +98,7 @@ def clone(shared, accepted):
     return Tree(shared("a clone for the documents", make))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not (ROOT / ".venv" / "stamp").is_file(), reason="not set up by ./reproduce")
 def test_every_command(clone):
     """Each in the order of the documents, in one copy; exit 0 and no traceback."""
@@ -119,6 +120,7 @@ def test_every_command(clone):
             assert "Traceback (most" not in result.stdout
 
 
+@pytest.mark.slow
 def test_the_script_for_ci(clone, tmp_path):
     """The lines of docs/bytes.md, with this copy for the repository, without and with a cache."""
     (script,) = (block for block in blocks("docs/bytes.md") if "CACHE" in block)

@@ -31,6 +31,7 @@ CHARTS = {
     "energy": "what a check of the energy sees of missed impacts",
     "apart": "how long orbits by two methods stay together",
     "needs": "the error of each figure by each method",
+    "verdicts": "how often a verdict on an orbit, regular or chaotic, is wrong, and what it costs",
     "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
     "line": "the regular share of the section, and the exponent of the rest, against the energy",
 }
@@ -96,10 +97,7 @@ class _Page:
             about = self._about(scene, block) | {"id": f"{name}-{scene}", "missing": why}
             about |= {"image": None, "rows": [], "telling": None}
             if not why:
-                ours = numbers.measured(block, lambda stage: self._load(name, scene, stage))  # noqa: B023
-                about["rows"] = numbers.beside(scene, ours)
-                telling = KINDS[block["picture"]].telling
-                about["telling"] = next(row for row in about["rows"] if row[0] == telling)
+                about |= self._measured(name, scene)
                 about |= {"image": self._image(file), "file": self._file(name, scene)}
                 behind = [self.serves[name, scene, stage] for stage in places.stages(block)]
                 self.shown |= dict.fromkeys([*behind, file])
@@ -113,13 +111,14 @@ class _Page:
             if not contract.on_request:
                 continue
             outdated = Currency(self.root, contract.expected).outdated()
-            made = []
+            made, folder = [], Path(contract.results).name
             for name, file in contract.drawn.items():
                 if not name.endswith(".png") or file in outdated:
                     continue
                 scene = contract.scenes[name]
-                block = self.variants.get(Path(contract.results).name, {}).get(scene)
+                block = self.variants.get(folder, {}).get(scene)
                 about = self._about(scene, block) if block else self._chart(scene)
+                about |= self._measured(folder, scene) if block else {"telling": None}
                 about |= {"image": self._image(file), "file": f"{contract.folder}/{name}"}
                 made.append(about | {"id": f"{contract.folder}/{name}".replace("/", "-")})
                 self.shown |= dict.fromkeys([*contract.data[scene].values(), file])
@@ -154,8 +153,15 @@ class _Page:
         why = self.outdated.get(file)
         return why and ("not made" if why == MISSING else f"not current: {why}")
 
-    def _load(self, variant, scene, stage):
-        return load(self.root / self.serves[variant, scene, stage])
+    def _measured(self, variant, scene):
+        """The rows of a scene's numbers, and the one that tells."""
+        block = self.variants[variant][scene]
+        ours = numbers.measured(
+            block, lambda stage: load(self.root / self.serves[variant, scene, stage])
+        )
+        rows = numbers.beside(scene, ours)
+        telling = KINDS[block["picture"]].telling
+        return {"rows": rows, "telling": next(row for row in rows if row[0] == telling)}
 
     def _about(self, scene, block):
         kind = KINDS[block["picture"]]
@@ -167,7 +173,12 @@ class _Page:
         return {"name": name, "title": title, "shows": shows, "see": see[:1].upper() + see[1:]}
 
     def _chart(self, name):
-        return {"name": name, "title": CHARTS.get(name, "a sweep"), "shows": "", "see": ""}
+        return {
+            "name": name,
+            "title": CHARTS.get(name, "a picture made on request"),
+            "shows": "",
+            "see": "",
+        }
 
     def _image(self, file):
         """Its bytes as text, and its size in pixels."""

@@ -48,5 +48,5 @@ class LastCurve(Scene):
     def numbers(block, last_curve):
         """The residue of the last convergent of either number, and its period."""
         ends = (last_curve[name].values[:, -1] for name in ("residue", "period"))
-        found = (f"{residue:.2g} at period {n}" for residue, n in zip(*ends, strict=True))
+        found = (f"{residue:.2g} at period {n:.0f}" for residue, n in zip(*ends, strict=True))
         return {"last residues": ", ".join(found)}
