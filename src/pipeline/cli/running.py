@@ -1,7 +1,9 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
+import signal
 import sys
 import time
+from pathlib import Path
 
 from ..checks.currency import DAMAGED, MISSING, Currency
 from ..records.record import record_path
@@ -67,6 +69,9 @@ def make(expected, wanted, arguments, targets=(), forced=(), quiet=False) -> int
     for path, why in outdated.items():
         if (ROOT / path).is_dir():
             raise UsageError(f"{path}: {why}")
+        for folder in Path(path).parents:
+            if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
+                raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
         if why.startswith(_CAUSES) and not quiet:
             say(f"{path}: {why}: made again")
     if not (outdated or arguments or targets or forced):
@@ -80,9 +85,15 @@ def run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from snakemake.cli import main as snakemake
 
+    if arguments and only_says(arguments):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # of `| head`, which has seen enough
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
     command = ["--forcerun", *forced] if forced else []
     command += ["--nolock", "--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
+    command += [
+        "--scheduler",
+        "greedy",
+    ]  # the other one writes files into TMPDIR, which may be full
     command += [*targets, *arguments]
     given = options_of(arguments)
     if given.cores is None and given.jobs is None:
