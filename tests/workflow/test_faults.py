@@ -144,6 +144,27 @@ def test_interrupting_the_start_is_no_traceback(tree, file):
     assert "Traceback" not in output
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
+    """Snakemake itself would let them finish."""
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
+    begun = done.path / "begun"
+    text = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
+    lines = f"\n\ndef scene_motion(*_, **__):\n    import os, time\n    {text}\n"
+    module.write_text(module.read_text() + lines)
+    run = done.start("paper_figures/fig3.png", stderr=subprocess.PIPE, text=True)
+    for _ in range(600):
+        if begun.exists() and begun.read_text():
+            break
+        time.sleep(0.1)
+    run.send_signal(number)
+    _, said = run.communicate(timeout=30)
+    assert run.returncode == 130
+    assert said.splitlines()[-1] == "reproduce: interrupted: run it again to go on"
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(begun.read_text()), 0)
+
+
 def test_two_runs_do_not_meet(tree):
     with (tree.path / ".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -151,3 +172,20 @@ def test_two_runs_do_not_meet(tree):
     assert result.returncode == 1
     assert result.stdout == "reproduce: another ./reproduce is running in this folder\n"
     assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing
+
+
+def test_a_file_in_the_place_of_a_folder_is_named(tree):
+    figures = tree.path / "results" / "paper" / "figures"
+    figures.parent.mkdir(parents=True)
+    figures.touch()
+    result = tree.run("-n")
+    line = "reproduce: results/paper/figures: a file stands in a folder's place, move it away\n"
+    assert (result.returncode, result.stdout) == (1, line)
+
+
+def test_a_reader_that_has_seen_enough_ends_a_plan(tree):
+    run = tree.start("-n", stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert run.stdout.readline()
+    run.stdout.close()
+    assert "Traceback" not in run.stderr.read()
+    run.wait()

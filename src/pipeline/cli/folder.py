@@ -48,27 +48,48 @@ def end_jobs() -> None:
             continue
 
 
+GRACE = 10  # seconds from an interrupt to the end of this process, at the latest
+
+
 @contextmanager
 def interruptible():
-    """Ctrl-C, or SIGTERM, ends the jobs at once and raises KeyboardInterrupt in here.
+    """Ctrl-C, SIGTERM or SIGHUP ends the jobs at once and raises KeyboardInterrupt in here.
 
-    Yields a list that then holds the signal's number: snakemake may catch the exception.
+    Yields a list that then holds the signal's number: snakemake may catch the exception. Where
+    something else swallows it, the process ends after GRACE seconds.
     """
-    caught = []
+    caught, usual = [], signal.signal
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup
+        numbers.append(signal.SIGHUP)
 
     def stop(number, frame):
         caught.append(number)
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # once is enough
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        for each in numbers:
+            usual(each, signal.SIG_IGN)  # once is enough
+        usual(signal.SIGALRM, end)
+        signal.alarm(GRACE)
         end_jobs()
         raise KeyboardInterrupt
 
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    def end(number, frame):
+        end_jobs()
+        say("interrupted: run it again to go on")
+        os._exit(130)
+
+    def set_by_others(number, handler):
+        """Snakemake would let running jobs finish on SIGTERM."""
+        return signal.getsignal(number) if number in numbers else usual(number, handler)
+
+    before = {number: usual(number, stop) for number in numbers}
+    signal.signal = set_by_others
     try:
         yield caught
     finally:
+        signal.alarm(0)
+        signal.signal = usual
         for number, handler in before.items():
-            signal.signal(number, handler)
+            usual(number, handler)
 
 
 def say(*lines: str) -> None:
