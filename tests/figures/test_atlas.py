@@ -94,14 +94,39 @@ def test_a_resonance_is_drawn_where_the_closed_form_has_it():
     assert away.sum(axis=1).max() < 700
 
 
+def drawn(figure, color, dots):
+    """Pixels (n, 2) of each artist in this colour: dots, or lines."""
+    parts = [a for a in figure.artists if color in (a.get_color(), a.get_markerfacecolor())]
+    parts = [a for a in parts if (a.get_marker() == "o") == dots]
+    return [np.column_stack(a.get_data()) * figure.dpi for a in parts]
+
+
 def test_the_line_is_drawn_with_its_bars_and_gaps():
+    """Shares from 0 to 1 in pixels 635 to 1145, exponents to 1.02 of the largest in 135 to 545."""
     n = len(LINE["energy"])
-    gap = np.where(np.arange(n) < 3, np.nan, 0.2)
-    names = ("exponent", "exponent_low", "exponent_high")
-    data = dataset(LINE, regular=np.linspace(0.9, 0.1, n), **dict.fromkeys(names, gap))
-    figure = atlas.line(LINE, data)
-    assert figure.get_size_inches()[0] == 3.5
-    assert np.array_equal(render.pixels(figure), render.pixels(atlas.line(LINE, data)))
+    share = np.linspace(0.9, 0.1, n)
+    value = np.where(np.arange(n) < 3, np.nan, np.linspace(0.1, 0.2, n) + 0.01 * (np.arange(n) % 2))
+    given = {"regular": share, "regular_low": share - 0.05, "regular_high": share + 0.08}
+    given |= {"exponent": value, "exponent_low": value - 0.04, "exponent_high": value + 0.05}
+    figure = atlas.line(LINE, dataset(LINE, **given, exponent_error=0.01))
+    energy = np.array(LINE["energy"]) * 0.04**2
+    across = 110 + 900 * energy / (1.02 * energy[-1])
+
+    def places(at, heights):
+        return pytest.approx(np.column_stack([at, heights]), abs=0.3)
+
+    blue, red = style.BLUE, style.VERMILION
+    assert max(drawn(figure, blue, True), key=len) == places(across, 635 + 510 * share)
+    bars = np.concatenate(drawn(figure, blue, False))
+    ends = np.ravel(np.column_stack([share - 0.05, share + 0.08]))
+    assert bars == places(np.repeat(across, 2), 635 + 510 * ends)
+    height = 410 / (1.02 * (np.nanmax(value) + 0.05))
+    (dots,) = drawn(figure, red, True)
+    assert dots == places(across[3:], 135 + height * value[3:])
+    for color, low, high in ((red, -0.0196, 0.0196), (style.pale(red), -0.04, 0.05)):
+        bars = np.concatenate([line for line in drawn(figure, color, False) if len(line) == 2])
+        ends = np.ravel(np.column_stack([value[3:] + low, value[3:] + high]))
+        assert bars == places(np.repeat(across[3:], 2), 135 + height * ends)
 
 
 def test_no_sea_anywhere_can_be_drawn():

@@ -19,10 +19,3 @@ def test_each_row_names_tests_that_exist():
             text = (TESTS / file).read_text(encoding="utf-8")
             assert f"\ndef {test}(" in text if test else "\ndef test_" in text, (file, test)
             assert "slow:" not in tests.partition(file)[0] or "mark.slow" in text, file
-
-
-def test_no_file_of_tests_is_without_a_guarantee():
-    named = {file for _, tests in ROWS for file, _ in NAMED.findall(tests)}
-    here = {str(path.relative_to(TESTS)) for path in TESTS.glob("*/test_*.py")}
-    assert named <= here
-    assert {path.partition("/")[0] for path in here} == {x.partition("/")[0] for x in named}

@@ -32,7 +32,7 @@ def test_tau_against_the_judge(family):
 def test_the_judges_agree_and_tau_fits_both(family):
     """Each finds the first root by a method of its own: here they say the same to 40 digits."""
     decided = 0
-    for state in states(family, 2, 1500):
+    for state in states(family, 2, 500):
         true = judge(*state)
         tau = Ball(*state[:2]).time_to_impact(*state[2:])
         assert by_mpmath(tau, true) <= TAU, state
@@ -45,8 +45,9 @@ def test_the_judges_agree_and_tau_fits_both(family):
         with mpmath.workdps(60):
             mantissa, exponent = root.mid().man_exp()
             off = abs(mpmath.ldexp(mpf(int(mantissa)), int(exponent)) - true.tau)
-            assert off <= true.tau * max(1, true.condition) * mpf(10) ** -40, state
-    assert decided > 1000
+            spare = true.tau * max(1, true.condition) if true.tau else 0
+            assert off <= spare * mpf(10) ** -40, state
+    assert decided > 490
 
 
 @pytest.mark.slow

@@ -1,8 +1,10 @@
 """Snakemake as ./reproduce runs it, and what it is told to make again."""
 
+import signal
 import sys
 from contextlib import nullcontext
 from functools import cache
+from pathlib import Path
 
 import yaml
 
@@ -112,6 +114,9 @@ def make(currency, wanted, arguments, targets=(), forced=()) -> int:
     for path, why in outdated.items():
         if (ROOT / path).is_dir():
             raise UsageError(f"{path}: {why}")
+        for folder in Path(path).parents:
+            if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
+                raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
         if why.startswith(_CAUSES):
             say(f"{path}: {why}: made again")
     options = asked(arguments)
@@ -132,6 +137,8 @@ def run(targets, forced, arguments) -> int:
     from . import server
 
     makes = not (arguments and only_says(arguments))
+    if not makes:
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # of `| head`, which has seen enough
     served = server.serving if makes and server.begin() else nullcontext
     from snakemake.cli import main as snakemake
 

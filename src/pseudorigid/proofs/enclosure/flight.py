@@ -160,6 +160,8 @@ def refine(gap, low, high):
             while True:
                 slope = at_level.slope(root)
                 if not slope > 0:
+                    if bits < levels[0]:
+                        break  # these are too few to tell
                     raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
                 middle = root.mid()
                 narrow = (middle - at_level.height(middle) / slope).intersection(root)
