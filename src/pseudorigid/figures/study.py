@@ -247,10 +247,11 @@ def figure_errors(data):
         errors = _seen(row["error"].values / float(row["limit"]), -16)
         for family, error, missed in zip(families, errors, row["missed"].values, strict=True):
             panel.dots(error, middle, _style(family)[0], hollow=bool(missed))
-        named = list(zip(row["evaluations"].values, row["name"].values, strict=True))
+        missed = ["" if n == 0 else " \N{WHITE CIRCLE}" for n in row["missed"].values]
+        named = list(zip(row["evaluations"].values, row["name"].values, missed, strict=True))
         best = int(row["cheapest"])
         others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
-        second = "{1}: {0:.0f}".format(*min(others)) if others else "no other"
+        second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, _written(text), ha="left", va="center", size=7.0)

@@ -223,7 +223,8 @@ def destroyed(data, proved):
     word = FALSE if not falls else CORRECTED if rises else HOLDS
     energy = line["energy"].values * float(line.attrs["g"]) ** 2
     said = "; ".join(
-        f"{share[a]:.3f} at {energy[a]:.4g} to {share[b]:.3f} at {energy[b]:.4g}" for a, b in rises
+        f"{share[a]:.3f} near {energy[a]:.4g} to {share[b]:.3f} near {energy[b]:.4g}"
+        for a, b in rises
     )
     value = f"in trend, {share[0]:.3f} to {share[-1]:.3f}"
     value += f"; but it rises from {said}" if rises else ""

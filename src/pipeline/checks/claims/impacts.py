@@ -14,13 +14,15 @@ PORTRAITS = ("fig2/orbits", "fig8/orbits")
 
 @claim(12, "(26)-(27)", "E", words="the motion between impacts", data=["derivations"])
 def flights(data, proved):
-    return derived(data["derivations"], "flights")
+    value = "free fall, and a strain of frequency 1"
+    return derived(data["derivations"], "flights", value=value)
 
 
 @claim(13, "(28)", "E", words="the map from one impact to the next", data=["derivations"])
 def impact_map(data, proved):
-    remark = "a sign in the first line; of many solutions the smallest flight time is meant"
-    return derived(data["derivations"], "impact_map", remark=remark)
+    value = "the sign before 2k/(1+k) udot inside the square of the first line is minus"
+    remark = "exact; of many solutions the smallest flight time is meant"
+    return derived(data["derivations"], "impact_map", value=value, remark=remark)
 
 
 @claim(
@@ -174,7 +176,8 @@ def figure_8(data, proved):
     data=["derivations"],
 )
 def exponents_defined(data, proved):
-    return derived(data["derivations"], "exponents", remark="a factor 1/i is missing")
+    value = "1/i times the logarithm of the growth, as i grows"
+    return derived(data["derivations"], "exponents", value=value, remark="a factor 1/i is missing")
 
 
 @claim(
@@ -185,7 +188,8 @@ def exponents_defined(data, proved):
     data=["derivations"],
 )
 def jacobian(data, proved):
-    return derived(data["derivations"], "jacobian", remark="exact, of (28) corrected")
+    value = "the analytic Jacobian used here"
+    return derived(data["derivations"], "jacobian", value=value, remark="exact, of (28) corrected")
 
 
 @claim(
@@ -196,7 +200,8 @@ def jacobian(data, proved):
     data=["derivations"],
 )
 def one_form(data, proved):
-    return derived(data["derivations"], "one_form")
+    value = "the same before the impact and after it"
+    return derived(data["derivations"], "one_form", value=value)
 
 
 @claim(
@@ -225,7 +230,8 @@ def piecewise(data, proved):
     length = float(data["jumps/jumps"]["length"].values[0])
     value = "one curve of jumps, smooth on either side" if length > 0.0 else "no curve of jumps"
     word = HOLDS if length > 0.0 else CORRECTED
-    return Verdict(word, value, "", "more_figures/claims/jumps.png")
+    error = f"from {data['jumps/jumps'].sizes['point'] - 1:,} grazing states"
+    return Verdict(word, value, error, "more_figures/claims/jumps.png")
 
 
 def _portrait(orbits, starts, points, name):

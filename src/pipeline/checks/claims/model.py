@@ -22,7 +22,8 @@ STRAINED = ("fig2/orbits", "fig8/orbits")
     data=["derivations"],
 )
 def single_mode(data, proved):
-    return derived(data["derivations"], "uncoupled")
+    value = "the stretch along the force moves by itself"
+    return derived(data["derivations"], "uncoupled", value=value)
 
 
 @claim(
@@ -96,14 +97,14 @@ def infinitesimal(data, proved):
     data=["derivations"],
 )
 def contact_speed(data, proved):
-    remark = "not negative; a grazing impact has none"
-    return derived(data["derivations"], "contact_speed", remark=remark)
+    value, remark = "xdot + udot >= 0", "a grazing impact has none"
+    return derived(data["derivations"], "contact_speed", value=value, remark=remark)
 
 
 @claim(7, "(9)", "E", words="the impulsive forces are -p and -R p", data=["derivations"])
 def impulsive_forces(data, proved):
-    remark = "by dimensions: a delta is missing"
-    return derived(data["derivations"], "impulsive_forces", remark=remark)
+    value, remark = "p delta(t - t_i) in the place of p", "exact, by dimensions"
+    return derived(data["derivations"], "impulsive_forces", value=value, remark=remark)
 
 
 @claim(
@@ -114,7 +115,8 @@ def impulsive_forces(data, proved):
     data=["derivations"],
 )
 def jump_conditions(data, proved):
-    return derived(data["derivations"], "impulse", "jump_conditions")
+    value = "contact speed reversed, y = xdot - k udot kept"
+    return derived(data["derivations"], "impulse", "jump_conditions", value=value)
 
 
 @claim(
@@ -125,7 +127,8 @@ def jump_conditions(data, proved):
     data=["derivations"],
 )
 def impulse_without_stiffness(data, proved):
-    return derived(data["derivations"], "impulse_without_stiffness")
+    value = "mass, k and velocities alone make it"
+    return derived(data["derivations"], "impulse_without_stiffness", value=value)
 
 
 @claim(
@@ -136,8 +139,8 @@ def impulse_without_stiffness(data, proved):
     data=["derivations"],
 )
 def scaling(data, proved):
-    remark = "exact; with the unit of length free, k and E/g^2 remain"
-    return derived(data["derivations"], "equations_of_motion", "scaling", remark=remark)
+    value = "k and g; what is free of the unit of length, k and E/g^2"
+    return derived(data["derivations"], "equations_of_motion", "scaling", value=value)
 
 
 @claim(11, "(24)", "E", words="the scaled impulse is p/(m omega^2 R)", data=["derivations"])

@@ -255,7 +255,7 @@ def heteroclinic(data, proved):
     word = HOLDS if all(one != other for one, other in pairs) else FALSE
     value = "branches join neighbours: inner {} to {}, outer {} to {}; points of one orbit"
     value = value.format(*(int(place) for pair in pairs for place in pair))
-    return Verdict(word, value, "", "more_figures/claims/flux.png")
+    return Verdict(word, value, "primary orbits, enclosed", "more_figures/claims/flux.png")
 
 
 @claim(

@@ -17,10 +17,13 @@ TITLES = {
 COLUMNS = ("number", "place", "words", "value", "error", "evidence")
 HEAD = """# The paper's statements, checked
 
-E. Kanso and P. Papadopoulos, *Dynamics of pseudo-rigid ball impact on rigid foundation*. Each row
-is a statement of the paper, in its own words between quotation marks, else in ours; what became of
-it; our value with its error; and what to look at. `./reproduce claims` writes this file;
-`./reproduce claims --check NUMBER --data FILE` judges one claim by another dataset.
+E. Kanso and P. Papadopoulos, *Dynamics of pseudo-rigid ball impact on rigid foundation* (to appear
+in the International Journal of Non-Linear Mechanics; the preprint is what was read). Each row is a
+statement of the paper, in its own words between quotation marks, else in ours; what became of it;
+our value with its error; and what to look at. `./reproduce claims` writes this file; `./reproduce
+claims --check NUMBER --data FILE` judges one claim by another dataset. An orbit is *regular* if a
+tangent vector grows along it in proportion to the number of impacts, and not exponentially; what
+depends on where that line is drawn counts in the interval of a share.
 """
 
 
