@@ -265,6 +265,17 @@ def test_a_weak_branch_is_mapped_into_itself(weak):
     assert np.max(distances(mapped(some, 10), branch)) < 5e-5 * radius
 
 
+@pytest.mark.parametrize("energy", [0.001, 0.0012])
+def test_a_weak_branch_is_as_accurate_as_is_said(energy):
+    orbit = of_type(symmetric_orbits(BALL, energy, 10), "hyperbolic")
+    radius = BALL.section(energy)[1]
+    for side in ("inner", "outer"):
+        branch = stacked(trace_manifold(BALL, energy, orbit, side=side, length=0.5))
+        fine = {"length": 0.52, "distance": 0.001, "bend": 1.0}
+        line = stacked(trace_manifold(BALL, energy, orbit, side=side, **fine))
+        assert np.max(distances(branch[:, :-2], line)) < 2e-6 * radius
+
+
 def test_image_by_image_and_from_the_segment_are_one_line(saddle, monkeypatch):
     """Where both ways are good: the paper's saddle, as if it were weak."""
     for side, length in (("inner", 0.8), ("outer", 0.6)):

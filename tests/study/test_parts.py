@@ -18,17 +18,23 @@ def test_the_table_of_ratios_has_every_row(monkeypatch):
         pytest.importorskip(package)
     from pseudorigid.study import bench
 
-    monkeypatch.setattr(bench, "IMPACTS", 1000)
+    for name, smaller in (("IMPACTS", 1000), ("CELLS", (1, 2)), ("MANY", 10.0)):
+        monkeypatch.setattr(bench, name, smaller)
     lines = bench.run(repetitions=1)
-    rows = [re.split(r"  +", line) for line in lines[1:8]]
+    rows = [re.split(r"  +", line) for line in lines[1:13]]
     assert [(row[0], row[3]) for row in rows] == [
         ("one orbit, an impact", "three dependent sincos"),
         ("scan 0.1 and bisection to 1e-12", "one orbit"),
         ("heyoka, default tolerance", "one orbit"),
         ("solve_ivp DOP853, rtol 1e-9", "one orbit"),
-        ("spectrum by pynamicalsys", "spectrum here"),
-        ("ensemble, the end only", "one dependent sincos"),
+        ("spectrum by pynamicalsys, an impact", "spectrum here"),
+        ("ensemble, the end only, an impact", "one dependent sincos"),
         ("ensemble, every impact stored", "one dependent sincos"),
+        ("ensemble with a tangent vector each", "one dependent sincos"),
+        ("spectra of an ensemble, an impact", "spectrum here"),
+        ("a cell, each orbit alone and to its end", "a cell here"),
+        ("weak branch, each image from the segment", "that branch here"),
+        ("period 12 at E/g^2 = 1e5: 2,006 orbits", "a search that finds none"),
     ]
     assert all(float(row[2]) > 0 for row in rows)
     assert "numba" in lines[-1] and "processor" in lines[-1]

@@ -11,7 +11,7 @@ def test_wrong_verdicts_are_rare():
     """Against runs a hundred times as long as 4,000 impacts, on cells of their own."""
     data = verdicts.verdicts(cells=6, orbits=64)
     last = {str(name): i for i, name in enumerate(data["name"].values)}
-    safe, before = last["as soon as safe"], last["growth, below 3"]
+    safe, before = last["as soon as safe"], last["growth below 3"]
     assert np.all(data["wrong"].values[:, safe, -1] < 0.02)
     assert np.all(data["cost"].values[:, safe, -1] < 2000)
     assert np.array_equal(data["cost"].values[:, before], [data["length"].values] * 2)

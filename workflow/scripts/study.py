@@ -45,12 +45,6 @@ with one_line_errors(snakemake), recorded(snakemake):
     dataset = PARTS[part]()
     if part.endswith("_all"):
         dataset.attrs |= machine()
-    artifacts.save(
-        dataset,
-        snakemake.output[0],
-        {"part": part},
-        stage="study",
-        k=states.BALL.k,
-        g=states.BALL.g,
-        energy=states.ENERGY,
-    )
+    ball = {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
+    about = {} if part == "verdicts" else ball  # verdicts are on cells of many
+    artifacts.save(dataset, snakemake.output[0], {"part": part}, stage="study", **about)

@@ -39,9 +39,9 @@ SINGLE = {
 }
 # The same for the ways to tell regular orbits from chaotic ones.
 VERDICTS = {
-    "growth, below 3": (style.BLACK, "s"),
-    "growth": (style.BLUE, "o"),
-    "SALI": (style.GREEN, "D"),
+    "growth below 3": (style.BLACK, "s"),
+    "growth, best threshold": (style.BLUE, "o"),
+    "SALI (two vectors)": (style.GREEN, "D"),
     "weighted Birkhoff average": (style.ORANGE, "^"),
     "as soon as safe": (style.VERMILION, "o"),
 }

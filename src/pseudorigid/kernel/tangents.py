@@ -85,12 +85,13 @@ def _derive(states, flights, row, n, k, g, head, low):
     """`flight_derivatives` of a row of flights; whether none is too long, or NaN, for that."""
     wide = 0
     row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
-    for i in range(row, row + n):
-        b, c, s = rebound(states[V + i], states[W + i], k, head, low)
-        tau = states[TAU + GROUP + i]
-        found = flight_derivatives(states[X + i], b, c, s, g, tau, narrow_quadrant(tau))
-        flights[SINE + i], flights[COSINE + i] = found[0], found[1]
-        flights[TAU_X + i], flights[TAU_S + i], flights[TAU_C + i] = found[2], found[3], found[4]
+    for i in range(n):
+        at = row + i
+        b, c, s = rebound(states[V + at], states[W + at], k, head, low)
+        tau = states[TAU + GROUP + at]
+        found = flight_derivatives(states[X + at], b, c, s, g, tau, narrow_quadrant(tau))
+        flights[SINE + at], flights[COSINE + at] = found[0], found[1]
+        flights[TAU_X + at], flights[TAU_S + at], flights[TAU_C + at] = found[2], found[3], found[4]
         wide += 0 if tau < WIDE else 1
     return wide == 0
 

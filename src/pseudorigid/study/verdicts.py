@@ -3,13 +3,13 @@
 Cells are drawn over the whole plane of the atlas. The truth on an orbit is the growth of a tangent
 vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps before. Compared are:
 
-    growth, below 3   over a fixed number of impacts: the sweeps' verdict before `sweep.verdict`
-    growth            the same with the best threshold
-    SALI              the smaller alignment index of two tangent vectors (Skokos 2001); in two
-                      dimensions GALI_2 is the same up to a factor
-    weighted Birkhoff average    of the turns around the fixed point: how far apart the winding
-                      numbers of the two halves are (Das et al. 2017)
-    as soon as safe   `sweep.verdict`, with at most that many impacts
+    growth below 3            over a fixed number of impacts: the sweeps' verdict before
+    growth                    the same with the best threshold
+    SALI                      the smaller alignment index of two tangent vectors (Skokos 2001); in
+                              two dimensions GALI_2 is the same up to a factor
+    weighted Birkhoff average of the turns around the fixed point: how far apart the winding numbers
+                              of the two halves are (Das et al. 2017)
+    as soon as safe           `sweep.verdict`, with at most that many impacts
 
 The best thresholds are those with the fewest wrong verdicts on the first set of cells; the second
 set is unseen.
@@ -30,9 +30,9 @@ from ..sweep.verdict import THRESHOLD, judge, means, windows
 LONG = 400_000
 LENGTHS = (250, 500, 1000, 2000, 4000, 8000)
 METHODS = {
-    "growth, below 3": "growth",
-    "growth": "growth",
-    "SALI": "alignment",
+    "growth below 3": "growth",
+    "growth, best threshold": "growth",
+    "SALI (two vectors)": "alignment",
     "weighted Birkhoff average": "unsettled",
     "as soon as safe": "safe",
 }
@@ -65,9 +65,9 @@ def verdicts(cells=36, orbits=128):
     orbits, J. Phys. A 34 (2001). Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity,
     Nonlinearity 30 (2017).
     """
-    places = [place for number in range(len(SETS)) for place in places(cells, number)]
+    drawn = [place for number in range(len(SETS)) for place in places(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
-        found = list(pool.map(lambda place: _cell(*place, orbits), places))
+        found = list(pool.map(lambda place: _cell(*place, orbits), drawn))
     sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
     shape = len(SETS), len(METHODS), len(LENGTHS)
     missed, alarms, cost = (np.empty(shape) for _ in range(3))
