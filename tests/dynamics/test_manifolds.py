@@ -290,7 +290,7 @@ def test_image_by_image_and_from_the_segment_are_one_line(saddle, monkeypatch):
 
 
 def test_a_branch_ends_where_rounding_takes_over():
-    """At E = 0.0008 the inner branches part by less than rounding, past the next saddle."""
+    """At E = 0.0008 the inner branches part by less: nothing is known past the next saddle."""
     orbit = of_type(symmetric_orbits(BALL, 0.0008, 10), "hyperbolic")
     radius = BALL.section(0.0008)[1]
     branch = trace_manifold(BALL, 0.0008, orbit, side="inner", length=0.5)

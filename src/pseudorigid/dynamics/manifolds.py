@@ -13,9 +13,9 @@ own, and points that come from the segment on their own go to and fro along the 
 image is mapped from the one before: a vertex from the one at u - 1, which changes no bit; a point
 between vertices from the cubic through the four vertices around u - 1, unless a jump of the map
 parts them. How far roundings have come shows where two images join: two orbits lead there. The
-branch ends where these are apart by more than KNOWN times the image's extent. Of the paper's ball at
-E = 0.001 and 0.0012 (multipliers 1.34 and 1.46), over 0.5 section radii at the default distance and
-bend, vertices lie within 2e-6 section radii of a line drawn ten times as finely.
+branch ends where these are apart by more than KNOWN times the image's extent. Of the paper's ball
+at E = 0.001 and 0.0012 (multipliers 1.34 and 1.46), over 0.5 section radii at the default distance
+and bend, vertices lie within 2e-6 section radii of a line drawn ten times as finely.
 """
 
 import numpy as np

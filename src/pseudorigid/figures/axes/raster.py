@@ -7,15 +7,15 @@ from ..canvas import style
 from ..canvas.sheet import POINT
 from .panel import log10
 
-_SIZE = 7.0  # points: text beside a scale
+_SIZE = 6.0  # points: text beside a scale
 _STEPS = 64  # colours of a scale
 _MINOR = 1.5  # points: the length of a minor tick
 
 
 def cells(panel, sweep, shades, table):
-    """A rectangle a cell, shades (k, energy) from 0 to 1; beyond as at the end, grey where NaN.
+    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN.
 
-    They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
+    What is beyond has the colour of the end. They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
     they would weigh megabytes.
     """
     left, bottom, right, top = panel.frame
