@@ -15,8 +15,8 @@ _MINOR = 1.5  # points: the length of a minor tick
 def cells(panel, sweep, shades, table):
     """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN.
 
-    What is beyond has the colour of the end. They are an image of whole pixels, so that a PNG has each cell's colour; in a file of vectors
-    they would weigh megabytes.
+    What is beyond has the colour of the end. They are an image of whole pixels, so that a PNG has
+    each cell's colour; in a file of vectors they would weigh megabytes.
     """
     left, bottom, right, top = panel.frame
     energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
