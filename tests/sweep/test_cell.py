@@ -10,7 +10,7 @@ import pytest
 from project import ROOT
 
 from pipeline.records.artifacts import content_hash
-from pseudorigid import Ball
+from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point, follow
 from pseudorigid.sweep import blocks, cell, grid
 
@@ -135,6 +135,28 @@ def test_cells_are_the_same_together_and_alone():
     for e, found in zip(energies, together, strict=True):
         for name, value in cell.cell(0.2, e, 150, 1000).items():
             assert np.array_equal(found[name], value, equal_nan=True), name
+
+
+@pytest.mark.slow
+def test_intervals_hold_what_random_orbits_show():
+    """Other starts, longer runs, and exponents by the spectrum, on cells at random."""
+    random = np.random.default_rng(2024)
+    inside, off = 0, []
+    for _ in range(10):
+        k, e = float(random.uniform(0.012, 0.332)), float(10 ** random.uniform(-0.5, 1.6))
+        found, ball = cell.cell(k, e, 200, 8000), Ball(k=k, g=1.0)
+        centre, radius = ball.section(e)
+        angle, share = 2 * math.pi * random.random(600), np.sqrt(random.random(600))
+        y = radius * math.sqrt(k * (1 + k)) * share * np.sin(angle)
+        states = ball.state_xy(centre + radius * share * np.cos(angle), y, e)
+        half, whole = lyapunov_spectrum(ball, states, 20_000, 2)["exponent"].values[:, :, 0]
+        chaotic = 20_000 * whole - 10_000 * half > 5  # ln 2 = 0.69 where regular
+        inside += found["regular_low"] <= 1 - chaotic.mean() <= found["regular_high"]
+        error = math.hypot(found["exponent_error"], np.std(whole[chaotic]) / chaotic.sum() ** 0.5)
+        off.append((found["exponent"] - whole[chaotic].mean()) / error)
+    assert inside >= 9
+    assert np.max(np.abs(off)) < 4
+    assert abs(np.mean(off)) < 1
 
 
 def joined(size):

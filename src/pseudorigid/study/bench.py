@@ -42,7 +42,7 @@ BASES = {
     "spectrum": "spectrum here",
     "cells": "a cell here",
     "branch": "that branch here",
-    "none": "a search that finds none",
+    "none": "a search finding none",
 }
 # what, its call, what it is compared with, and the aim
 ROWS = (
