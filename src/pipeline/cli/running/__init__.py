@@ -181,4 +181,8 @@ def _profile():
     """The options that are passed on every run; as a profile snakemake would tell of them."""
     text = (ROOT / "workflow" / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     for name, value in yaml.safe_load(text).items():
-        yield from [f"--{name}", *([] if value is True else value)]
+        yield from (
+            [f"--{name}"]
+            if value is True
+            else [f"--{name}", *([value] if isinstance(value, str) else value)]
+        )
