@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[3]
 GO_ON = 75  # the exit status of `main` where the words are well as far as can be said
 MISUSE = 2
 # Names that are not of config.yaml: of folders in results/, and a target.
-FOLDERS = ("paper", "study", "sweep", "report", "compare", "all")
+FOLDERS = ("paper", "study", "sweep", "report", "archive", "compare", "all")
 
 FIGURES = "figures to draw, by the names in config.yaml; all without a name"
 SWEEPS = "sweeps of config.yaml; all without a name"
@@ -108,20 +108,13 @@ WORDS = {
         more=" Exit status 1 where one is not proved.",
     ),
     "report": Word(
-        "one HTML page with the figures, numbers, corrections and run times",
+        "one HTML page: figures, numbers beside the paper's, corrections, run times",
         passes=True,
     ),
     "archive": Word(
         "one tar with figures, data and what they were made from",
-        (
-            "file",
-            {
-                "nargs": "?",
-                "metavar": "FILE",
-                "help": "by default results/archive/pseudorigid.tar",
-            },
-        ),
-        more=" The same to the byte wherever its files are. Everything must be made.",
+        ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
+        more=" It is the same to the byte wherever its files are. Everything must be made.",
     ),
     "verify": Word(
         "whether everything here is as committed, and if not, what differs",
@@ -131,7 +124,7 @@ WORDS = {
                 {
                     "metavar": "PLACE",
                     "help": "an archive: compare this tree with it, file by file; or a folder with "
-                    "another tree or its results: how many ulp lie between its data and these",
+                    "another tree or its results: say how many ulp lie between its data and these",
                 },
             ),
             ("--strict", {"action": "store_true", "help": "exit 1 for notes too"}),

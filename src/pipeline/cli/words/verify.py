@@ -6,7 +6,7 @@ from ..folder import MisuseError, UsageError
 
 
 def run(given) -> int:
-    """Compare the tree with its contracts; 0 where nothing is red."""
+    """Compare the tree with its contracts, or with an archive; 0 where nothing is red."""
     against = given.against and given.start / given.against
     if against is not None and not against.exists():
         raise MisuseError(f"verify: no archive or folder {against}")
