@@ -135,4 +135,4 @@ def test_a_damaged_artifact_is_made_again_first(variants, tmp_path):
 )
 def test_bad_names_are_one_line(variants, words, line):
     result = variants.run("compare", *words)
-    assert (result.returncode, result.stdout) == (1, line + "\n")
+    assert (result.returncode, result.stdout) == (2, line + "\n")

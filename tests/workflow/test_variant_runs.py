@@ -161,7 +161,7 @@ def test_what_is_shared_is_not_computed_again(done):
 )
 def test_a_name_that_is_no_variant_is_one_line(variants, words, line):
     result = variants.run("variant", *words)
-    assert (result.returncode, result.stdout) == (1, f"reproduce: {line}\n")
+    assert (result.returncode, result.stdout) == (2, f"reproduce: {line}\n")
 
 
 def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
