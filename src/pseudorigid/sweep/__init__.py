@@ -1,4 +1,4 @@
-"""A grid over k and E/g^2, the two numbers on which everything dimensionless depends.
+"""A grid over k and E/g^2, the two numbers that decide what is free of the unit of length.
 
 The map commutes with a change of the unit of length, so here lengths are in units of g R: then
 g = 1 and the energy is E/g^2. A cell holds for every ball with this k, whatever its g, as long as
