@@ -166,7 +166,7 @@ def test_a_kind_of_three_files(copy):
     assert rows(made.stdout) == {"paper_figures/map.png": "recomputed"}
     page = (copy.path / "results" / "report" / "report.html").read_text()
     assert "Positions of 2 orbits: the next one" in page
-    assert "map: orbits 2 (the paper: not printed)" in page
+    assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in page
 
     for change, line in (
         ({"start": [0.1]}, "map.start: unknown key: did you mean starts?"),

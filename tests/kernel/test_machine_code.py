@@ -57,7 +57,7 @@ def test_the_loops_over_lanes_are_vector_instructions():
     for loop, arguments in (
         (lanes._march, (row, 0.04)),
         (lanes._land, (row,)),
-        (lanes._arrive, (row, then, 0.2, 0.04, *h)),
+        (lanes._end_flights, (row, then, 0.2, 0.04, *h)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, *h)),
         (follow._observe, (np.ones(follow._ROWS), 64, 0.2, 1.0, *h, states, flights, 0)),
         (lyapunov._advance, (frames, 64, 0.2, 1.0, *h, states, flights, 0)),

@@ -93,6 +93,7 @@ def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
 
 STAND_IN = """#!/bin/sh
 case "$*" in
+*pipeline.cli.arguments*) exit 75 ;;
 *sys.version_info\\[:2]*) echo 3 11 ;;
 '-m venv '*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python"; echo "command = $*" >"$3/pyvenv.cfg" ;;
 *'-m pip '*) [ ! -e "$SLOW" ] || { touch "$SLOW.begun"; exec sleep 60; } ;;

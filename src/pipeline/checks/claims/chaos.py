@@ -184,7 +184,7 @@ def opposite(data, proved):
     exact = formula(data["derivations"], "determinants")[0]
     word = HOLDS if exact and drift < 100.0 / impacts else FALSE
     value = f"|l1 + l3|, |l2| up to {drift:.0e} after {impacts:,} impacts, falling like 1/n"
-    return Verdict(word, value, "exact in the limit", "tests/test_derivations.py")
+    return Verdict(word, value, "exact in the limit", "tests/proofs/test_derivations.py")
 
 
 @claim(

@@ -74,7 +74,9 @@ def energy_surface(data, proved):
     word = HOLDS if good else FALSE
     value = "the energy of each orbit is kept to rounding"
     bound = f"below {ROUNDING:.0e}" if error < ROUNDING else f"{error:.1e}"
-    return Verdict(word, value, bound, "tests/test_derivations.py, tests/kernel/test_impact.py")
+    return Verdict(
+        word, value, bound, "tests/proofs/test_derivations.py, tests/kernel/test_impact.py"
+    )
 
 
 @claim(
@@ -119,7 +121,7 @@ def never_inside_out(data, proved):
     bounded = formula(data["derivations"], "bound_in_flight")[0]
     word = HOLDS if bounded and least > -1.0 else FALSE
     value = f"also in flight; least strain of the sea {least:.3f}"
-    return Verdict(word, value, "exact bound", "tests/test_derivations.py")
+    return Verdict(word, value, "exact bound", "tests/proofs/test_derivations.py")
 
 
 @claim(

@@ -144,7 +144,7 @@ def derived(dataset, *names, value="", remark=""):
     """The Verdict on formulas that computer algebra settles."""
     holds, mended = formula(dataset, *names)
     word = HOLDS if holds else CORRECTED if mended else FALSE
-    return Verdict(word, value, remark or "exact", "tests/test_derivations.py")
+    return Verdict(word, value, remark or "exact", "tests/proofs/test_derivations.py")
 
 
 def number_of(dataset, name):

@@ -71,7 +71,7 @@ def homogeneous(data, proved):
     mended = formula(data["derivations"], "euler_tensor")[1]
     word = CORRECTED if mended and abs(used - solid) < 1e-12 else FALSE
     value = f"homogeneous is k = {solid:g}, as used; k is not free then"
-    return Verdict(word, value, "exact", "tests/test_derivations.py")
+    return Verdict(word, value, "exact", "tests/proofs/test_derivations.py")
 
 
 @claim(
@@ -160,7 +160,7 @@ def softness(data, proved):
     holds = formula(data["derivations"], "softness")[0]
     value = f"Young's modulus is {ratio:g} rho g R: 5 kPa for 10 cm of water's density"
     value = value if abs(ratio - 5.0) < 1e-9 else f"Young's modulus is {ratio:g} rho g R"
-    return Verdict(HOLDS if holds else FALSE, value, "exact", "tests/test_derivations.py")
+    return Verdict(HOLDS if holds else FALSE, value, "exact", "tests/proofs/test_derivations.py")
 
 
 @claim(
