@@ -50,8 +50,8 @@ def render(verdicts):
     groups = {word: [] for word in ORDER}
     for number in sorted(verdicts):
         groups[verdicts[number].verdict.partition(":")[0]].append(number)
-    counts = ", ".join(f"{len(groups[word])} {word}" for word in ORDER if groups[word])
-    lines = [HEAD, f"Of {len(verdicts)} statements: {counts}.", ""]
+    counts = ", ".join(f"{word} {len(groups[word])}" for word in ORDER if groups[word])
+    lines = [HEAD, f"The verdicts on {len(verdicts)} statements: {counts}.", ""]
     for word in ORDER:
         if not groups[word]:
             continue
