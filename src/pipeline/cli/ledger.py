@@ -15,7 +15,7 @@ from ..records import artifacts, sources
 from ..records.files import replacing
 from ..records.record import begin, finish, record_path
 from ..records.sources import ROOT
-from .folder import UsageError
+from .folder import MisuseError, UsageError
 
 LEDGER = "CLAIMS.md"
 DERIVATIONS = "results/claims/derivations.nc"
@@ -92,16 +92,16 @@ def check(checked, number, given) -> str:
     """
     claim = claims.CLAIMS.get(number)
     if claim is None:
-        raise UsageError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
+        raise MisuseError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
     if not claim.data:
-        raise UsageError(f"claim {number} rests on no dataset")
+        raise MisuseError(f"claim {number} rests on no dataset")
     name, mark, file = given.rpartition("=")
     other = artifacts.load(file)
     stage = re.sub(r"\d+$", "", str(other.attrs.get("stage", "")))
     fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
     name = name if mark else (fitting or [claim.data[0]])[0]
     if name not in claim.data:
-        raise UsageError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
+        raise MisuseError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
@@ -109,7 +109,10 @@ def check(checked, number, given) -> str:
     for known in claim.data:
         if known != name:
             data[known] = load(checked, known, paths(checked)[known])
-    verdict = claim.judge(data, proofs(claim.theorems))
+    try:
+        verdict = claim.judge(data, proofs(claim.theorems))
+    except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
+        return f"{number}  {NOT_COMPUTED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
 
 
