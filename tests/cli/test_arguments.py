@@ -67,6 +67,7 @@ WRONG = {
     "fig33": "reproduce: no word or figure fig33: did you mean fig3?",
     "fig3 fgi5": "reproduce: no word or figure fgi5: did you mean fig5?",
     "help verfy": "reproduce: no word verfy: did you mean verify?",
+    "help verify fig3": "reproduce help: no argument fig3",
     "variant lower-energi": "reproduce: no variant lower-energi: did you mean lower-energy?",
     "variant lower-energy fig99": "reproduce: no figure fig99: did you mean fig8?",
     "compare paper douled fig2": "reproduce: no variant douled: did you mean doubled?",

@@ -178,9 +178,12 @@ def read(arguments):
     if first == "help" and not rest:
         return read(["--help"])
     if first == "help" and not rest[0].startswith("-"):
-        first, rest = rest[0], ["--help"]
+        first, *surplus = rest
+        rest = ["--help"]
         if first not in WORDS:
             refuse(f"no word {first}{hint(first, WORDS)}")
+        if surplus:
+            refuse(f"no argument {surplus[0]}", "./reproduce help")
     word = first if first in WORDS else None
     parser = _parser(word)
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
