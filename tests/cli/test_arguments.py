@@ -100,7 +100,7 @@ def test_what_is_misspelt_is_one_line_with_the_nearest_name(capsys, line):
         "compare paper doubled fig2 --cores 2",
         "sweep line --slurm -j 5",
         "claims --check 3 --data=x --cores 2",
-        "clean --yes study doubled",
+        "clean --yes study gone",
         "test -x --no-such-option",
         "prove horseshoe-outer",
     ],
