@@ -17,7 +17,6 @@ from ..records.record import begin, finish, record_path
 from ..records.sources import ROOT
 from .folder import MisuseError, UsageError
 
-LEDGER = "CLAIMS.md"
 DERIVATIONS = "results/claims/derivations.nc"
 PROOFS = "pseudorigid.proofs.derivations"
 
@@ -79,8 +78,9 @@ def write(checked) -> dict:
     data = {name: load(checked, name, path) for name, path in paths(checked).items()}
     verdicts = claims.judge(data, proofs(claims.theorems()))
     text = render(verdicts)
-    if not (ROOT / LEDGER).is_file() or (ROOT / LEDGER).read_text(encoding="utf-8") != text:
-        with replacing(ROOT / LEDGER) as part:
+    path = ROOT / places.LEDGER
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        with replacing(path) as part:
             part.write_text(text, encoding="utf-8")
     return verdicts
 

@@ -47,5 +47,5 @@ def run(given) -> int:
             ledger.derive(checked)
             verdicts = ledger.write(checked)
     counts = Counter(verdict.verdict.partition(":")[0] for verdict in verdicts.values())
-    print(f"\n{ledger.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    print(f"\n{places.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
     return 0
