@@ -50,6 +50,12 @@ def test_each_word_has_its_module(word):
     assert found or word == "help"
 
 
+def test_theorems_are_called_as_their_certificates():
+    from pseudorigid.proofs import THEOREMS
+
+    assert all(theorem.certificate == f"{name}.toml" for name, theorem in THEOREMS.items())
+
+
 def test_the_config_knows_the_words():
     assert {*arguments.WORDS, "all"} == set(document.WORDS)
 
@@ -74,6 +80,7 @@ WRONG = {
     "sweep plan": "reproduce: no sweep plan: did you mean plane?",
     "accept fig3": "reproduce accept: no argument fig3",
     "verify --strikt": "reproduce verify: no argument --strikt: did you mean --strict?",
+    "prove horsshoe-outer": "reproduce: no theorem horsshoe-outer: did you mean horseshoe-outer?",
     "prove --impact": "reproduce prove: no argument --impact: did you mean --impacts?",
     "claims --check x": "reproduce claims: argument --check: invalid int value: 'x'",
     "clean --ye": "reproduce clean: no argument --ye: did you mean --yes?",

@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[3]
 GO_ON = 75  # the exit status of `main` where the words are well as far as can be said
 MISUSE = 2
 OTHERS = ("paper", "all")  # names that are not in config.yaml
+CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
 FIGURES = "figures to draw, by the names in config.yaml; all without a name"
 SWEEPS = "sweeps of config.yaml; all without a name"
@@ -199,23 +200,30 @@ def read(arguments):
 def main(arguments):
     """Answer what needs no packages; else the exit status GO_ON.
 
-    Names are looked for in the text of config.yaml: what is nowhere in it cannot be one. Those of
-    `clean` are folders.
+    Names are looked for in the text of config.yaml: what is nowhere in it cannot be one. Theorems
+    are called as their certificates; those of `clean` are folders.
     """
     given = read(arguments)
-    text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+    try:
+        text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+    except OSError:  # which is said when it is read in earnest
+        return GO_ON
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    for kind in () if given.word == "clean" else ("name", "a", "b", "figure"):
+    theorems = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
+    for kind in () if given.word == "clean" else ("name", "a", "b", "figure", "theorem"):
         names = getattr(given, kind, None) or []
         for name in [names] if isinstance(names, str) else names:
-            if "/" not in name and name not in OTHERS and name not in words:
-                near = keys if given.word else [*keys, *WORDS]
+            known = theorems if kind == "theorem" else [*words, *OTHERS]
+            if "/" not in name and name not in known:
+                near = theorems if kind == "theorem" else keys if given.word else [*keys, *WORDS]
                 refuse(f"no {_kind(given.word, kind)} {name}{hint(name, near)}")
     return GO_ON
 
 
 def _kind(word, argument):
     """What an argument is a name of."""
+    if argument == "theorem":
+        return argument
     if argument == "figure":
         return "figure" if word else "word or figure"
     return "sweep" if word in ("sweep", "atlas") else "variant"
