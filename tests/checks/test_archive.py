@@ -182,3 +182,7 @@ def test_damaged_and_foreign_archives_are_one_line(accepted, packed, tmp_path):
     assert result.returncode == 1 and len(result.stdout.splitlines()) == 1
     result = accepted.run("verify", "--against", str(tmp_path / "none.tar"))
     assert result.stdout == f"reproduce: verify: no archive or folder {tmp_path}/none.tar\n"
+    (tmp_path / "empty").mkdir()
+    result = accepted.run("verify", "--against", str(tmp_path / "empty"))
+    said = f"reproduce: verify: {tmp_path}/empty is no tree of this project, and has no results\n"
+    assert (result.returncode, result.stdout) == (2, said)

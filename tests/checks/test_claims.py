@@ -373,6 +373,8 @@ def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):
     assert said(40, "spread/spread", spread)[0].startswith(f"40  {CORRECTED}; 0.23")
     line, file = said(40, "spread/spread", with_all(spread, lambda v: 0.9 * v))
     assert line.startswith(f"40  {NOT_COMPUTED}: {file} is no spread/spread of its ball and energy")
+    line, file = said(1, "derivations", spread)
+    assert line.startswith(f"1  {NOT_COMPUTED}: {file} cannot be read as derivations: ")
 
 
 # -- the page -------------------------------------------------------------------------------------

@@ -50,6 +50,12 @@ def test_each_word_has_its_module(word):
     assert found or word == "help"
 
 
+def test_theorems_are_called_as_their_certificates():
+    from pseudorigid.proofs import THEOREMS
+
+    assert all(theorem.certificate == f"{name}.toml" for name, theorem in THEOREMS.items())
+
+
 def test_the_config_knows_the_words():
     assert {*arguments.WORDS, "all"} == set(document.WORDS)
 
@@ -67,12 +73,14 @@ WRONG = {
     "fig33": "reproduce: no word or figure fig33: did you mean fig3?",
     "fig3 fgi5": "reproduce: no word or figure fgi5: did you mean fig5?",
     "help verfy": "reproduce: no word verfy: did you mean verify?",
+    "help verify fig3": "reproduce help: no argument fig3",
     "variant lower-energi": "reproduce: no variant lower-energi: did you mean lower-energy?",
     "variant lower-energy fig99": "reproduce: no figure fig99: did you mean fig8?",
     "compare paper douled fig2": "reproduce: no variant douled: did you mean doubled?",
     "sweep plan": "reproduce: no sweep plan: did you mean plane?",
     "accept fig3": "reproduce accept: no argument fig3",
     "verify --strikt": "reproduce verify: no argument --strikt: did you mean --strict?",
+    "prove horsshoe-outer": "reproduce: no theorem horsshoe-outer: did you mean horseshoe-outer?",
     "prove --impact": "reproduce prove: no argument --impact: did you mean --impacts?",
     "claims --check x": "reproduce claims: argument --check: invalid int value: 'x'",
     "clean --ye": "reproduce clean: no argument --ye: did you mean --yes?",
@@ -99,7 +107,7 @@ def test_what_is_misspelt_is_one_line_with_the_nearest_name(capsys, line):
         "compare paper doubled fig2 --cores 2",
         "sweep line --slurm -j 5",
         "claims --check 3 --data=x --cores 2",
-        "clean --yes study doubled",
+        "clean --yes study gone",
         "test -x --no-such-option",
         "prove horseshoe-outer",
     ],

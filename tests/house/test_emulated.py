@@ -21,7 +21,7 @@ import pytest
 from project import ROOT
 from test_matrix import SWITCHES, probe
 
-from pipeline.checks import manifest
+from pipeline.checks.sums import read_sums
 
 pytestmark = pytest.mark.emulated
 
@@ -132,4 +132,4 @@ def test_the_published_figures(machine, tmp_path):
         check=False,
     )
     assert result.returncode == 0, result.stderr
-    assert json.loads(result.stdout) == manifest.read_sums(ROOT, "paper_figures")
+    assert json.loads(result.stdout) == read_sums(ROOT, "paper_figures")

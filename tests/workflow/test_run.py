@@ -53,6 +53,7 @@ def test_figures_by_name(done):
     result = done.run("fig33")
     said = "reproduce: no word or figure fig33: did you mean fig3?\n"
     assert (result.returncode, result.stdout) == (2, said)
+    assert done.run("fig33", "--strict").stdout == said  # an argument of another word
     result = done.run("fig3", "--coers", "2")
     said = "reproduce: no argument --coers: did you mean --cores?\n"
     assert (result.returncode, result.stdout) == (2, said)

@@ -9,6 +9,9 @@ import time
 
 import pytest
 
+from pipeline.cli import running
+from pipeline.cli.folder import MisuseError
+
 
 def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     tree.edit("fig5", energy=0.9)
@@ -36,6 +39,15 @@ def test_settings_on_the_command_line_are_refused(tree):
     result = tree.run("-n", "--config", "energy=0.3")
     assert result.returncode == 2
     assert result.stdout.splitlines()[-1].endswith("not used here: edit config.yaml")
+
+
+@pytest.mark.parametrize(
+    "words", ["--cors 1", "--cores x", "-j x", "--set-threads x", "--default-resources ="]
+)
+def test_what_snakemake_cannot_read_is_one_line(words):
+    with pytest.raises(MisuseError) as refused:
+        running.options_of(words.split())
+    assert len(str(refused.value).splitlines()) == 1
 
 
 def shell_tools(folder, *tools):

@@ -6,6 +6,7 @@ from ..records.files import file_hash, replacing
 from . import contracts, manifest
 from .currency import MISSING, Currency
 from .difference import UPSTREAM, Comparison
+from .sums import SUMS, ContractError, read_sums
 
 
 def accept(root, checked):
@@ -61,8 +62,8 @@ def _renew(root, contract):
     folder = contract.folder
     try:
         committed = manifest.read(root, folder)
-        sums = manifest.read_sums(root, folder)
-    except manifest.ContractError as error:
+        sums = read_sums(root, folder)
+    except ContractError as error:
         committed = sums = None
         changes = [f"a new contract ({error})"]
     else:
@@ -73,7 +74,7 @@ def _renew(root, contract):
         return
     manifest.write(root, folder, fresh)
     print(*(changes or [f"other changes behind the same {contract.what}"]), sep="\n")
-    renewed = f"{folder}/{manifest.SUMS} and {folder}/{manifest.MANIFEST} renewed"
+    renewed = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST} renewed"
     print(f"{renewed}: {len(contract.drawn)} {contract.what}")
 
 

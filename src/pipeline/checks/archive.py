@@ -10,16 +10,16 @@ import tarfile
 import tempfile
 from pathlib import Path
 
+from ..config.places import LEDGER
 from ..records.files import file_hash, replacing
 from ..records.record import SHAPE, read_record, record_path
 from . import contracts, manifest
 from .currency import MISSING, Currency
 from .difference import Comparison
+from .sums import SUMS, ContractError, read_sums
 
 TOP = "pseudorigid"  # the folder in the tar
-SUMS = manifest.SUMS
 ABOUT = "README.txt"
-LEDGER = "CLAIMS.md"
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 README = """\
 Figures of E. Kanso and P. Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid foundation",
@@ -84,8 +84,8 @@ def contents(root, checked):
         if not manifest.there(root, contract):
             continue
         try:
-            names = list(manifest.read_sums(root, contract.folder))
-        except manifest.ContractError:
+            names = list(read_sums(root, contract.folder))
+        except ContractError:
             names = []
         names += [SUMS, manifest.MANIFEST]
         places += [f"{contract.folder}/{name}" for name in names]
@@ -121,8 +121,8 @@ def _problem(root, contract):
         return None
     try:
         committed = manifest.read(root, contract.folder)
-        sums = manifest.read_sums(root, contract.folder)
-    except manifest.ContractError as error:
+        sums = read_sums(root, contract.folder)
+    except ContractError as error:
         return f"{error}: run ./reproduce accept"
     for path, why in Currency(root, contract.expected).outdated().items():
         if why != MISSING:
@@ -200,7 +200,7 @@ def _layers(root, checked, theirs, folder):
     for contract in contracts.committed(checked):
         try:
             committed = manifest.read(folder, contract.folder)
-        except manifest.ContractError:
+        except ContractError:
             continue
         comparison = Comparison(root, contract, committed, folder)
         known |= {f"{contract.folder}/{name}": (comparison, name) for name in contract.drawn}

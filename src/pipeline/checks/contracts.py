@@ -73,7 +73,7 @@ def of_scenes(checked, variant):
             for scene, block in scenes.items()
         },
         expected=expected.of_scenes(checked["variants"], variant),
-        texts=("CLAIMS.md",) if variant == "claims" else (),
+        texts=(places.LEDGER,) if variant == "claims" else (),
         on_request=not paper,
     )
 

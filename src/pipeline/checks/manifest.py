@@ -12,10 +12,9 @@ from ..records.artifacts import canonical_json, canonical_values, load, plain_at
 from ..records.files import file_hash, replacing
 from ..records.pictures import describe
 from ..records.record import versions
-from .sums import SUMS, ContractError, read_sums, text_of
+from .sums import SUMS, ContractError, text_of
 
 MANIFEST = "MANIFEST.json"
-__all__ = ["SUMS", "ContractError", "read_sums"]
 BLOCK = 1024  # values hashed together, so that a difference can be placed
 _SHORT = 16  # hex digits of the hash of a block or an attribute
 

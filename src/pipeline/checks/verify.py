@@ -10,6 +10,7 @@ from ..records.files import file_hash
 from . import contracts, manifest
 from .currency import MISSING, Currency
 from .difference import UPSTREAM, Comparison
+from .sums import SUMS, ContractError, read_sums
 
 NEW = "new: ./reproduce accept adds it to the contract"
 
@@ -46,7 +47,7 @@ def _verify(root, contract, against):
     try:
         committed = manifest.read(root, contract.folder)
         findings = _surplus(root, contract, manifest.figures(committed))
-    except manifest.ContractError as error:
+    except ContractError as error:
         committed, findings = None, [f"{error}: the layers cannot be compared"]
     findings += _sums(root, contract, committed)
     for path, digest in (committed or {}).get("texts", {}).items():
@@ -93,8 +94,8 @@ def _verdict(root, contract, name, comparison, stale):
 def _by_sums(root, contract, name):
     """What is wrong with a published file where there is no manifest to ask."""
     try:
-        wanted = manifest.read_sums(root, contract.folder).get(name)
-    except manifest.ContractError:
+        wanted = read_sums(root, contract.folder).get(name)
+    except ContractError:
         wanted = None
     digest = file_hash(root / contract.folder / name)
     if digest is None:
@@ -107,12 +108,12 @@ def _by_sums(root, contract, name):
 def _sums(root, contract, committed):
     """What is wrong with SHA256SUMS, the files apart."""
     try:
-        sums = manifest.read_sums(root, contract.folder)
-    except manifest.ContractError as error:
+        sums = read_sums(root, contract.folder)
+    except ContractError as error:
         return [str(error)]
     if committed is None:
         return []
-    path, listed = f"{contract.folder}/{manifest.SUMS}", manifest.figures(committed)
+    path, listed = f"{contract.folder}/{SUMS}", manifest.figures(committed)
     found = [f"{path}: no line for {name}" for name in sorted(set(listed) - set(sums))]
     found += [
         f"{path}: a line for {name}, which the manifest has not"

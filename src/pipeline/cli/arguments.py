@@ -12,8 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 GO_ON = 75  # the exit status of `main` where the words are well as far as can be said
 MISUSE = 2
-# Names that are not of config.yaml: of folders in results/, and a target.
-FOLDERS = ("paper", "study", "sweep", "report", "archive", "compare", "all")
+OTHERS = ("paper", "all")  # names that are not in config.yaml
+CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
 FIGURES = "figures to draw, by the names in config.yaml; all without a name"
 SWEEPS = "sweeps of config.yaml; all without a name"
@@ -178,9 +178,12 @@ def read(arguments):
     if first == "help" and not rest:
         return read(["--help"])
     if first == "help" and not rest[0].startswith("-"):
-        first, rest = rest[0], ["--help"]
+        first, *surplus = rest
+        rest = ["--help"]
         if first not in WORDS:
             refuse(f"no word {first}{hint(first, WORDS)}")
+        if surplus:
+            refuse(f"no argument {surplus[0]}", "./reproduce help")
     word = first if first in WORDS else None
     parser = _parser(word)
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
@@ -197,25 +200,33 @@ def read(arguments):
 def main(arguments):
     """Answer what needs no packages; else the exit status GO_ON.
 
-    Names are looked for in the text of config.yaml: what is nowhere in it cannot be one.
+    Names are looked for in the text of config.yaml: what is nowhere in it cannot be one. Theorems
+    are called as their certificates; those of `clean` are folders.
     """
     given = read(arguments)
-    text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
-    known = re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    for kind in ("name", "a", "b", "figure"):
+    try:
+        text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+    except OSError:  # which is said when it is read in earnest
+        return GO_ON
+    words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
+    theorems = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
+    for kind in () if given.word == "clean" else ("name", "a", "b", "figure", "theorem"):
         names = getattr(given, kind, None) or []
         for name in [names] if isinstance(names, str) else names:
-            if "/" not in name and name not in FOLDERS and name not in re.findall(r"[\w-]+", text):
-                near = known if given.word else [*known, *WORDS]
+            known = theorems if kind == "theorem" else [*words, *OTHERS]
+            if "/" not in name and name not in known:
+                near = theorems if kind == "theorem" else keys if given.word else [*keys, *WORDS]
                 refuse(f"no {_kind(given.word, kind)} {name}{hint(name, near)}")
     return GO_ON
 
 
 def _kind(word, argument):
     """What an argument is a name of."""
+    if argument == "theorem":
+        return argument
     if argument == "figure":
         return "figure" if word else "word or figure"
-    return {"clean": "folder results/", "sweep": "sweep", "atlas": "sweep"}.get(word, "variant")
+    return "sweep" if word in ("sweep", "atlas") else "variant"
 
 
 def hint(name, known):

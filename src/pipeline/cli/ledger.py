@@ -15,9 +15,8 @@ from ..records import artifacts, sources
 from ..records.files import replacing
 from ..records.record import begin, finish, record_path
 from ..records.sources import ROOT
-from .folder import UsageError
+from .folder import MisuseError, UsageError
 
-LEDGER = "CLAIMS.md"
 DERIVATIONS = "results/claims/derivations.nc"
 PROOFS = "pseudorigid.proofs.derivations"
 
@@ -79,8 +78,9 @@ def write(checked) -> dict:
     data = {name: load(checked, name, path) for name, path in paths(checked).items()}
     verdicts = claims.judge(data, proofs(claims.theorems()))
     text = render(verdicts)
-    if not (ROOT / LEDGER).is_file() or (ROOT / LEDGER).read_text(encoding="utf-8") != text:
-        with replacing(ROOT / LEDGER) as part:
+    path = ROOT / places.LEDGER
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        with replacing(path) as part:
             part.write_text(text, encoding="utf-8")
     return verdicts
 
@@ -92,16 +92,16 @@ def check(checked, number, given) -> str:
     """
     claim = claims.CLAIMS.get(number)
     if claim is None:
-        raise UsageError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
+        raise MisuseError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
     if not claim.data:
-        raise UsageError(f"claim {number} rests on no dataset")
+        raise MisuseError(f"claim {number} rests on no dataset")
     name, mark, file = given.rpartition("=")
     other = artifacts.load(file)
     stage = re.sub(r"\d+$", "", str(other.attrs.get("stage", "")))
     fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
     name = name if mark else (fitting or [claim.data[0]])[0]
     if name not in claim.data:
-        raise UsageError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
+        raise MisuseError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
@@ -109,7 +109,10 @@ def check(checked, number, given) -> str:
     for known in claim.data:
         if known != name:
             data[known] = load(checked, known, paths(checked)[known])
-    verdict = claim.judge(data, proofs(claim.theorems))
+    try:
+        verdict = claim.judge(data, proofs(claim.theorems))
+    except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
+        return f"{number}  {NOT_COMPUTED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
 
 

@@ -16,6 +16,7 @@ PUBLISHED = {
 }
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
+LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 
 
 def stages(block: dict) -> dict[str, dict]:

@@ -12,12 +12,18 @@ from . import cycles, exponents, norms, orbits, picture
 def compare(root, variants, names, absent, scenes):
     """Print what differs between two variants and save their figures side by side.
 
-    Args:
-        root: the project's folder.
-        variants: the checked variants of the config, name -> scene -> block.
-        names: the two of them, the paper's own name included.
-        absent: for each of the two, scene -> why its figure cannot exist.
-        scenes: those of their scenes that are looked at.
+    Parameters
+    ----------
+    root : pathlib.Path
+        The project's folder.
+    variants : dict
+        The checked variants of the config, name -> scene -> block.
+    names : list of str
+        The two of them, the paper's own name included.
+    absent : list of dict
+        For each of the two, scene -> why its figure cannot exist.
+    scenes : list of str
+        Those of their scenes that are looked at.
     """
     serves = places.served(variants)
 

@@ -16,12 +16,12 @@ from ...config.declared.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import file_hash
 from ...records.record import read_record
-from .. import contracts, manifest
+from .. import contracts
 from ..claims import render as claims
 from ..currency import MISSING, Currency
+from ..sums import ContractError, read_sums
 from . import numbers
 
-LEDGER = "CLAIMS.md"
 # What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
 CHARTS = {
     "work_uniform": "error against work of methods for the next impact, states all over the "
@@ -128,7 +128,7 @@ class _Page:
     def claims(self):
         """The rows of CLAIMS.md, or none."""
         try:
-            return claims.read((self.root / LEDGER).read_text(encoding="utf-8"))
+            return claims.read((self.root / places.LEDGER).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return []
 
@@ -193,8 +193,8 @@ class _Page:
             return drawn
         folder = places.PUBLISHED[variant]
         try:
-            wanted = manifest.read_sums(self.root, folder).get(f"{scene}.png")
-        except manifest.ContractError:
+            wanted = read_sums(self.root, folder).get(f"{scene}.png")
+        except ContractError:
             wanted = None
         same = {
             None: "not among the committed ones",

@@ -52,7 +52,12 @@ def _parser():
 
 def options_of(arguments):
     """Snakemake's own reading of its options; MisuseError where it refuses them."""
-    return _parser().parse_args(arguments)
+    from snakemake.exceptions import CliException, WorkflowError
+
+    try:
+        return _parser().parse_args(arguments)
+    except (CliException, WorkflowError, ValueError) as error:  # of a value, as in --cores x
+        raise MisuseError(" ".join(str(error).split())) from None
 
 
 def only_says(arguments) -> bool:

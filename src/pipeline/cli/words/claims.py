@@ -7,9 +7,10 @@ from pseudorigid.sweep import grid
 from ...checks.currency import Currency
 from ...config import places
 from ...config.checking.reading import load
+from ...records.artifacts import ArtifactError
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import MisuseError, interruptible, locked
+from ..folder import MisuseError, UsageError, interruptible, locked
 from ..telling import sweeping
 
 
@@ -22,7 +23,10 @@ def run(given) -> int:
 
     if given.check is not None:
         name, mark, file = given.data.rpartition("=")
-        print(ledger.check(checked, given.check, f"{name}{mark}{given.start / file}"))
+        try:
+            print(ledger.check(checked, given.check, f"{name}{mark}{given.start / file}"))
+        except ArtifactError as error:
+            raise UsageError(str(error)) from None
         return 0
     with locked():
         results, needed = ledger.results(checked)
@@ -43,5 +47,5 @@ def run(given) -> int:
             ledger.derive(checked)
             verdicts = ledger.write(checked)
     counts = Counter(verdict.verdict.partition(":")[0] for verdict in verdicts.values())
-    print(f"\n{ledger.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    print(f"\n{places.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
     return 0

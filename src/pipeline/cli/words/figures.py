@@ -15,12 +15,13 @@ def run(given) -> int:
     """Make every figure of the paper, or those figures and files that are named."""
     running.refuse_settings(given.options)
     checked = load(ROOT / "config.yaml")
+    _meant(checked, given.figure, given.start)  # a misspelt one, before what snakemake refuses
     targets = running.options_of(given.options).targets if given.options else []
     options = [a for a in given.options if a not in targets]
-    names = [name for name in (*given.figure, *targets) if name != "all"]
+    names = [*given.figure, *targets]
     sets, others = _meant(checked, names, given.start)
     with locked():
-        if not names:
+        if not (sets or others):
             return figures.make(checked, config.PAPER, options)
         status = 0
         for variant in sets or ([config.PAPER] if others else []):
@@ -39,6 +40,8 @@ def _meant(checked, names, start):
     results = {}
     sets, others = {}, []
     for name in names:
+        if name == "all":
+            continue
         # As it stands, or from the folder in which the user is.
         files = {os.path.normpath(name), os.path.relpath(start / name, ROOT)}
         found = {
