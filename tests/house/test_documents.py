@@ -7,7 +7,7 @@ import subprocess
 from fnmatch import fnmatch
 
 import pytest
-from project import ROOT, Tree
+from project import ROOT, Tree, shipped
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT))
@@ -94,6 +94,7 @@ def clone(shared, accepted):
         for name in ("bin", "lib", "lib64", "pyvenv.cfg", "stamp"):
             (tree.path / ".venv" / name).symlink_to(ROOT / ".venv" / name)
         shutil.copy(ROOT / "CLAIMS.md", tree.path)
+        tree.write(tree.document() | {"variants": shipped()["variants"]})
 
     return Tree(shared("a clone for the documents", make))
 
