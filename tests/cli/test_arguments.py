@@ -83,6 +83,8 @@ WRONG = {
     "prove horsshoe-outer": "reproduce: no theorem horsshoe-outer: did you mean horseshoe-outer?",
     "prove --impact": "reproduce prove: no argument --impact: did you mean --impacts?",
     "claims --check x": "reproduce claims: argument --check: invalid int value: 'x'",
+    "sweep -n --config g=1": "reproduce: --config and --configfile are not used here: edit "
+    "config.yaml",
     "clean --ye": "reproduce clean: no argument --ye: did you mean --yes?",
 }
 
@@ -117,9 +119,9 @@ def test_what_may_be_right_goes_on(capsys, line):
 
 
 def test_names_come_first_then_snakemakes_options_among_a_words_own():
-    given = arguments.read(["sweep", "line", "-j", "5", "--slurm", "--config=x"])
+    given = arguments.read(["sweep", "line", "-j", "5", "--slurm", "--forceall"])
     assert (given.name, given.slurm) == (["line"], True)
-    assert given.options == ["-j", "5", "--config=x"]
+    assert given.options == ["-j", "5", "--forceall"]
     given = arguments.read(["claims", "--cores", "2", "--data", "f.nc", "--check=7"])
     assert (given.check, given.data, given.options) == (7, "f.nc", ["--cores", "2"])
     given = arguments.read(["test", "-k", "verify", "--help"])

@@ -153,6 +153,7 @@ NO_WORD = Word(
     _any("figure", FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
     passes=True,
 )
+SETTINGS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
 SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
 
 
@@ -193,6 +194,8 @@ def read(arguments):
     if not word and given.version:
         print(_versions())
         sys.exit(0)
+    if any(option.partition("=")[0] in SETTINGS for option in options):
+        refuse("--config and --configfile are not used here: edit config.yaml")
     given.word, given.options = word, options
     return given
 

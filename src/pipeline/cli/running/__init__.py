@@ -79,12 +79,6 @@ def asked(arguments) -> set[str]:
     return different - {"cores", "jobs", "targets"}
 
 
-def refuse_settings(arguments) -> None:
-    """MisuseError where values of the config are given on the command line."""
-    if any(a.partition("=")[0] in ("--config", "-C", "--configfile") for a in arguments):
-        raise MisuseError("--config and --configfile are not used here: edit config.yaml")
-
-
 def needed(expected, wanted) -> list[str]:
     """The results `wanted` and all that they are made from, each after its inputs."""
     found = {}

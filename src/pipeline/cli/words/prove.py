@@ -4,12 +4,10 @@ import os
 
 from ...config.checking.reading import load
 from ...records.files import replacing
-from ...records.sources import ROOT, SRC
+from ...records.sources import ROOT
 from .. import figures
-from ..arguments import hint
+from ..arguments import CERTIFICATES, hint
 from ..folder import MisuseError, UsageError, interruptible, locked, say
-
-CERTIFICATES = SRC / "pseudorigid" / "proofs" / "certificates"
 
 
 def run(given) -> int:
@@ -39,7 +37,7 @@ def run(given) -> int:
     if given.search:
         for name in names:
             say(f"searching a certificate of {name}")
-            path = CERTIFICATES / THEOREMS[name].certificate
+            path = ROOT / CERTIFICATES / THEOREMS[name].certificate
             text = search_certificate(name)
             with replacing(path) as part:
                 part.write_text(text, encoding="utf-8")
@@ -48,6 +46,6 @@ def run(given) -> int:
         result = THEOREMS[name].check()
         print(result.line(), flush=True)
         status |= result.verdict != "proved"
-    files = dict.fromkeys(CERTIFICATES / THEOREMS[name].certificate for name in names)
+    files = dict.fromkeys(ROOT / CERTIFICATES / THEOREMS[name].certificate for name in names)
     print("", *(os.path.relpath(file, ROOT) for file in files), sep="\n", flush=True)
     return status
