@@ -196,7 +196,7 @@ def test_what_cannot_exist_is_said(reported):
 
 
 def test_every_chart_has_words():
-    checked = config.load(ROOT / "config.yaml")
+    checked = config.load(ROOT / "tests" / "scenes.yaml")
     scenes = {
         scene
         for contract in contracts.committed(checked)

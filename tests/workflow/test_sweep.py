@@ -172,7 +172,7 @@ def test_the_atlas_is_drawn_and_published(tree):
     tree.write(tree.document() | {"sweeps": {"small": SMALL, "one": line}})
     result = tree.run("atlas", "-c", "1")
     assert result.returncode == 0, result.stdout
-    for name in ("small.png", "small.svg", "one.png", "one.svg"):
+    for name in ("small.png", "one.png", "one.svg"):  # vectors of a plane would be heavy
         drawn = (tree.path / "results/sweep/figures" / name).read_bytes()
         assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
         assert drawn.startswith((b"\x89PNG", b"<?xml"))

@@ -52,10 +52,11 @@ def _parser():
 
 def options_of(arguments):
     """Snakemake's own reading of its options; MisuseError where it refuses them."""
+    parser = _parser()
     from snakemake.exceptions import CliException, WorkflowError
 
     try:
-        return _parser().parse_args(arguments)
+        return parser.parse_args(arguments)
     except (CliException, WorkflowError, ValueError) as error:  # of a value, as in --cores x
         raise MisuseError(" ".join(str(error).split())) from None
 
