@@ -8,6 +8,7 @@ from flint import arb, ctx
 
 from ...dynamics.ball import Ball
 from ...dynamics.lyapunov import lyapunov_spectrum
+from ...kernel.arithmetic import log
 from ..enclosure.surface import ball_of, exact
 from .follow import FRAME_BITS, GUARD, RESULT_BITS
 
@@ -115,6 +116,6 @@ def bits_needed(surface, place, impacts):
     state = ball.state_xy(x, y, float(surface.energy))
     spectrum = lyapunov_spectrum(ball, state, impacts)
     stretch = spectrum["exponent"].values[:, 0] * spectrum["impact"].values
-    growth = float(np.nanmax(stretch, initial=0.0)) / math.log(2.0)
+    growth = float(np.nanmax(stretch, initial=0.0)) / log(2.0)
     # the true orbit stretches by as much only in the mean: its spread grows like the root
     return RESULT_BITS + GUARD + int(growth + 12.0 * math.sqrt(growth)) + 64
