@@ -37,7 +37,7 @@ def packed(accepted, tmp_path_factory):
 def test_what_is_in_it(accepted, packed, tmp_path):
     with tarfile.open(packed) as tar:
         entries = tar.getmembers()
-        tar.extractall(tmp_path, filter="data")
+    subprocess.run(["tar", "-xf", packed, "-C", tmp_path], check=True)
     assert all(
         (e.mtime, e.uid, e.gid, e.uname, e.gname, e.mode, e.type)
         == (0, 0, 0, "", "", 0o644, tarfile.REGTYPE)
