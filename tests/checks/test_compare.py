@@ -109,6 +109,7 @@ def test_both_figures_are_side_by_side(variants):
     assert np.array_equal(one[75:, : drawn.shape[1]], drawn)
 
 
+@pytest.mark.slow
 def test_a_damaged_artifact_is_made_again_first(variants, tmp_path):
     tree = variants.copy(tmp_path / "damaged")
     artifact = tree.path / "results" / "low" / "lyapunov_fig7.nc"

@@ -86,16 +86,16 @@ def test_a_misspelt_key_is_one_line(moved):
 
 def test_source(moved):
     """Stale until it is made again; then the bytes are the committed ones, and that is a note."""
-    module = "src/pseudorigid/dynamics/lyapunov.py"
+    module = "src/pseudorigid/dynamics/motion.py"
     with (moved.path / module).open("a") as file:
         file.write("# edited\n")
     found = verified(moved)
     assert (found.status, found.wrong) == (1, {})
     words = f"made by other code than this tree's: {module} differs: run ./reproduce"
-    assert found.findings[0] == f"results/paper/lyapunov_fig7.nc: {words}"
-    assert found.notes == [f"fig7.png, fig7.svg: source: {module} differs"]
+    assert found.findings[0] == f"results/paper/motion_fig3.nc: {words}"
+    assert found.notes == [f"fig3.png, fig3.svg, fig4.png, fig4.svg: source: {module} differs"]
     moved.warm()
-    assert moved.run("paper_figures/fig7.png", "paper_figures/fig7.svg").returncode == 0
+    assert moved.run("fig3", "fig4").returncode == 0
     again = verified(moved)
     assert (again.status, again.wrong, again.findings) == (0, {}, [])
     assert again.notes == found.notes

@@ -11,6 +11,7 @@ import pytest
 import samples
 from project import ROOT
 from samples import KINDS, draw
+from slowly import slowly
 
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
@@ -64,12 +65,13 @@ def hostile(folder):
     }
 
 
-def test_same_bytes_for_everyone(tmp_path):
-    here = samples.digests()
+@pytest.mark.parametrize("kinds", [["portrait", "motion"], *slowly(KINDS)])
+def test_same_bytes_for_everyone(tmp_path, kinds):
+    here = samples.digests(kinds)
     environment = os.environ | hostile(tmp_path)
     environment["PYTHONPATH"] = os.pathsep.join(map(str, (ROOT / "tests", ROOT / "src")))
     run = subprocess.run(
-        [sys.executable, "-c", "import samples; print(samples.digests())"],
+        [sys.executable, "-c", f"import samples; print(samples.digests({kinds}))"],
         env=environment,
         cwd=tmp_path,
         capture_output=True,

@@ -58,6 +58,7 @@ def clone(tmp_path):
     return tree
 
 
+@pytest.mark.slow
 def test_the_edits_are_ones_that_a_run_takes(clone):
     """All of them are planned; nothing is refused."""
     planned = clone.planned()

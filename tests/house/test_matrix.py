@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from project import NO_CACHES, ROOT
+from slowly import slowly
 
 from pseudorigid.kernel import arithmetic
 
@@ -133,7 +134,7 @@ def edits():
 
 # Each costs as much as a run of everything, and where code is compiled anew three times as much.
 QUICK = "all but the compiler"
-SLOWLY = [pytest.param(name, marks=[] if name == QUICK else pytest.mark.slow) for name in VARIANTS]
+SLOWLY = [QUICK, *slowly(*(name for name in VARIANTS if name != QUICK))]
 
 
 @pytest.mark.parametrize("variant", SLOWLY)
@@ -147,7 +148,7 @@ def test_plain_python_finds_the_compiled_bits(answer):
     assert answer("plain")["short"] == answer("as it is")["short"]
 
 
-@pytest.mark.parametrize("edit", ["a constant", "the library"])
+@pytest.mark.parametrize("edit", ["a constant", *slowly("the library")])
 def test_a_change_of_sincos_shows(answer, edit):
     assert answer(edit)["table"] != answer("as it is")["table"]
 

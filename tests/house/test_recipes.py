@@ -198,6 +198,7 @@ def test_a_kind_of_three_files(copy):
     assert "map.png  identical\n" in result.stdout
 
 
+@pytest.mark.slow
 def test_a_stage_of_three_files(copy):
     """Asked for by a kind of picture, whose declaration and drawing name it."""
     kind = dict(KIND)

@@ -379,16 +379,16 @@ def test_no_leading_digit_may_change(name):
     every = list(leading_digits(THEOREMS[name].text(), FIELDS))
     assert every
     if len(every) > 200:  # a fair part of it; more with -m slow
-        every = every[:: len(every) // 60]
+        every = every[:: len(every) // 25]
     for number, text in every:
         assert THEOREMS[name].check(text).verdict == "not proved", number
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", HORSESHOES)
-def test_no_leading_digit_of_a_horseshoe_may_change(name):
+@pytest.mark.parametrize("name", [*HORSESHOES, "jump-set"])
+def test_no_leading_digit_of_a_long_certificate_may_change(name):
     every = list(leading_digits(THEOREMS[name].text(), FIELDS))
-    for number, text in every[:: len(every) // 1500]:
+    for number, text in every[:: max(1, len(every) // 1500)]:
         assert THEOREMS[name].check(text).verdict == "not proved", number
 
 

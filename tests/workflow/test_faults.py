@@ -12,6 +12,7 @@ import netCDF4
 import psutil
 import pytest
 from runs import contents, last_line, rows
+from slowly import slowly
 
 
 def test_damaged_results_are_made_again_and_not_published(done):
@@ -55,26 +56,26 @@ def test_a_number_changed_by_hand_is_not_drawn(done):
 
 def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     before = done.published()
-    module = done.path / "src" / "pseudorigid" / "dynamics" / "lyapunov.py"
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
     text = module.read_text()
-    module.write_text(f"{text}\n\ndef scene_exponents(*_, **__):\n    return 1 / 0\n")
+    module.write_text(f"{text}\n\ndef scene_motion(*_, **__):\n    return 1 / 0\n")
     done.warm()
-    result = done.run("paper_figures/fig7.png")
+    result = done.run("paper_figures/fig3.png")
     assert result.returncode == 1
-    log = "results/paper/logs/lyapunov_fig7.nc.log"
+    log = "results/paper/logs/motion_fig3.nc.log"
     said = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
-    (line,) = (line for line in result.stdout.splitlines() if line.startswith("fig7    lyapunov"))
+    (line,) = (line for line in result.stdout.splitlines() if line.startswith("fig3    motion"))
     assert line.endswith(said)
     assert result.stdout.count("ZeroDivisionError") == 1
     last = last_line(result)
     assert last.startswith("snakemake's log: .snakemake/log/")
     assert (done.path / last.partition(": ")[2]).is_file()
-    (row,) = (line for line in result.stdout.splitlines() if "paper_figures/fig7.png" in line)
+    (row,) = (line for line in result.stdout.splitlines() if "paper_figures/fig3.png" in line)
     assert row.endswith("not made")
     assert "Traceback" in (done.path / log).read_text()
     assert done.published() == before
     module.write_text(text)
-    assert done.run().returncode == 0
+    assert done.run("paper_figures/fig3.png").returncode == 0
 
 
 def test_a_failing_publication_leaves_the_figures_as_they_were(done):
@@ -92,7 +93,7 @@ def test_a_failing_publication_leaves_the_figures_as_they_were(done):
     assert contents(done)["fig3.png"] != before["fig3.png"]
 
 
-@pytest.mark.parametrize("everyone", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("everyone", [False, *slowly(True)])
 def test_a_killed_run_leaves_whole_files_and_no_lock(done, everyone):
     before = contents(done)
     results = done.path / "results"
@@ -146,7 +147,7 @@ def test_interrupting_the_start_is_no_traceback(tree, file):
     assert "Traceback" not in output
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGTERM, *slowly(signal.SIGHUP)])
 def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
     """Snakemake itself would let them finish."""
     module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"

@@ -116,6 +116,7 @@ def test_a_variant_s_figures_are_not_published(variants):
     assert contents(variants)["fig7.png"] == data
 
 
+@pytest.mark.slow
 def test_a_deleted_file_of_a_variant_comes_back(done):
     figure = done.path / "results" / "low" / "figures" / "fig7.png"
     data = done.path / "results" / "low" / "lyapunov_fig7.nc"
