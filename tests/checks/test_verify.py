@@ -92,7 +92,9 @@ def test_source(moved):
     found = verified(moved)
     assert (found.status, found.wrong) == (1, {})
     words = f"made by other code than this tree's: {module} differs: run ./reproduce"
-    assert found.findings[0] == f"results/paper/motion_fig3.nc: {words}"
+    assert (
+        found.findings[0] == f"results/paper/motion_fig3.nc, results/paper/motion_fig4.nc: {words}"
+    )
     assert found.notes == [f"fig3.png, fig3.svg, fig4.png, fig4.svg: source: {module} differs"]
     moved.warm()
     assert moved.run("fig3", "fig4").returncode == 0

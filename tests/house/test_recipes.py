@@ -157,6 +157,7 @@ def copy(tmp_path):
     return fresh_tree(tmp_path / "recipes", DOCUMENT)
 
 
+@pytest.mark.slow
 def test_a_kind_of_three_files(copy):
     """Its figure, caption, number, refusals, row of the docs, variant and line of verify."""
     follow(copy, KIND)

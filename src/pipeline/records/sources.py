@@ -57,47 +57,50 @@ def closure(*starts: str | Path) -> list[Path]:
         where such a name comes from.
     """
     found: set[Path] = set()
+    seen: set[str] = set()
     pending = []
     for start in starts:
-        pending += _imports(start, "") if isinstance(start, Path) else [start]
+        pending += _read(start, "") if isinstance(start, Path) else [start]
     while pending:
         name = pending.pop()
-        parts = name.split(".")
-        for size in range(1, len(parts) + 1):
-            file = _file(".".join(parts[:size]))
-            if file is None:
-                raise ValueError(f"no module {name} in {SRC}")
-            if file not in found:
-                found.add(file)
-                package = size if file.name == "__init__.py" else size - 1
-                pending += _imports(file, ".".join(parts[:package]))
+        if name in seen:
+            continue
+        seen.add(name)
+        file = _file(SRC, name)
+        if file is None:
+            raise ValueError(f"no module {name} in {SRC}")
+        parent = name.rpartition(".")[0]
+        pending += [parent] if parent else []
+        if file not in found:
+            found.add(file)
+            pending += _read(file, name if file.name == "__init__.py" else parent)
     return sorted(found)
 
 
-def _file(name: str) -> Path | None:
-    """The file of a module, None where there is none."""
-    path = SRC.joinpath(*name.split("."))
-    files = (path / "__init__.py", path.with_suffix(".py"))
-    return next((file for file in files if file.is_file()), None)
-
-
-def _imports(file: Path, package: str) -> list[str]:
+def _read(file: Path, package: str) -> list[str]:
     """The project's modules that `file`, a member of `package`, imports anywhere."""
+    return _imports(SRC, file.read_text(encoding="utf-8"), file.name, package)
+
+
+@cache
+def _imports(src: Path, text: str, file: str, package: str) -> list[str]:
     modules = []
-    for node in _statements(file.read_text(encoding="utf-8"), str(file)):
+    for node in ast.walk(ast.parse(text, file)):
         if isinstance(node, ast.Import):
             modules += [alias.name for alias in node.names]
-            continue
-        base = resolve_name("." * node.level + (node.module or ""), package)
-        for alias in node.names if base.split(".")[0] in PACKAGES else ():
-            name = f"{base}.{alias.name}"
-            if base == PACKAGES[0] and not _file(name):
-                raise ValueError(f"{file.name}: import {alias.name} from its module")
-            modules.append(name if _file(name) else base)
+        elif isinstance(node, ast.ImportFrom):
+            base = resolve_name("." * node.level + (node.module or ""), package)
+            for alias in node.names if base.split(".")[0] in PACKAGES else ():
+                name = f"{base}.{alias.name}"
+                if base == PACKAGES[0] and not _file(src, name):
+                    raise ValueError(f"{file}: import {alias.name} from its module")
+                modules.append(name if _file(src, name) else base)
     return [name for name in modules if name.split(".")[0] in PACKAGES]
 
 
 @cache
-def _statements(text: str, name: str) -> list[ast.Import | ast.ImportFrom]:
-    nodes = ast.walk(ast.parse(text, name))
-    return [node for node in nodes if isinstance(node, ast.Import | ast.ImportFrom)]
+def _file(src: Path, name: str) -> Path | None:
+    """The file of a module, None where there is none."""
+    path = src.joinpath(*name.split("."))
+    files = (path / "__init__.py", path.with_suffix(".py"))
+    return next((file for file in files if file.is_file()), None)
