@@ -21,19 +21,19 @@ _MORE += ("report/*.html", "archive/pseudorigid.tar", "compare/*/*.png")
 def run(given) -> int:
     """Delete the results in some folders of results/, all without a name, and snakemake's own."""
     there = sorted(f.name for f in RESULTS.iterdir() if f.is_dir()) if RESULTS.is_dir() else []
-    for name in given.name:
+    for name in given.folder:
         if name not in there:
             has = f": there are {', '.join(there) or 'none'}"
             raise MisuseError(f"no folder results/{name}{hint(name, there) or has}")
     with locked():
-        files = _made(given.name or there)
-        folders = [] if given.name else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
+        files = _made(given.folder or there)
+        folders = [] if given.folder else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
         if not files and not folders:
             print("nothing to delete")
             return 0
         size = sum(file.stat().st_size for file in files) / 1e6
         what = f"{len(files)} files, {size:.1f} MB, in " + ", ".join(
-            [f"results/{name}" for name in given.name or there] + [f.name for f in folders]
+            [f"results/{name}" for name in given.folder or there] + [f.name for f in folders]
         )
         if not given.yes and not _agreed(what):
             raise UsageError("nothing was deleted")
@@ -41,7 +41,7 @@ def run(given) -> int:
             file.unlink()
         for folder in folders:
             shutil.rmtree(folder)
-        _remove_empty_folders(given.name or there)
+        _remove_empty_folders(given.folder or there)
         print(f"deleted {what}")
     return 0
 

@@ -21,7 +21,7 @@ def run(given) -> int:
     It is told how far the cells are.
     """
     sweeps = load(ROOT / "config.yaml")["sweeps"]
-    names, options = sweeping.chosen(sweeps, given.name), given.options
+    names, options = sweeping.chosen(sweeps, given.sweep), given.options
     if given.slurm:
         if shutil.which("sbatch") is None:
             raise UsageError("--slurm: there is no sbatch on this machine")
