@@ -7,6 +7,7 @@ import argparse
 import difflib
 import re
 import sys
+from functools import cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -129,6 +130,20 @@ SETTINGS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
 SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
 
 
+class Given(argparse.Namespace):
+    """A command line: names and flags of its `word` (None where there is none), and `options`.
+
+    These are for snakemake or pytest.
+    """
+
+    @cached_property
+    def checked(self):
+        """The checked config.yaml."""
+        from ..config import load  # not before packages are there
+
+        return load(ROOT / "config.yaml")
+
+
 class _Parser(argparse.ArgumentParser):
     """One that refuses in one line."""
 
@@ -142,17 +157,13 @@ class _Parser(argparse.ArgumentParser):
 
 
 def read(arguments):
-    """What a command line asks for, as argparse's namespace.
-
-    It has the `word` (None where there is none), its names and flags, and `options`, those of
-    snakemake or pytest. Help and mistakes end in SystemExit.
-    """
+    """What a command line asks for; help and mistakes end in SystemExit."""
     first, *rest = arguments or [""]
     word = first if first in WORDS else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
-        return argparse.Namespace(word=word, options=rest)
+        return Given(word=word, options=rest)
     own, options = _split(WORDS.get(word, NO_WORD), rest if word else arguments)
-    given = _parser(word).parse_args(own)
+    given = _parser(word).parse_args(own, Given())
     if word == "help":
         if given.word not in (None, *WORDS):
             refuse(f"no word {given.word}{hint(given.word, WORDS)}")

@@ -42,35 +42,37 @@ def make(checked, variant, options, named=None, others=()) -> int:
     variants = checked["variants"]
     figures = places.figures(variants, variant)
     wanted = {path: figures[path] for path in (figures if named is None else named)}
+    wanted |= {path: ("", [path]) for path in others}
     results = expected.of_variants(variants)
     if set(others) - set(results):
-        results |= expected.of_study(variants) | expected.of_sweeps(checked["sweeps"])
+        results = expected.of_all(checked)
+    # File, as published -> its drawing.
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
-    before = {path: identity(path) for path in (*made.values(), *others)}
+    before = {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
     says = running.only_says(options)
     absent = known_absent(variant) if says else _find_absent(variants, variant, currency)
-    drawings = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
-    status = running.make(currency, [*drawings, *others], options)
+    possible = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
+    status = running.make(currency, possible, options)
     if says or status == running.INTERRUPTED:
         return status
-    if options or currency.outdated([*drawings, *others]):
+    if options or currency.outdated(possible):
         currency = Currency(ROOT, results)
         absent = _find_absent(variants, variant, currency)
-    outdated = currency.outdated([*made.values(), *others])
-    missing = {wanted[path][0] for path in made if made[path] in outdated}
-    if status and missing and missing <= set(absent):
-        status = int(bool(set(others) & set(outdated)))
-    good = {path: scene for path, (scene, _) in wanted.items() if made[path] not in outdated}
-    if variant in places.PUBLISHED:
-        publish({path: made[path] for path in good if path != made[path]})
+    outdated = currency.outdated(before)
+    missing = {scene for path, (scene, _) in wanted.items() if made[path] in outdated}
+    if missing and missing <= set(absent):
+        status = 0
     rows = {}
-    for path, (scene, behind) in (wanted | {path: ("", [path]) for path in others}).items():
-        state = "current" if identity(behind[-1]) == before[behind[-1]] else "recomputed"
-        if behind[-1] in outdated:
-            state = f"cannot exist: {absent[scene]}" if scene in absent else "not made"
-        rows[path] = scene, state
-    more = [*_missed_impacts(variants, variant, set(good.values()))]
+    for path, (scene, _) in wanted.items():
+        rows[path] = scene, "recomputed"
+        if made[path] in outdated:
+            rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else "not made"
+        elif identity(made[path]) == before[made[path]]:
+            rows[path] = scene, "current"
+    good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
+    publish(good)
+    more = _missed_impacts(variants, variant, {wanted[path][0] for path in good})
     table(places.PUBLISHED.get(variant), rows, more)
     if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1

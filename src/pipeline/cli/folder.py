@@ -22,6 +22,15 @@ class MisuseError(UsageError):
 
 
 @contextmanager
+def one_line(about=""):
+    """A ValueError, which is written for the user, as the end of the run; `about` stands before."""
+    try:
+        yield
+    except ValueError as error:
+        raise UsageError(about + str(error).replace(f"{ROOT}/", "")) from None
+
+
+@contextmanager
 def locked():
     """Hold the lock of this folder; UsageError where another run has it. Death releases it."""
     try:

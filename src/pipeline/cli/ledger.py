@@ -9,7 +9,7 @@ from ..checks.claims import soundness
 from ..checks.claims.ledger import NOT_COMPUTED
 from ..checks.claims.render import render
 from ..checks.currency import Currency
-from ..config import expected, places
+from ..config import places
 from ..config.expected import Expected
 from ..records import artifacts, sources
 from ..records.files import replacing
@@ -23,23 +23,15 @@ PROOFS = "pseudorigid.proofs.derivations"
 
 def paths(checked) -> dict[str, str]:
     """Name of each dataset that the checks need -> where it is."""
-    serves = places.served(checked["variants"])
-    found = {}
+    known = {"derivations": DERIVATIONS}
+    known |= {f"atlas/{name}": places.sweep_dataset(name) for name in checked["sweeps"]}
+    for (variant, scene, stage), path in places.served(checked["variants"]).items():
+        own = variant in (places.PAPER, "claims")
+        known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
     for name in claims.needed():
-        *variant, scene, stage = ("paper", *name.split("/"))[-3:] if "/" in name else (name, "", "")
-        if name == "derivations":
-            found[name] = DERIVATIONS
-        elif scene == "atlas":
-            found[name] = places.sweep_dataset(stage)
-        else:
-            owner = variant[0]
-            if owner == places.PAPER and scene in checked["variants"]["claims"]:
-                owner = "claims"
-            try:
-                found[name] = serves[owner, scene, stage]
-            except KeyError:
-                raise UsageError(f"config.yaml: no scene makes {name}, which claims need") from None
-    return found
+        if name not in known:
+            raise UsageError(f"config.yaml: no scene makes {name}, which claims need")
+    return {name: known[name] for name in claims.needed()}
 
 
 def derive(checked) -> None:
@@ -114,9 +106,3 @@ def check(checked, number, given) -> str:
     except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
         return f"{number}  {NOT_COMPUTED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
-
-
-def results(checked) -> tuple[dict, list[str]]:
-    """(every result that may be needed -> Expected, those that the checks read)."""
-    made = expected.of_variants(checked["variants"]) | expected.of_sweeps(checked["sweeps"])
-    return made, [path for path in paths(checked).values() if path != DERIVATIONS]

@@ -2,7 +2,6 @@
 
 from ...checks.currency import Currency
 from ...config import expected
-from ...config.checking.reading import load
 from ...config.declared import study as parts
 from ...records.sources import ROOT
 from .. import figures, running
@@ -15,12 +14,11 @@ def run(given) -> int:
 
     Charts of what is measured stay in results until `accept`.
     """
-    checked = load(ROOT / "config.yaml")
     if not running.only_says(given.options) and (status := add_packages("study")):
         return status
-    made = expected.of_study(checked["variants"])
+    made = expected.of_study(given.checked["variants"])
     with locked():
-        currency = Currency(ROOT, expected.of_variants(checked["variants"]) | made)
+        currency = Currency(ROOT, expected.of_all(given.checked))
         status = running.make(currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
             charts = parts.CHARTS

@@ -3,11 +3,8 @@
 import shutil
 from pathlib import Path
 
-from pseudorigid.sweep import grid
-
 from ...checks.currency import Currency
 from ...config import expected, places
-from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import UsageError, locked
@@ -20,7 +17,7 @@ def run(given) -> int:
 
     It is told how far the cells are.
     """
-    sweeps = load(ROOT / "config.yaml")["sweeps"]
+    sweeps = given.checked["sweeps"]
     names, options = sweeping.chosen(sweeps, given.sweep), given.options
     if given.slurm:
         if shutil.which("sbatch") is None:
@@ -34,12 +31,7 @@ def run(given) -> int:
         targets += [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
     with locked():
         currency = Currency(ROOT, results)
-        outdated = currency.outdated(running.needed(results, targets))
-        blocks = sweeping.lacking(sweeps, names, outdated)
-        cells = sum(grid.cells(sweeps[name]) for name in names)
-        if line := sweeping.shortage(blocks, cells):
-            raise UsageError(line)
-        with sweeping.progress(blocks, cells):
+        with sweeping.progress(sweeps, currency, targets):
             status = running.make(currency, targets, options)
         if status == 0 and not running.only_says(options):
             drawn = [file for file in targets if file.startswith("results/sweep/figures/")]
