@@ -3,6 +3,7 @@
 import difflib
 import math
 import typing
+from contextlib import suppress
 
 from pydantic import TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
@@ -54,8 +55,8 @@ def _line(model, error, place) -> str:
     if error["type"] == "missing":
         return f"{dotted(where)}: missing"
     if loc[-1:] == ("[key]",):
-        where, loc = where[:-2], loc[:-1]
-    annotation, allowed = allowed_at(model, error["loc"])
+        where = where[:-2]
+    annotation, allowed = allowed_at(model, loc)
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
@@ -73,8 +74,7 @@ def allowed_at(annotation, loc):
     while True:
         if isinstance(annotation, FieldInfo):
             allowed = annotation.description or allowed
-            parts = (annotation.annotation, *annotation.metadata)
-            annotation = typing.Annotated[parts] if annotation.metadata else parts[0]
+            annotation = annotation.rebuild_annotation()
         whole = annotation
         if typing.get_origin(annotation) is typing.Annotated:
             annotation, *metadata = typing.get_args(annotation)
@@ -86,26 +86,17 @@ def allowed_at(annotation, loc):
                 return annotation, allowed
             annotation, loc = annotation.model_fields[loc[0]], loc[1:]
             continue
-        if not loc:
+        if loc in ((), ("[key]",)):
             return whole, allowed
-        arguments = typing.get_args(annotation)
-        if loc[0] in TAGS:
-            annotation = arguments[TAGS.index(loc[0])]
-        elif typing.get_origin(annotation) is dict:
-            of_key = loc[1:] == ("[key]",)
-            annotation = arguments[0 if of_key else 1]
-            loc = loc[:1] if of_key else loc
-        else:
-            annotation = arguments[0]
-        loc = loc[1:]
+        mapped = typing.get_origin(annotation) is dict and loc[1:] != ("[key]",)
+        place = TAGS.index(loc[0]) if loc[0] in TAGS else int(mapped)
+        annotation, loc = typing.get_args(annotation)[place], loc[1:]
 
 
 def _number_in(text):
     """The number that a text was meant to be, whole where it can be, or None."""
-    try:
+    with suppress(ValueError):
         number = float(text)
-    except ValueError:
-        return None
-    if not math.isfinite(number):
-        return None
-    return int(number) if number.is_integer() and abs(number) < 1e15 else number
+        if math.isfinite(number):
+            return int(number) if number.is_integer() and abs(number) < 1e15 else number
+    return None

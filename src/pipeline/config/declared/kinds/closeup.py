@@ -35,14 +35,11 @@ class Closeup(OfManifolds):
 
     @classmethod
     def faults(cls, block):
-        """A point of the orbit, and a window with an inside."""
+        """A point of the orbit."""
         yield from super().faults(block)
         last = block["period"] - 1
         if block["point"] > last:
             yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
-        for axis, (low, high) in block["window"].items():
-            if not low < high:
-                yield ("window", axis), [low, high], "two increasing numbers"
 
     @staticmethod
     def numbers(block, periodic, manifolds):
