@@ -3,13 +3,14 @@
 import filecmp
 import json
 import shutil
+from pathlib import PurePath
 
 from ..checks.currency import Currency
 from ..config import expected, places, unknown
 from ..config.expected import Expected
 from ..records.differences import columns
-from ..records.files import identity, replacing
-from ..records.record import begin, finish, record_path
+from ..records.files import identity, replacing, write_whole
+from ..records.record import recorded
 from ..records.sources import ROOT
 from . import running
 from .folder import MisuseError
@@ -95,6 +96,12 @@ def table(folder, rows, more=()) -> None:
         print(f"snakemake's log: {running.LOGS[-1]}")
 
 
+def made(folder, files) -> None:
+    """Publish what a run has drawn, and print its files; `files` is file, as published -> drawing."""
+    publish(files)
+    table(folder, {path: (PurePath(path).stem, "made") for path in files})
+
+
 def of_scenes(checked, variant, names) -> list[str] | None:
     """The files of these scenes of a variant, as published; None for all where none is named."""
     scenes = checked["variants"][variant]
@@ -126,29 +133,25 @@ def _find_absent(variants, variant, currency):
     path = places.absent_file(variant)
     currency.expected[path] = made = Expected(orbits, [], sorted({p for _, p in orbits.values()}))
     if currency.reason(path):
-        _write_absent(path, made, variant)
+        with recorded(path, *made):
+            _write_absent(path, variant, orbits)
     return known_absent(variant)
 
 
-def _write_absent(path, made, variant) -> None:
+def _write_absent(path, variant, orbits) -> None:
     from pseudorigid.dynamics.variables import of_type
 
     from ..records.artifacts import load
 
-    found = {}
-    for scene, (kind, dataset) in made.config.items():
+    found, folder = {}, ROOT / "results" / variant
+    for scene, (kind, dataset) in orbits.items():
         try:
             of_type(load(ROOT / dataset), kind)
         except ValueError as error:
             found[scene] = str(error)
-    folder = ROOT / "results" / variant
-    for scene in found:
-        for old in (*folder.glob(f"figures/{scene}.*"), *folder.glob(f"provenance/{scene}.*")):
-            old.unlink()
-    record = begin(config=made.config, inputs=made.inputs, sources=[])
-    with replacing(ROOT / path) as part:
-        part.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    finish(record, path, record_path(path))
+            for old in (*folder.glob(f"figures/{scene}.*"), *folder.glob(f"provenance/{scene}.*")):
+                old.unlink()
+    write_whole(ROOT / path, json.dumps(found, indent=1) + "\n")
 
 
 def known_absent(variant) -> dict[str, str]:
@@ -162,22 +165,17 @@ def known_absent(variant) -> dict[str, str]:
 def _missed_impacts(variants, variant, scenes):
     """Of each of these scenes with a `method`: what it did, one line a scene."""
     serves = places.served(variants)
-    for scene in variants[variant]:
-        block = variants[variant][scene]
-        if "method" not in block or scene not in scenes:
-            continue
-        if "exact" in block["method"]:
-            exact = "orbits" in places.stages(block)
-            how = "orbits of their exact starts" if exact else "no stage with an exact method"
+    for scene, block in variants[variant].items():
+        method, stages = block.get("method", {}), places.stages(block)
+        if scene in scenes and "exact" in method:
+            how = "orbits of their exact starts"
+            how = how if "orbits" in stages else "no stage with an exact method"
             yield f"{scene}: {how}; other stages as in doubles"
-            continue
-        from ..records.artifacts import load  # takes a while
+        elif scene in scenes and method:
+            from ..records.artifacts import load  # takes a while
 
-        found = [
-            load(ROOT / serves[variant, scene, stage]).attrs
-            for stage, parameters in places.stages(block).items()
-            if "method" in parameters
-        ]
-        missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
-        how = ", ".join(f"{key} {value:g}" for key, value in block["method"].items())
-        yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"
+            names = [stage for stage in stages if "method" in stages[stage]]
+            found = [load(ROOT / serves[variant, scene, stage]).attrs for stage in names]
+            missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
+            how = ", ".join(f"{key} {value:g}" for key, value in method.items())
+            yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"

@@ -12,8 +12,8 @@ from ..checks.currency import Currency
 from ..config import places
 from ..config.expected import Expected
 from ..records import artifacts, sources
-from ..records.files import replacing
-from ..records.record import begin, finish, record_path
+from ..records.files import write_whole
+from ..records.record import recorded
 from ..records.sources import ROOT
 from .folder import MisuseError, UsageError
 
@@ -43,10 +43,9 @@ def derive(checked) -> None:
         return
     from pseudorigid.proofs.derivations import derivations
 
-    record = begin(config=made.config, inputs=[], sources=files)
     about = {"stage": "derivations", **ball, "energy": float(energy)}
-    artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
-    finish(record, DERIVATIONS, record_path(DERIVATIONS))
+    with recorded(DERIVATIONS, *made):
+        artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
 
 
 def load(checked, name, path):
@@ -72,8 +71,7 @@ def write(checked) -> dict:
     text = render(verdicts)
     path = ROOT / places.LEDGER
     if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        with replacing(path) as part:
-            part.write_text(text, encoding="utf-8")
+        write_whole(path, text)
     return verdicts
 
 

@@ -4,7 +4,7 @@ import ast
 import inspect
 from itertools import pairwise
 
-from ..records.files import replacing
+from ..records.files import write_whole
 from ..records.sources import ROOT
 from .checking.mistakes import allowed_at
 from .declared.fields import Axis, BallBlock, Block, Scan
@@ -96,5 +96,4 @@ def _meanings(model):
 
 
 if __name__ == "__main__":
-    with replacing(ROOT / "docs" / "config.md") as part:
-        part.write_text(page(), encoding="utf-8")
+    write_whole(ROOT / "docs" / "config.md", page())

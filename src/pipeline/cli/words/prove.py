@@ -2,7 +2,7 @@
 
 import os
 
-from ...records.files import replacing
+from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import CERTIFICATES, hint
@@ -34,9 +34,7 @@ def run(given) -> int:
         for name in names:
             say(f"searching a certificate of {name}")
             path = ROOT / CERTIFICATES / THEOREMS[name].certificate
-            text = search_certificate(name)
-            with replacing(path) as part:
-                part.write_text(text, encoding="utf-8")
+            write_whole(path, search_certificate(name))
     status = 0
     for name in names:
         result = THEOREMS[name].check()

@@ -1,7 +1,7 @@
 """./reproduce report: one HTML page with the figures, their numbers and what made them."""
 
 from ... import config
-from ...records.files import replacing
+from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import interruptible, locked, one_line
@@ -20,8 +20,6 @@ def run(given) -> int:
         from ...checks.report import page
 
         with interruptible(), one_line():
-            text = page.render(ROOT, checked, absent)
-            with replacing(ROOT / PAGE) as part:
-                part.write_text(text, encoding="utf-8")
+            write_whole(ROOT / PAGE, page.render(ROOT, checked, absent))
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return status

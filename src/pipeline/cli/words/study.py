@@ -21,9 +21,10 @@ def run(given) -> int:
         currency = Currency(ROOT, expected.of_all(given.checked))
         status = running.make(currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
-            charts = parts.CHARTS
-            computed = [chart for chart in charts if charts[chart][0] in parts.FIXED]
-            figures.publish({parts.published(c): parts.drawn(c) for c in computed})
-            files = {c: parts.published(c) if c in computed else parts.drawn(c) for c in charts}
-            figures.table(parts.FOLDER, {path: (c, "made") for c, path in files.items()})
+            files = {
+                parts.published(chart) if data in parts.FIXED else drawn: drawn
+                for chart, (data, *_) in parts.CHARTS.items()
+                for drawn in [parts.drawn(chart)]
+            }
+            figures.made(parts.FOLDER, files)
     return status

@@ -1,7 +1,6 @@
 """./reproduce sweep and atlas."""
 
 import shutil
-from pathlib import Path
 
 from ...checks.currency import Currency
 from ...config import expected, places
@@ -26,17 +25,15 @@ def run(given) -> int:
         if status := add_packages("slurm"):
             return status
     results = expected.of_sweeps({name: sweeps[name] for name in names})
-    targets = [places.sweep_dataset(name) for name in names]
+    files = {path: path for path in map(places.sweep_dataset, names)}
     if given.word == "atlas":
-        targets += [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
+        drawn = [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
+        files |= {places.atlas_published(drawing): drawing for drawing in drawn}
+    targets = list(files.values())
     with locked():
         currency = Currency(ROOT, results)
         with sweeping.progress(sweeps, currency, targets):
             status = running.make(currency, targets, options)
         if status == 0 and not running.only_says(options):
-            drawn = [file for file in targets if file.startswith("results/sweep/figures/")]
-            pictures = {places.atlas_published(file): file for file in drawn}
-            figures.publish(pictures)
-            files = [*targets[: len(names)], *pictures]
-            figures.table(places.ATLAS, {path: (Path(path).stem, "made") for path in files})
+            figures.made(places.ATLAS, files)
     return status

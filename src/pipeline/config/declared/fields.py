@@ -51,6 +51,11 @@ def rising(numbers) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
+def one_of(*texts: str, more: str = ""):
+    """The type of one of some texts; there may be `more` to say."""
+    return Annotated[Literal[texts], Field(description=f"one of {', '.join(texts)}{more}")]
+
+
 def one_or(other, one, is_other: Callable, allowed: str):
     """The type of what is either `other`, where `is_other` says so of what is given, or `one`."""
 
@@ -191,12 +196,8 @@ class Window(Block):
     """the same in xdot"""
 
 
-Between = listed(
-    real("a fraction with -1 < start < 1", gt=-1, lt=1),
-    "two fractions of the section's radius",
-    2,
-    2,
-)
+Fraction = real("a fraction with -1 < start < 1", gt=-1, lt=1)
+Between = listed(Fraction, "two fractions of the section's radius", 2, 2)
 Start = one_or(
     Point,
     real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",
@@ -216,23 +217,11 @@ Impacts = one_or(
     "a whole number, or a list of them, one for each start",
 )
 Period = whole(1, 12)
-OrbitType = Annotated[
-    Literal["elliptic", "hyperbolic", "inverse hyperbolic"],
-    Field(description="one of elliptic, hyperbolic, inverse hyperbolic"),
-]
-Saddle = Annotated[
-    Literal["hyperbolic", "inverse hyperbolic"],
-    Field(description="one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
-]
-Format = Annotated[Literal["png", "svg", "pdf"], Field(description="one of png, svg, pdf")]
-Formats = listed(
-    Format,
-    "a list of png, svg, pdf that has png in it, none of them twice",
-    1,
-    None,
-    distinct,
-    lambda given: "png" in given,
-)
+OrbitType = one_of("elliptic", "hyperbolic", "inverse hyperbolic")
+Saddle = one_of("hyperbolic", "inverse hyperbolic", more=" (others have no manifolds)")
+Format = one_of("png", "svg", "pdf")
+_FORMATS = "a list of png, svg, pdf that has png in it, none of them twice"
+Formats = listed(Format, _FORMATS, 1, None, distinct, lambda given: "png" in given)
 
 
 def axes_of(*names: str) -> Any:

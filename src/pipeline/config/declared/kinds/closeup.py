@@ -44,15 +44,9 @@ class Closeup(OfManifolds):
     @staticmethod
     def numbers(block, periodic, manifolds):
         """The orbit, the point, and the window around it."""
-        window = {
-            f"window, {name}": "{:.7g} to {:.7g}".format(*manifolds.attrs[f"window_{name}"])
-            for name in ("x", "xdot")
-        }
-        return (
-            Closeup.about_orbit(periodic, block)
-            | window
-            | {
-                "x of the point": f"{manifolds.attrs['point_x']:.7f}",
-                "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
-            }
-        )
+        found, about = Closeup.about_orbit(periodic, block), manifolds.attrs
+        for name in ("x", "xdot"):
+            found[f"window, {name}"] = "{:.7g} to {:.7g}".format(*about[f"window_{name}"])
+        for name in ("x", "xdot"):
+            found[f"{name} of the point"] = f"{about[f'point_{name}']:.7f}"
+        return found
