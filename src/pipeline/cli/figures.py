@@ -97,7 +97,7 @@ def table(folder, rows, more=()) -> None:
 
 
 def made(folder, files) -> None:
-    """Publish what a run has drawn, and print its files; `files` is file, as published -> drawing."""
+    """Publish drawings and print a line for each; `files` is file, as published -> drawing."""
     publish(files)
     table(folder, {path: (PurePath(path).stem, "made") for path in files})
 

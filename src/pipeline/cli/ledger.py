@@ -95,10 +95,8 @@ def check(checked, number, given) -> str:
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
-    data = {name: other}
-    for known in claim.data:
-        if known != name:
-            data[known] = load(checked, known, paths(checked)[known])
+    others = [known for known in claim.data if known != name]
+    data = {known: load(checked, known, paths(checked)[known]) for known in others} | {name: other}
     try:
         verdict = claim.judge(data, proofs(claim.theorems))
     except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
