@@ -253,9 +253,8 @@ def _parser(name):
 
 
 def _versions():
-    project, lock = (
-        (ROOT / name).read_text(encoding="utf-8")
-        for name in ("pyproject.toml", "requirements/lock.txt")
-    )
-    ours = re.search(r'^version = "(.+)"', project, re.MULTILINE).group(1)
-    return f"pseudorigid {ours}, snakemake {re.search('^snakemake==([^ ;]+)', lock, re.M).group(1)}"
+    def found(pattern, file):
+        return re.search(pattern, (ROOT / file).read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+    ours = found(r'^version = "(.+)"', "pyproject.toml")
+    return f"pseudorigid {ours}, snakemake {found('^snakemake==([^ ;]+)', 'requirements/lock.txt')}"

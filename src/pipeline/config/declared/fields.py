@@ -29,8 +29,8 @@ def real(allowed: str, **bounds):
 
 def whole(low: int, high: int, multiple: int = 1):
     """The type of a whole number from `low` to `high`, a multiple of another."""
-    allowed = f"a whole number from {low} to {high}"
-    allowed += f", a multiple of {multiple}" if multiple > 1 else ""
+    more = f", a multiple of {multiple}" if multiple > 1 else ""
+    allowed = f"a whole number from {low} to {high}{more}"
     bounds = Field(description=allowed, ge=low, le=high, multiple_of=multiple)
     return Annotated[int, Strict(), bounds]
 
@@ -58,13 +58,9 @@ def one_of(*texts: str, more: str = ""):
 
 def one_or(other, one, is_other: Callable, allowed: str):
     """The type of what is either `other`, where `is_other` says so of what is given, or `one`."""
-
-    def which(value):
-        return "(other)" if is_other(value) else "(one)"
-
     return Annotated[
         Annotated[one, Tag("(one)")] | Annotated[other, Tag("(other)")],
-        Discriminator(which),
+        Discriminator(lambda value: "(other)" if is_other(value) else "(one)"),
         Field(description=allowed),
     ]
 
@@ -205,11 +201,8 @@ Start = one_or(
     lambda value: isinstance(value, dict),
     "a fraction of the section's radius, or a point {x, xdot} or {x, y}",
 )  # fmt: skip
-Starts = listed(
-    Start,
-    "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
-    "{x, xdot} or {x, y}",
-)
+_STARTS = "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
+Starts = listed(Start, _STARTS + "{x, xdot} or {x, y}")
 Impacts = one_or(
     listed(whole(1, LARGEST), "a list of whole numbers, one for each start"),
     whole(1, LARGEST),
