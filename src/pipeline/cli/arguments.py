@@ -148,11 +148,7 @@ class _Parser(argparse.ArgumentParser):
     """One that refuses in one line."""
 
     def error(self, message):
-        unknown, text = message.partition("unrecognized arguments: ")[1:]
-        if unknown:
-            first = text.split()[0]
-            options = [name for action in self._actions for name in action.option_strings]
-            message = f"no argument {first}" + hint(first, options)
+        message = explained(self, message)
         refuse(message[0].lower() + message[1:], self.prog)
 
 
@@ -200,6 +196,16 @@ def main(arguments):
             if "/" not in name and name not in known:
                 refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
     return GO_ON
+
+
+def explained(parser, message):
+    """What a parser finds wrong; of an unknown argument, which was meant."""
+    unknown = message.partition("unrecognized arguments: ")[2]
+    if not unknown:
+        return message
+    first = unknown.split()[0].partition("=")[0]
+    known = [name for action in parser._actions for name in action.option_strings]
+    return f"no argument {first}{hint(first, known)}"
 
 
 def hint(name, known):

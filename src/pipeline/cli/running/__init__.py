@@ -12,7 +12,7 @@ from ...checks.currency import DAMAGED, MISSING
 from ...config.expected import needed
 from ...records.record import record_path
 from ...records.sources import ROOT
-from ..arguments import hint
+from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
@@ -40,12 +40,7 @@ def _parser():
     parser = get_argument_parser()
 
     def refuse(message):
-        unknown = message.partition("unrecognized arguments: ")[2]
-        known = [name for action in parser._actions for name in action.option_strings]
-        if unknown:
-            first = unknown.split()[0].partition("=")[0]
-            message = f"no argument {first}{hint(first, known)}"
-        raise MisuseError(message)
+        raise MisuseError(explained(parser, message))
 
     parser.error = refuse
     return parser

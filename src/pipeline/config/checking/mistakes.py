@@ -1,6 +1,5 @@
 """Whether a block fits its declaration: pydantic's findings in our words, all of them."""
 
-import difflib
 import math
 import typing
 from contextlib import suppress
@@ -9,7 +8,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
 from ..declared.fields import TAGS, Block
-from .words import dotted, refusal
+from .words import dotted, meant, refusal
 
 
 def mistakes(model, given, place) -> list[str]:
@@ -49,8 +48,7 @@ def _line(model, error, place) -> str:
     where = (*place, *(part for part in loc if part not in TAGS))
     if error["type"] == "extra_forbidden":
         known = list(allowed_at(model, loc[:-1])[0].model_fields)
-        near = difflib.get_close_matches(str(loc[-1]), known, 1, 0.5)
-        hint = f"did you mean {near[0]}?" if near else f"allowed here: {', '.join(known)}"
+        (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"
     if error["type"] == "missing":
         return f"{dotted(where)}: missing"

@@ -20,9 +20,13 @@ def refusal(place, value, allowed) -> str:
 
 def unknown(kind, name, known) -> str:
     """In words that there is no such thing, and which was meant."""
-    near = difflib.get_close_matches(str(name), known, 1, 0.5)
-    hint = f"did you mean {near[0]}? " if near else ""
-    return f"no {kind} {name}: {hint}config.yaml has {', '.join(known) or 'none'}"
+    there = f"config.yaml has {', '.join(known) or 'none'}"
+    return f"no {kind} {name}: {' '.join([*meant(name, known), there])}"
+
+
+def meant(name, known) -> list[str]:
+    """The question which was meant, of an unknown name; empty where none is near."""
+    return [f"did you mean {near}?" for near in difflib.get_close_matches(str(name), known, 1, 0.5)]
 
 
 def dotted(place) -> str:
