@@ -1,9 +1,8 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
-from ..fields import distinct, listed, whole
+from ..fields import LARGEST, distinct, listed, whole
 from ..scene import OfOrbits, OnSurface, measured_energy
 
-Place = whole(0, 10_000_000)
 PLACES = "a list of places in starts, counted from 0, none of them twice"
 
 
@@ -25,7 +24,7 @@ class Portrait(OnSurface, OfOrbits):
     telling = "impacts"
     studied = "portrait"
 
-    sea: listed(Place, PLACES, 0, None, distinct) = []
+    sea: listed(whole(0, LARGEST), PLACES, 0, None, distinct) = []
     """which orbits are chaotic, drawn in grey"""
 
     @classmethod
