@@ -18,7 +18,7 @@ from .files import file_hash, write_whole
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
 PACKAGES = ("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4", "numba", "numpy")
-PACKAGES += ("pyparsing", "xarray")
+PACKAGES += ("pyparsing", "python-flint", "xarray")
 
 
 class RecordError(ValueError):
