@@ -38,7 +38,7 @@ def test_each_word_tells_its_arguments(capsys, word):
     status, out, err = told[0]
     assert (status, err) == (0, "")
     about = arguments.WORDS[word]
-    for name, how in (*about.names, *about.flags):
+    for name, how in about.arguments:
         assert how.get("metavar", name) in out
     assert ("goes to snakemake" in " ".join(out.split())) == about.passes
 
@@ -120,7 +120,7 @@ def test_what_may_be_right_goes_on(capsys, line):
 
 def test_names_come_first_then_snakemakes_options_among_a_words_own():
     given = arguments.read(["sweep", "line", "-j", "5", "--slurm", "--forceall"])
-    assert (given.name, given.slurm) == (["line"], True)
+    assert (given.sweep, given.slurm) == (["line"], True)
     assert given.options == ["-j", "5", "--forceall"]
     given = arguments.read(["claims", "--cores", "2", "--data", "f.nc", "--check=7"])
     assert (given.check, given.data, given.options) == (7, "f.nc", ["--cores", "2"])

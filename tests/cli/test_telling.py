@@ -12,7 +12,7 @@ from pipeline.checks.currency import Currency
 from pipeline.cli.telling import plan, states, steps
 from pipeline.cli.telling.names import step
 from pipeline.config.expected import Expected
-from pipeline.records.record import begin, finish, record_path
+from pipeline.records.record import record_path, recorded
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
 
@@ -46,11 +46,10 @@ def made(tmp_path, monkeypatch):
         (tmp_path / source).write_text(source)
     for path, how in expected.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / path).write_text(path)
-        record = begin(config=how.config, inputs=how.inputs, sources=how.sources)
         monkeypatch.setattr("pipeline.records.artifacts.load", lambda _: None)
         monkeypatch.setattr("pipeline.records.artifacts.content_hash", lambda _: None)
-        finish(record, path, record_path(path))
+        with recorded(path, *how):
+            (tmp_path / path).write_text(path)
     return tmp_path, expected
 
 

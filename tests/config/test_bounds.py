@@ -58,10 +58,12 @@ def refusals(part, block):
          "expected one with flights of at most 1000000 at this energy (here 2.83e+08)"),
         ("claims", FLUX, {"grid": 3001}, "grid: 3001 is not allowed: expected a whole number from "
          "10 to 3000"),
+        ("claims", FLUX, {"period": 5}, "period: 5 is not allowed: expected a whole number from 2 "
+         "to 12, a multiple of 2"),
         ("claims", FLUX, {"orbits": 1001}, "impacts: 10000 is not allowed: expected at most "
          "10000000 impacts in all, orbits times impacts: here 9990"),
-        ("claims", JUMPS, {"sides": 99_998}, "sides: 99998 is not allowed: expected a multiple of "
-         "four"),
+        ("claims", JUMPS, {"sides": 99_998}, "sides: 99998 is not allowed: expected a whole number "
+         "from 4 to 100000, a multiple of 4"),
         ("claims", JUMPS, {"energies": [0.001, 9]}, "energies[1]: 9 is not allowed: expected a "
          "number below k/2 - g = 0.06, where the ball could flatten to nothing"),
         ("claims", LAST_CURVE, {"drawn": 5_000_001}, "drawn: 5000001 is not allowed: expected at "

@@ -153,6 +153,7 @@ def test_all_mistakes_of_a_file_are_told_at_once():
         ("scenes.a_motion.formats", ["svg"], ["formats: ['svg']", "png"]),
         ("scenes.a_motion.formats", ["png", "gif"], ["formats[1]: 'gif'", "png, svg, pdf"]),
         ("scenes.a_motion.formats", ["png", "png"], ["formats: ['png', 'png']", "twice"]),
+        ("scenes.a_motion.formats", ["svg"], ["formats: ['svg']", "that has png in it"]),
         ("scenes.a_motion.formats", "png", ["formats: 'png'", "a list"]),
         ("scenes.a_motion.axes.t.limits", [16, 0], ["axes.t.limits: [16, 0]", "increasing"]),
         ("scenes.a_motion.axes.t.limits", [0], ["axes.t.limits: [0]", "two increasing"]),

@@ -50,6 +50,7 @@ def test_figures_by_name(done):
     assert {file for file in made if made[file] == "recomputed"} == again
     assert set(made) - again == {"paper_figures/fig4.png", "paper_figures/fig4.svg"}
     assert not (done.path / "results" / "paper" / "figures" / "fig7.png").exists()
+    assert rows(done.run("all", "fig3").stdout).keys() == rows(done.run().stdout).keys() > set(made)
     result = done.run("fig33")
     said = "reproduce: no word or figure fig33: did you mean fig3?\n"
     assert (result.returncode, result.stdout) == (2, said)

@@ -50,7 +50,7 @@ def test_progress_tells_rate_and_time_to_finish(tmp_path, monkeypatch):
     monkeypatch.setattr(sweeping, "PAUSE", 0.01)
     out = io.StringIO()
     files = {str(tmp_path / name): (3, 30) for name in "ab"}
-    with sweeping.progress(files, 8, out):
+    with sweeping.told(files, 8, out):
         (tmp_path / "a").write_text("")
         time.sleep(0.1)
         (tmp_path / "b").write_text("")

@@ -26,11 +26,7 @@ except ConfigError as error:
 VARIANTS, SWEEPS = CONFIG["variants"], CONFIG["sweeps"]
 SCENES = VARIANTS[places.PAPER]
 ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
-EXPECTED = {
-    **expected.of_variants(VARIANTS),
-    **expected.of_study(VARIANTS),
-    **expected.of_sweeps(SWEEPS),
-}
+EXPECTED = expected.of_all(CONFIG)
 CURRENCY = Currency(ROOT, EXPECTED)
 
 

@@ -35,12 +35,9 @@ def _subject(wildcards):
     return "/".join(part for part in parts if part not in ("paper", None))
 
 
-@contextmanager
 def recorded(snakemake):
     """Write the record of what made the output, `config` being the block behind it."""
-    from pipeline.records import record
+    from pipeline.records.record import recorded
 
-    inputs, sources = set(snakemake.input), snakemake.params.sources
-    made = record.begin(config=snakemake.params.block, inputs=inputs, sources=sources)
-    yield
-    record.finish(made, snakemake.output[0], snakemake.output.record)
+    given = snakemake.params
+    return recorded(snakemake.output[0], given.block, given.sources, set(snakemake.input))

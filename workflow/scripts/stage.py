@@ -52,12 +52,5 @@ with one_line_errors(snakemake), recorded(snakemake):
         dataset = compute(ball, block["energy"], *inputs, **fields)
     if "scan" in method:
         dataset.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
-    artifacts.save(
-        dataset,
-        snakemake.output[0],
-        block,
-        stage=snakemake.rule,
-        k=ball.k,
-        g=ball.g,
-        energy=float(block["energy"]),
-    )
+    about = {"stage": snakemake.rule, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
+    artifacts.save(dataset, snakemake.output[0], block, **about)

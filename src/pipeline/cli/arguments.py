@@ -7,6 +7,7 @@ import argparse
 import difflib
 import re
 import sys
+from functools import cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -16,101 +17,82 @@ OTHERS = ("paper", "all")  # names that are not in config.yaml
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
 FIGURES = "figures to draw, by the names in config.yaml; all without a name"
-SWEEPS = "sweeps of config.yaml; all without a name"
-SLURM = "hand blocks of cells to Slurm, as workflow/profiles/slurm says"
+DATA = "a dataset to judge it by, in the place of that name (as in fig2/orbits)"
+AGAINST = (
+    "an archive: compare this tree with it, file by file; or a folder with another tree or its "
+    "results: say how many ulp lie between its data and these"
+)
 
 
 class Word:
-    """A word: the module in `words` behind it, its line in the list, and its arguments.
+    """A word: its line in the list, its arguments, and the module in `words` behind it.
 
-    `names` and `flags` are (name, arguments of argparse's add_argument) each. The options of one
-    that `passes` on what it does not know go to snakemake, after its names.
+    `arguments` are (name, arguments of argparse's add_argument) each.
     """
 
-    def __init__(self, line, *names, module=None, flags=(), passes=False, more=""):
-        self.line, self.names, self.flags = line, names, flags
-        self.module, self.passes, self.more = module, passes, more
+    passes = False
+
+    def __init__(self, line, *arguments, module=None, more=""):
+        self.line, self.arguments, self.module, self.more = line, arguments, module, more
+
+
+class Making(Word):
+    """One that runs snakemake: options that it does not know go there, after its names."""
+
+    passes = True
 
 
 def _any(name, text):
     return name, {"nargs": "*", "help": text}
 
 
-def _one(name, text):
+def _one(name, text, metavar=None):
     # argparse would refuse one that is missing; the word does, and says which there are
-    return name, {"nargs": "?", "help": text, "metavar": name.upper()}
+    return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
 
 
-_SLURM = ("--slurm", {"action": "store_true", "help": SLURM})
+def _switch(name, text):
+    return name, {"action": "store_true", "help": text}
+
+
+_SWEPT = (
+    _any("sweep", "sweeps of config.yaml; all without a name"),
+    _switch("--slurm", "hand blocks of cells to Slurm, as workflow/profiles/slurm says"),
+)
 WORDS = {
     "list": Word("every figure, chart and dataset that there can be, and the state of its file"),
-    "variant": Word(
+    "variant": Making(
         "the figures of a variant of config.yaml, into results/NAME/figures/",
-        _one("name", "a variant of config.yaml"),
+        _one("variant", "a variant of config.yaml", "NAME"),
         _any("figure", FIGURES),
-        passes=True,
     ),
-    "compare": Word(
+    "compare": Making(
         "what differs between two variants, figure by figure",
         _one("a", "a variant of config.yaml, or paper"),
         _one("b", "another one"),
         _any("figure", FIGURES),
-        passes=True,
     ),
-    "sweep": Word(
-        "grids over k and E/g^2, into results/sweep/",
-        _any("name", SWEEPS),
-        flags=[_SLURM],
-        passes=True,
-    ),
-    "atlas": Word(
-        "their pictures, into more_figures/atlas/",
-        _any("name", SWEEPS),
-        module="sweep",
-        flags=[_SLURM],
-        passes=True,
-    ),
-    "study": Word(
+    "sweep": Making("grids over k and E/g^2, into results/sweep/", *_SWEPT),
+    "atlas": Making("their pictures, into more_figures/atlas/", *_SWEPT, module="sweep"),
+    "study": Making(
         "speed and accuracy against other methods, into more_figures/study/",
-        passes=True,
         more=" Installs the packages of its rivals first (once).",
     ),
-    "claims": Word(
+    "claims": Making(
         "every statement of the paper, checked: CLAIMS.md, more_figures/claims/",
-        flags=[
-            ("--check", {"type": int, "metavar": "ID", "help": "judge one claim alone"}),
-            (
-                "--data",
-                {
-                    "metavar": "[NAME=]FILE",
-                    "help": "a dataset to judge it by, in the place of that name (as in "
-                    "fig2/orbits)",
-                },
-            ),
-        ],
-        passes=True,
+        ("--check", {"type": int, "metavar": "ID", "help": "judge one claim alone"}),
+        ("--data", {"metavar": "[NAME=]FILE", "help": DATA}),
         more=" What is missing is made first, the sweeps too.",
     ),
     "prove": Word(
         "the theorems, each checked from its certificate",
         _any("theorem", "theorems; all without a name"),
-        flags=[
-            ("--search", {"action": "store_true", "help": "make the certificates anew first"}),
-            (
-                "--impacts",
-                {"action": "store_true", "help": "prove the impacts behind the figures instead"},
-            ),
-            (
-                "--pictures",
-                {"action": "store_true", "help": "draw the pictures, into more_figures/proofs/"},
-            ),
-        ],
+        _switch("--search", "make the certificates anew first"),
+        _switch("--impacts", "prove the impacts behind the figures instead"),
+        _switch("--pictures", "draw the pictures, into more_figures/proofs/"),
         more=" Exit status 1 where one is not proved.",
     ),
-    "report": Word(
-        "one HTML page: figures, numbers beside the paper's, corrections, run times",
-        passes=True,
-    ),
+    "report": Making("one HTML page: figures, numbers beside the paper's, corrections, run times"),
     "archive": Word(
         "one tar with figures, data and what they were made from",
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
@@ -118,17 +100,8 @@ WORDS = {
     ),
     "verify": Word(
         "whether everything here is as committed, and if not, what differs",
-        flags=[
-            (
-                "--against",
-                {
-                    "metavar": "PLACE",
-                    "help": "an archive: compare this tree with it, file by file; or a folder with "
-                    "another tree or its results: say how many ulp lie between its data and these",
-                },
-            ),
-            ("--strict", {"action": "store_true", "help": "exit 1 for notes too"}),
-        ],
+        ("--against", {"metavar": "PLACE", "help": AGAINST}),
+        _switch("--strict", "exit 1 for notes too"),
         more=" The layers are config, source, environment, data, drawing, file. Exit status 1 for "
         "other bytes and for results that this tree did not make; other differences are notes.",
     ),
@@ -138,8 +111,8 @@ WORDS = {
     ),
     "clean": Word(
         "deletes results that were made; committed files stay",
-        _any("name", "variants, or other folders of results/; all without a name"),
-        flags=[("--yes", {"action": "store_true", "help": "do not ask"})],
+        _any("folder", "variants, or other folders of results/; all without a name"),
+        _switch("--yes", "do not ask"),
     ),
     "benchmark": Word(
         "one table of ratios of speed, measured now",
@@ -148,49 +121,49 @@ WORDS = {
     "test": Word("the test suite (arguments go to pytest)"),
     "help": Word("this list, or the arguments of a WORD", _one("word", "one of these words")),
 }
-NO_WORD = Word(
+NO_WORD = Making(
     "Draw the paper's figures from config.yaml, those that are not current, into paper_figures/.",
-    _any("figure", FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
-    passes=True,
+    _any("figure", f"{FIGURES}; also files, such as results/paper/orbits_fig2.nc"),
+    _switch("--version", "print the versions of this project and of snakemake"),
 )
 SETTINGS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
 SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
+
+
+class Given(argparse.Namespace):
+    """A command line: names and flags of its `word` (None where there is none), and `options`.
+
+    These are for snakemake or pytest.
+    """
+
+    @cached_property
+    def checked(self):
+        """The checked config.yaml."""
+        from ..config import load  # not before packages are there
+
+        return load(ROOT / "config.yaml")
 
 
 class _Parser(argparse.ArgumentParser):
     """One that refuses in one line."""
 
     def error(self, message):
-        unknown, text = message.partition("unrecognized arguments: ")[1:]
-        if unknown:
-            first = text.split()[0]
-            options = [name for action in self._actions for name in action.option_strings]
-            message = f"no argument {first}" + hint(first, options)
+        message = explained(self, message)
         refuse(message[0].lower() + message[1:], self.prog)
 
 
 def read(arguments):
-    """What a command line asks for, as argparse's namespace.
-
-    It has the `word` (None where there is none), its names and flags, and `options`, those of
-    snakemake or pytest. Help and mistakes end in SystemExit.
-    """
+    """What a command line asks for; help and mistakes end in SystemExit."""
     first, *rest = arguments or [""]
-    if first == "help" and not rest:
-        return read(["--help"])
-    if first == "help" and not rest[0].startswith("-"):
-        first, *surplus = rest
-        rest = ["--help"]
-        if first not in WORDS:
-            refuse(f"no word {first}{hint(first, WORDS)}")
-        if surplus:
-            refuse(f"no argument {surplus[0]}", "./reproduce help")
     word = first if first in WORDS else None
-    parser = _parser(word)
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
-        return argparse.Namespace(word=word, options=rest)
+        return Given(word=word, options=rest)
     own, options = _split(WORDS.get(word, NO_WORD), rest if word else arguments)
-    given = parser.parse_args(own)
+    given = _parser(word).parse_args(own, Given())
+    if word == "help":
+        if given.word not in (None, *WORDS):
+            refuse(f"no word {given.word}{hint(given.word, WORDS)}")
+        return read(["--help"] if given.word is None else [given.word, "--help"])
     if not word and given.version:
         print(_versions())
         sys.exit(0)
@@ -204,7 +177,7 @@ def main(arguments):
     """Answer what needs no packages; else the exit status GO_ON.
 
     Names are looked for in the text of config.yaml: what is nowhere in it cannot be one. Theorems
-    are called as their certificates; those of `clean` are folders.
+    are called as their certificates.
     """
     given = read(arguments)
     try:
@@ -212,24 +185,27 @@ def main(arguments):
     except OSError:  # which is said when it is read in earnest
         return GO_ON
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    theorems = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
-    for kind in () if given.word == "clean" else ("name", "a", "b", "figure", "theorem"):
-        names = getattr(given, kind, None) or []
+    known, near = [*words, *OTHERS], keys if given.word else [*keys, *WORDS]
+    if given.word == "prove":
+        known = near = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
+    figure = "figure" if given.word else "word or figure"
+    kinds = {"a": "variant", "b": "variant", "figure": figure}
+    for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
+        names = getattr(given, argument, None) or []
         for name in [names] if isinstance(names, str) else names:
-            known = theorems if kind == "theorem" else [*words, *OTHERS]
             if "/" not in name and name not in known:
-                near = theorems if kind == "theorem" else keys if given.word else [*keys, *WORDS]
-                refuse(f"no {_kind(given.word, kind)} {name}{hint(name, near)}")
+                refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
     return GO_ON
 
 
-def _kind(word, argument):
-    """What an argument is a name of."""
-    if argument == "theorem":
-        return argument
-    if argument == "figure":
-        return "figure" if word else "word or figure"
-    return "sweep" if word in ("sweep", "atlas") else "variant"
+def explained(parser, message):
+    """What a parser finds wrong; of an unknown argument, which was meant."""
+    unknown = message.partition("unrecognized arguments: ")[2]
+    if not unknown:
+        return message
+    first = unknown.split()[0].partition("=")[0]
+    known = [name for action in parser._actions for name in action.option_strings]
+    return f"no argument {first}{hint(first, known)}"
 
 
 def hint(name, known):
@@ -248,13 +224,16 @@ def _split(word, arguments):
     """(names and flags of its own, what goes on to snakemake)."""
     if not word.passes:
         return arguments, []
-    takes = {name: 0 if "action" in how else 1 for name, how in word.flags}
-    takes.update({"-h": 0, "--help": 0, "--version": 0})
-    end = next((i for i, a in enumerate(arguments) if a.startswith("-")), len(arguments))
-    own, rest, options = list(arguments[:end]), list(arguments[end:]), []
+    # Flag -> how many arguments it takes.
+    takes = {name: int("action" not in how) for name, how in word.arguments if name[0] == "-"}
+    takes |= {"-h": 0, "--help": 0}
+    own, rest = [], list(arguments)
+    while rest and not rest[0].startswith("-"):
+        own.append(rest.pop(0))
+    options = []
     while rest:
         name, given, _ = rest[0].partition("=")
-        size = 1 + (takes[name] if not given else 0) if name in takes else 1
+        size = 1 if given else 1 + takes.get(name, 0)
         (own if name in takes else options).extend(rest[:size])
         del rest[:size]
     return own, options
@@ -262,37 +241,26 @@ def _split(word, arguments):
 
 def _parser(name):
     word = WORDS.get(name, NO_WORD)
-    sentence = word.line if not name else f"{word.line[0].upper()}{word.line[1:]}.{word.more}"
-    parser = _Parser(
-        prog="./reproduce" + (f" {name}" if name else ""),
-        description=sentence,
-        formatter_class=argparse.RawDescriptionHelpFormatter
-        if not name
-        else argparse.HelpFormatter,
-        epilog=_epilog(name, word),
-        allow_abbrev=False,
-    )
-    for key, how in (*word.names, *word.flags):
+    if name:
+        line = f"{word.line[0].upper()}{word.line[1:]}.{word.more}"
+        parser = _Parser(f"./reproduce {name}", description=line, allow_abbrev=False)
+        parser.epilog = SNAKEMAKE if word.passes else None
+    else:
+        as_it_stands = argparse.RawDescriptionHelpFormatter
+        parser = _Parser("./reproduce", formatter_class=as_it_stands, allow_abbrev=False)
+        parser.description = word.line
+        width = max(map(len, WORDS))
+        lines = [f"  {word:{width}}  {WORDS[word].line}" for word in WORDS]
+        more = "./reproduce WORD --help has a word's arguments."
+        parser.epilog = "\n".join(["words:", *lines, "", more, SNAKEMAKE])
+    for key, how in word.arguments:
         parser.add_argument(key, **how)
-    if not name:
-        text = "print the versions of this project and of snakemake"
-        parser.add_argument("--version", action="store_true", help=text)
     return parser
 
 
-def _epilog(name, word):
-    if name:
-        return SNAKEMAKE if word.passes else None
-    width = max(map(len, WORDS))
-    lines = [f"  {word:{width}}  {WORDS[word].line}" for word in WORDS]
-    more = "./reproduce WORD --help has a word's arguments."
-    return "\n".join(["words:", *lines, "", more, SNAKEMAKE])
-
-
 def _versions():
-    project, lock = (
-        (ROOT / name).read_text(encoding="utf-8")
-        for name in ("pyproject.toml", "requirements/lock.txt")
-    )
-    ours = re.search(r'^version = "(.+)"', project, re.MULTILINE).group(1)
-    return f"pseudorigid {ours}, snakemake {re.search('^snakemake==([^ ;]+)', lock, re.M).group(1)}"
+    def found(pattern, file):
+        return re.search(pattern, (ROOT / file).read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+    ours = found(r'^version = "(.+)"', "pyproject.toml")
+    return f"pseudorigid {ours}, snakemake {found('^snakemake==([^ ;]+)', 'requirements/lock.txt')}"

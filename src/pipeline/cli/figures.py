@@ -3,13 +3,14 @@
 import filecmp
 import json
 import shutil
+from pathlib import PurePath
 
 from ..checks.currency import Currency
 from ..config import expected, places, unknown
 from ..config.expected import Expected
 from ..records.differences import columns
-from ..records.files import identity, replacing
-from ..records.record import begin, finish, record_path
+from ..records.files import identity, replacing, write_whole
+from ..records.record import recorded
 from ..records.sources import ROOT
 from . import running
 from .folder import MisuseError
@@ -42,35 +43,37 @@ def make(checked, variant, options, named=None, others=()) -> int:
     variants = checked["variants"]
     figures = places.figures(variants, variant)
     wanted = {path: figures[path] for path in (figures if named is None else named)}
+    wanted |= {path: ("", [path]) for path in others}
     results = expected.of_variants(variants)
     if set(others) - set(results):
-        results |= expected.of_study(variants) | expected.of_sweeps(checked["sweeps"])
+        results = expected.of_all(checked)
+    # File, as published -> its drawing.
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
-    before = {path: identity(path) for path in (*made.values(), *others)}
+    before = {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
     says = running.only_says(options)
     absent = known_absent(variant) if says else _find_absent(variants, variant, currency)
-    drawings = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
-    status = running.make(currency, [*drawings, *others], options)
+    possible = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
+    status = running.make(currency, possible, options)
     if says or status == running.INTERRUPTED:
         return status
-    if options or currency.outdated([*drawings, *others]):
+    if options or currency.outdated(possible):
         currency = Currency(ROOT, results)
         absent = _find_absent(variants, variant, currency)
-    outdated = currency.outdated([*made.values(), *others])
-    missing = {wanted[path][0] for path in made if made[path] in outdated}
-    if status and missing and missing <= set(absent):
-        status = int(bool(set(others) & set(outdated)))
-    good = {path: scene for path, (scene, _) in wanted.items() if made[path] not in outdated}
-    if variant in places.PUBLISHED:
-        publish({path: made[path] for path in good if path != made[path]})
+    outdated = currency.outdated(before)
+    missing = {scene for path, (scene, _) in wanted.items() if made[path] in outdated}
+    if missing and missing <= set(absent):
+        status = 0
     rows = {}
-    for path, (scene, behind) in (wanted | {path: ("", [path]) for path in others}).items():
-        state = "current" if identity(behind[-1]) == before[behind[-1]] else "recomputed"
-        if behind[-1] in outdated:
-            state = f"cannot exist: {absent[scene]}" if scene in absent else "not made"
-        rows[path] = scene, state
-    more = [*_missed_impacts(variants, variant, set(good.values()))]
+    for path, (scene, _) in wanted.items():
+        rows[path] = scene, "recomputed"
+        if made[path] in outdated:
+            rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else "not made"
+        elif identity(made[path]) == before[made[path]]:
+            rows[path] = scene, "current"
+    good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
+    publish(good)
+    more = _missed_impacts(variants, variant, {wanted[path][0] for path in good})
     table(places.PUBLISHED.get(variant), rows, more)
     if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
@@ -91,6 +94,12 @@ def table(folder, rows, more=()) -> None:
     print("", *columns(lines), *more, sep="\n")
     if running.LOGS:
         print(f"snakemake's log: {running.LOGS[-1]}")
+
+
+def made(folder, files) -> None:
+    """Publish drawings and print a line for each; `files` is file, as published -> drawing."""
+    publish(files)
+    table(folder, {path: (PurePath(path).stem, "made") for path in files})
 
 
 def of_scenes(checked, variant, names) -> list[str] | None:
@@ -124,29 +133,25 @@ def _find_absent(variants, variant, currency):
     path = places.absent_file(variant)
     currency.expected[path] = made = Expected(orbits, [], sorted({p for _, p in orbits.values()}))
     if currency.reason(path):
-        _write_absent(path, made, variant)
+        with recorded(path, *made):
+            _write_absent(path, variant, orbits)
     return known_absent(variant)
 
 
-def _write_absent(path, made, variant) -> None:
+def _write_absent(path, variant, orbits) -> None:
     from pseudorigid.dynamics.variables import of_type
 
     from ..records.artifacts import load
 
-    found = {}
-    for scene, (kind, dataset) in made.config.items():
+    found, folder = {}, ROOT / "results" / variant
+    for scene, (kind, dataset) in orbits.items():
         try:
             of_type(load(ROOT / dataset), kind)
         except ValueError as error:
             found[scene] = str(error)
-    folder = ROOT / "results" / variant
-    for scene in found:
-        for old in (*folder.glob(f"figures/{scene}.*"), *folder.glob(f"provenance/{scene}.*")):
-            old.unlink()
-    record = begin(config=made.config, inputs=made.inputs, sources=[])
-    with replacing(ROOT / path) as part:
-        part.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    finish(record, path, record_path(path))
+            for old in (*folder.glob(f"figures/{scene}.*"), *folder.glob(f"provenance/{scene}.*")):
+                old.unlink()
+    write_whole(ROOT / path, json.dumps(found, indent=1) + "\n")
 
 
 def known_absent(variant) -> dict[str, str]:
@@ -160,22 +165,17 @@ def known_absent(variant) -> dict[str, str]:
 def _missed_impacts(variants, variant, scenes):
     """Of each of these scenes with a `method`: what it did, one line a scene."""
     serves = places.served(variants)
-    for scene in variants[variant]:
-        block = variants[variant][scene]
-        if "method" not in block or scene not in scenes:
-            continue
-        if "exact" in block["method"]:
-            exact = "orbits" in places.stages(block)
-            how = "orbits of their exact starts" if exact else "no stage with an exact method"
+    for scene, block in variants[variant].items():
+        method, stages = block.get("method", {}), places.stages(block)
+        if scene in scenes and "exact" in method:
+            how = "orbits of their exact starts"
+            how = how if "orbits" in stages else "no stage with an exact method"
             yield f"{scene}: {how}; other stages as in doubles"
-            continue
-        from ..records.artifacts import load  # takes a while
+        elif scene in scenes and method:
+            from ..records.artifacts import load  # takes a while
 
-        found = [
-            load(ROOT / serves[variant, scene, stage]).attrs
-            for stage, parameters in places.stages(block).items()
-            if "method" in parameters
-        ]
-        missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
-        how = ", ".join(f"{key} {value:g}" for key, value in block["method"].items())
-        yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"
+            names = [stage for stage in stages if "method" in stages[stage]]
+            found = [load(ROOT / serves[variant, scene, stage]).attrs for stage in names]
+            missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
+            how = ", ".join(f"{key} {value:g}" for key, value in method.items())
+            yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"

@@ -4,7 +4,7 @@ import fcntl
 import os
 import signal
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from ..records.sources import ROOT
 
@@ -19,6 +19,15 @@ class MisuseError(UsageError):
     """The same about what was typed."""
 
     status = 2
+
+
+@contextmanager
+def one_line(about=""):
+    """A ValueError, which is written for the user, as the end of the run; `about` stands before."""
+    try:
+        yield
+    except ValueError as error:
+        raise UsageError(about + str(error).replace(f"{ROOT}/", "")) from None
 
 
 @contextmanager
@@ -42,10 +51,8 @@ def end_jobs() -> None:
     import psutil
 
     for process in psutil.Process().children(recursive=True):
-        try:
+        with suppress(psutil.NoSuchProcess):
             process.kill()
-        except psutil.NoSuchProcess:
-            continue
 
 
 GRACE = 10  # seconds from an interrupt to the end of this process, at the latest
@@ -106,7 +113,6 @@ def set_environment() -> None:
     caches = ROOT / ".venv" / "cache"
     for name in [name for name in os.environ if name.startswith("SNAKEMAKE_")]:
         del os.environ[name]
-    os.environ["PYTHONPATH"] = str(ROOT / "src")
-    os.environ["XDG_CACHE_HOME"] = str(caches)
+    os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
     os.environ.pop("MPLBACKEND", None)  # nothing here opens a window

@@ -9,11 +9,11 @@ from ..checks.claims import soundness
 from ..checks.claims.ledger import NOT_COMPUTED
 from ..checks.claims.render import render
 from ..checks.currency import Currency
-from ..config import expected, places
+from ..config import places
 from ..config.expected import Expected
 from ..records import artifacts, sources
-from ..records.files import replacing
-from ..records.record import begin, finish, record_path
+from ..records.files import write_whole
+from ..records.record import recorded
 from ..records.sources import ROOT
 from .folder import MisuseError, UsageError
 
@@ -23,23 +23,15 @@ PROOFS = "pseudorigid.proofs.derivations"
 
 def paths(checked) -> dict[str, str]:
     """Name of each dataset that the checks need -> where it is."""
-    serves = places.served(checked["variants"])
-    found = {}
+    known = {"derivations": DERIVATIONS}
+    known |= {f"atlas/{name}": places.sweep_dataset(name) for name in checked["sweeps"]}
+    for (variant, scene, stage), path in places.served(checked["variants"]).items():
+        own = variant in (places.PAPER, "claims")
+        known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
     for name in claims.needed():
-        *variant, scene, stage = ("paper", *name.split("/"))[-3:] if "/" in name else (name, "", "")
-        if name == "derivations":
-            found[name] = DERIVATIONS
-        elif scene == "atlas":
-            found[name] = places.sweep_dataset(stage)
-        else:
-            owner = variant[0]
-            if owner == places.PAPER and scene in checked["variants"]["claims"]:
-                owner = "claims"
-            try:
-                found[name] = serves[owner, scene, stage]
-            except KeyError:
-                raise UsageError(f"config.yaml: no scene makes {name}, which claims need") from None
-    return found
+        if name not in known:
+            raise UsageError(f"config.yaml: no scene makes {name}, which claims need")
+    return {name: known[name] for name in claims.needed()}
 
 
 def derive(checked) -> None:
@@ -51,10 +43,9 @@ def derive(checked) -> None:
         return
     from pseudorigid.proofs.derivations import derivations
 
-    record = begin(config=made.config, inputs=[], sources=files)
     about = {"stage": "derivations", **ball, "energy": float(energy)}
-    artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
-    finish(record, DERIVATIONS, record_path(DERIVATIONS))
+    with recorded(DERIVATIONS, *made):
+        artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
 
 
 def load(checked, name, path):
@@ -80,8 +71,7 @@ def write(checked) -> dict:
     text = render(verdicts)
     path = ROOT / places.LEDGER
     if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        with replacing(path) as part:
-            part.write_text(text, encoding="utf-8")
+        write_whole(path, text)
     return verdicts
 
 
@@ -105,18 +95,10 @@ def check(checked, number, given) -> str:
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
-    data = {name: other}
-    for known in claim.data:
-        if known != name:
-            data[known] = load(checked, known, paths(checked)[known])
+    others = [known for known in claim.data if known != name]
+    data = {known: load(checked, known, paths(checked)[known]) for known in others} | {name: other}
     try:
         verdict = claim.judge(data, proofs(claim.theorems))
     except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
         return f"{number}  {NOT_COMPUTED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
-
-
-def results(checked) -> tuple[dict, list[str]]:
-    """(every result that may be needed -> Expected, those that the checks read)."""
-    made = expected.of_variants(checked["variants"]) | expected.of_sweeps(checked["sweeps"])
-    return made, [path for path in paths(checked).values() if path != DERIVATIONS]

@@ -28,11 +28,9 @@ def main(words: list[str]) -> int:
         return module.run(given)
     except ConfigError as error:
         print(error, file=sys.stderr)
-    except UsageError as error:
+    except (UsageError, FileError) as error:
         say(str(error))
-        return error.status
-    except FileError as error:
-        say(str(error))
+        return getattr(error, "status", 1)
     except BrokenPipeError:  # of a reader that has seen enough, as `| head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:

@@ -37,9 +37,24 @@ def of_scenes(variants, variant=places.PAPER) -> dict[str, Expected]:
     return found
 
 
+def needed(expected, wanted) -> list[str]:
+    """The results `wanted` and all that they are made from, each after its inputs."""
+    found = {}
+    for path in wanted:
+        inputs = [used for used in expected[path].inputs if used in expected]
+        found |= dict.fromkeys([*needed(expected, inputs), path])
+    return list(found)
+
+
 def of_variants(variants) -> dict[str, Expected]:
     """The same of every variant: they share some."""
     return {path: made for name in variants for path, made in of_scenes(variants, name).items()}
+
+
+def of_all(checked) -> dict[str, Expected]:
+    """Each result that a checked config can make, likewise."""
+    variants = checked["variants"]
+    return of_variants(variants) | of_study(variants) | of_sweeps(checked["sweeps"])
 
 
 def of_study(variants) -> dict[str, Expected]:

@@ -4,7 +4,7 @@ import ast
 import inspect
 from itertools import pairwise
 
-from ..records.files import replacing
+from ..records.files import write_whole
 from ..records.sources import ROOT
 from .checking.mistakes import allowed_at
 from .declared.fields import Axis, BallBlock, Block, Scan
@@ -21,60 +21,52 @@ Made from the declarations in `src/pipeline/config/declared/` by
 `.venv/bin/python -m pipeline.config.reference`. Lengths are in R and times in 1/omega; what is said
 to be in section radii is relative to the radius of the section along the symmetry line
 y = xdot - k udot = 0. A block with an unknown key, a number in quotes or a value out of bounds is
-refused before anything runs, all mistakes at once.
-
-## ball
-
-The ball of every scene without one of its own.
-
-"""
+refused before anything runs, all mistakes at once."""
+EXACT = """\
+Or `{exact: true}`: the orbits of the starts as they are written, in portraits and
+backdrops, every number a rounded true value."""
+REQUEST = "Scenes that are made on request: `./reproduce claims`, `./reproduce prove --pictures`."
 AXES = "limits and ticks of each axis; without them those of the data"
 
 
 def page() -> str:
     """The whole page."""
-    parts = [HEAD, _table(BallBlock, BallBlock.model_fields), "\n## scenes\n"]
-    parts.append("\nA scene is one figure. Every scene has these fields:\n\n")
-    parts.append(_table(Scene, Scene.model_fields))
+    parts = [HEAD, "## ball", "The ball of every scene without one of its own."]
+    parts += [_table(BallBlock, BallBlock.model_fields), "## scenes"]
+    parts += ["A scene is one figure. Every scene has these fields:"]
+    parts += [_table(Scene, Scene.model_fields)]
     for name, kind in KINDS.items():
-        own = [field for field in kind.model_fields if field not in Scene.model_fields]
-        narrowed = [
-            field
-            for field in Scene.model_fields
-            if kind.model_fields[field].annotation != Scene.model_fields[field].annotation
-        ]
+        of_all = {field: info.annotation for field, info in Scene.model_fields.items()}
+        own = [field for field in kind.model_fields if field not in of_all]
+        narrowed = [f for f in of_all if kind.model_fields[f].annotation != of_all[f]]
+        first = kind.__doc__.partition("\n")[0]
         drawn = ", ".join(f"`{stage}`" for stage in behind(kind.stages))
-        parts.append(f"\n### picture: {name}\n\n{_sentence(kind.__doc__)} Computed: {drawn}.\n\n")
-        parts.append(_table(kind, [*own, *narrowed]))
-    parts.append("\n## An axis\n\n")
-    parts.append(_table(Axis, Axis.model_fields))
-    parts.append("\n## A method\n\nThe paper's own, by steps and bisection:\n\n")
-    parts.append(_table(Scan, Scan.model_fields))
-    parts.append(
-        "\nOr `{exact: true}`: the orbits of the starts as they are written, in portraits and\n"
-    )
-    parts.append("backdrops, every number a rounded true value.\n")
-    parts.append("\n## Stages\n\nWhat decides the data of a stage, beside ball and energy:\n\n")
-    parts.append("| stage | fields | made from | with `method` |\n|---|---|---|---|\n")
-    for name, stage in STAGES.items():
-        fields, inputs = (", ".join(f"`{x}`" for x in xs) for xs in (stage.fields, stage.inputs))
-        follows = "follows it" if stage.follows else "does not depend on it"
-        parts.append(f"| `{name}` | {fields} | {inputs} | {follows} |\n")
-    parts.append("\n## variants\n\nA variant replaces values of the paper's scenes:\n\n")
-    parts.append(_table(Variant, Variant.model_fields))
-    parts.append("\n## sweeps\n\nA sweep is a grid over k and E/g^2:\n\n")
-    parts.append(_table(Sweep, Sweep.model_fields))
-    parts.append("\n## claims, proofs\n\nScenes that are made on request: `./reproduce claims`, ")
-    parts.append(
-        "`./reproduce prove --pictures`.\n\n## prove\n\n`./reproduce prove --impacts`:\n\n"
-    )
-    parts.append(_table(Prove, Prove.model_fields))
-    return "".join(parts)
+        about = f"{first[0].upper()}{first[1:]}. Computed: {drawn}."
+        parts += [f"### picture: {name}", about, _table(kind, [*own, *narrowed])]
+    parts += ["## An axis", _table(Axis, Axis.model_fields)]
+    parts += ["## A method", "The paper's own, by steps and bisection:"]
+    parts += [_table(Scan, Scan.model_fields), EXACT]
+    parts += ["## Stages", "What decides the data of a stage, beside ball and energy:", _stages()]
+    parts += ["## variants", "A variant replaces values of the paper's scenes:"]
+    parts += [_table(Variant, Variant.model_fields)]
+    parts += ["## sweeps", "A sweep is a grid over k and E/g^2:"]
+    parts += [_table(Sweep, Sweep.model_fields), "## claims, proofs", REQUEST]
+    parts += ["## prove", "`./reproduce prove --impacts`:", _table(Prove, Prove.model_fields)]
+    return "\n\n".join(parts) + "\n"
 
 
 def _table(model, names) -> str:
     lines = ["| field | meaning | allowed | default |", "|---|---|---|---|"]
-    return "\n".join([*lines, *_rows(model, names)]) + "\n"
+    return "\n".join([*lines, *_rows(model, names)])
+
+
+def _stages() -> str:
+    lines = ["| stage | fields | made from | with `method` |", "|---|---|---|---|"]
+    for name, stage in STAGES.items():
+        fields, inputs = (", ".join(f"`{x}`" for x in xs) for xs in (stage.fields, stage.inputs))
+        follows = "follows it" if stage.follows else "does not depend on it"
+        lines.append(f"| `{name}` | {fields} | {inputs} | {follows} |")
+    return "\n".join(lines)
 
 
 def _rows(model, names, place=""):
@@ -103,11 +95,5 @@ def _meanings(model):
     return found
 
 
-def _sentence(text) -> str:
-    first = text.partition("\n")[0]
-    return f"{first[0].upper()}{first[1:]}."
-
-
 if __name__ == "__main__":
-    with replacing(ROOT / "docs" / "config.md") as part:
-        part.write_text(page(), encoding="utf-8")
+    write_whole(ROOT / "docs" / "config.md", page())

@@ -15,8 +15,6 @@ import xarray as xr
 
 from .files import replacing
 
-CONVENTIONS = "CF-1.11"
-
 
 class ArtifactError(ValueError):
     """A dataset that cannot be saved, or a file that is no artifact; the message names it."""
@@ -44,10 +42,8 @@ def save(dataset, path, config, **attributes):
     FileError
         A file that cannot be written.
     """
-    dataset = dataset.assign_attrs(
-        attributes, config=canonical_json(config), Conventions=CONVENTIONS
-    )
-    dataset = _with_sample_dimension(dataset, path)
+    attributes |= {"config": canonical_json(config), "Conventions": "CF-1.11"}
+    dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
     _check(dataset, path)
     with replacing(path) as part:
         _write(dataset, part)
@@ -197,13 +193,12 @@ def _with_sample_dimension(dataset, path):
 
 def _check(dataset, path):
     for name, variable in dataset.variables.items():
-        text = _is_text(variable)
+        text, units = _is_text(variable), variable.attrs.get("units")
         if not text and variable.dtype.kind not in "iuf":
             raise ArtifactError(f"{path}: variable {name} has dtype {variable.dtype}")
         if not variable.attrs.get("long_name"):
             raise ArtifactError(f"{path}: variable {name} has no long_name")
-        if not text and variable.attrs.get("units") != "1":
-            units = variable.attrs.get("units")
+        if not text and units != "1":
             raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
 
 

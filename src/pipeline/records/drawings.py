@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pseudorigid.figures.canvas.render import render
 
-from .files import replacing
+from .files import write_whole
 
 
 def save_figure(figure, path):
@@ -22,6 +22,4 @@ def save_figure(figure, path):
     FileError
         A file that cannot be written.
     """
-    data = render(figure, Path(path).suffix[1:])
-    with replacing(path) as part:
-        part.write_bytes(data)
+    write_whole(path, render(figure, Path(path).suffix[1:]))

@@ -50,6 +50,23 @@ def replacing(path):
             part.unlink()
 
 
+def write_whole(path, data):
+    """Write a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+    data : str or bytes
+
+    Raises
+    ------
+    FileError
+        Where it cannot be written.
+    """
+    with replacing(path) as part:
+        part.write_bytes(data.encode() if isinstance(data, str) else data)
+
+
 def file_hash(path):
     """Hash of a file's bytes.
 

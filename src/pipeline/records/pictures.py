@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from .files import replacing
+from .files import write_whole
 
 
 class PictureError(ValueError):
@@ -125,8 +125,7 @@ def difference(path, reference, image_path):
     shown[where] = (220, 0, 0)
     from pseudorigid.figures.canvas.render import png
 
-    with replacing(image_path) as part:
-        part.write_bytes(png(shown, 300))
+    write_whole(image_path, png(shown, 300))
     count = int(where.sum())
     verb = "differs" if count == 1 else "differ"
     return f"{count:,} of {where.size:,} pixels {verb}", True

@@ -9,24 +9,16 @@ import json
 import os
 import platform
 import subprocess
+from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 
-from .files import file_hash, replacing
+from .files import file_hash, write_whole
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
-PACKAGES = (
-    "deflate",
-    "fonttools",
-    "llvmlite",
-    "matplotlib",
-    "netCDF4",
-    "numba",
-    "numpy",
-    "pyparsing",
-    "xarray",
-)
+PACKAGES = ("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4", "numba", "numpy")
+PACKAGES += ("pyparsing", "python-flint", "xarray")
 
 
 class RecordError(ValueError):
@@ -81,25 +73,23 @@ def read_record(root, path):
     return record
 
 
-def begin(*, config, inputs, sources):
-    """What can be said of a result before the work; the current folder is the root.
+@contextmanager
+def recorded(output, config, sources, inputs=()):
+    """Write the record of a result, once the body has made it; the current folder is the root.
 
     Parameters
     ----------
+    output : str
+        The result, from the root.
     config : dict
-        The block behind the result.
-    inputs : iterable of str
-        The results it is made from.
+        The block behind it.
     sources : iterable of str
         The project's own files that make it.
-
-    Returns
-    -------
-    dict
-        For `finish`.
+    inputs : iterable of str
+        The results it is made from.
     """
     commit, dirty = _commit()
-    return {
+    record = {
         "commit": commit,
         "dirty": dirty,
         "config": config,
@@ -108,28 +98,14 @@ def begin(*, config, inputs, sources):
         "environment": versions(),
         "python": platform.python_version(),
     }
-
-
-def finish(record, output, path):
-    """Write the record of a finished result.
-
-    Parameters
-    ----------
-    record : dict
-        As from `begin`.
-    output : path
-        The result.
-    path : path
-        Where the record is written.
-    """
-    about = {"file": str(output), "sha256": file_hash(output)}
-    if str(output).endswith(".nc"):
+    yield
+    about = {"file": output, "sha256": file_hash(output)}
+    if output.endswith(".nc"):
         from .artifacts import content_hash, load
 
         about["content"] = content_hash(load(output))
-    with replacing(path) as part:
-        text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
-        part.write_text(text + "\n", encoding="utf-8")
+    text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
+    write_whole(record_path(output), f"{text}\n")
 
 
 def versions():

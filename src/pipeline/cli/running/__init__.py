@@ -9,17 +9,18 @@ from pathlib import Path
 import yaml
 
 from ...checks.currency import DAMAGED, MISSING
+from ...config.expected import needed
 from ...records.record import record_path
 from ...records.sources import ROOT
-from ..arguments import hint
+from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
 LOGS = []  # snakemake's own, of the runs of this process, from the root
 _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
-_SAY = ("dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "touch", "detailed_summary")
-_SAY += ("list_rules", "list_target_rules", "list_changes", "unlock")
+_SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
+_SAY += ("touch", "list_rules", "list_target_rules", "list_changes", "unlock")
 
 
 @cache
@@ -39,12 +40,7 @@ def _parser():
     parser = get_argument_parser()
 
     def refuse(message):
-        unknown = message.partition("unrecognized arguments: ")[2]
-        known = [name for action in parser._actions for name in action.option_strings]
-        if unknown:
-            first = unknown.split()[0].partition("=")[0]
-            message = f"no argument {first}{hint(first, known)}"
-        raise MisuseError(message)
+        raise MisuseError(explained(parser, message))
 
     parser.error = refuse
     return parser
@@ -64,7 +60,7 @@ def options_of(arguments):
 def only_says(arguments) -> bool:
     """Whether these options of snakemake make nothing."""
     options = options_of(arguments) if arguments else None
-    return any(getattr(options, name, None) for name in ("dryrun", *_SAY))
+    return any(getattr(options, name, None) for name in _SAY)
 
 
 def asked(arguments) -> set[str]:
@@ -80,22 +76,7 @@ def asked(arguments) -> set[str]:
     return different - {"cores", "jobs", "targets"}
 
 
-def needed(expected, wanted) -> list[str]:
-    """The results `wanted` and all that they are made from, each after its inputs."""
-    found = {}
-
-    def add(path):
-        for used in expected[path].inputs:
-            if used in expected:
-                add(used)
-        found[path] = None
-
-    for path in wanted:
-        add(path)
-    return list(found)
-
-
-def make(currency, wanted, arguments, targets=(), forced=()) -> int:
+def make(currency, wanted, arguments) -> int:
     """Have snakemake make the results `wanted` where they are not current; its exit status.
 
     Parameters
@@ -106,8 +87,6 @@ def make(currency, wanted, arguments, targets=(), forced=()) -> int:
         Results, from the root.
     arguments : list of str
         Options for snakemake; `-n` alone is answered here.
-    targets, forced : iterable of str
-        Further files to make, and those of them to make even if they are there.
     """
     paths = needed(currency.expected, wanted)
     outdated = currency.outdated(paths)
@@ -125,14 +104,13 @@ def make(currency, wanted, arguments, targets=(), forced=()) -> int:
 
         print(*plan(currency, paths), sep="\n")
         return 0
-    if not (outdated or options or targets or forced):
+    if not (outdated or options):
         return 0
     again = [path for path, why in outdated.items() if why != MISSING]
-    records = [record_path(path) for path in paths]
-    return run([*paths, *records, *targets], [*again, *forced], arguments)
+    return _run([*paths, *map(record_path, paths)], again, arguments)
 
 
-def run(targets, forced, arguments) -> int:
+def _run(targets, forced, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from . import server
 
@@ -181,8 +159,5 @@ def _profile():
     """The options that are passed on every run; as a profile snakemake would tell of them."""
     text = (ROOT / "workflow" / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     for name, value in yaml.safe_load(text).items():
-        yield from (
-            [f"--{name}"]
-            if value is True
-            else [f"--{name}", *([value] if isinstance(value, str) else value)]
-        )
+        values = [value] if isinstance(value, str) else value
+        yield from (f"--{name}", *([] if value is True else values))

@@ -7,6 +7,7 @@ from ...records.sources import ROOT
 from .plan import changes, why
 
 IDENTICAL, DIFFERS, NEW = "identical", "differs", "not committed"
+_LISTED = {IDENTICAL: "identical to the committed one", DIFFERS: "not the committed one"}
 
 
 def committed(folder, paths) -> dict[str, str]:
@@ -41,14 +42,10 @@ def states(contract) -> list[tuple[str, str, str]]:
         scene, path = contract.scenes[name], f"{contract.folder}/{name}"
         state, stale = as_committed[path], None
         if file_hash(ROOT / drawing):
-            behind = [*contract.data[scene].values(), drawing]
-            outdated = list(currency.outdated(behind)) if currency.reason(drawing) else []
+            outdated = list(currency.outdated([*contract.data[scene].values(), drawing]))
             stale = why(currency, outdated) if outdated else None
         elif scene in scenes:
             stale = changes(scenes[scene]["config"], contract.config[scene])
-        if state == IDENTICAL:
-            state = "identical to the committed one"
-        elif state == DIFFERS:
-            state = "not the committed one"
-        rows.append((scene, path, f"stale: {stale}" if stale and state != MISSING else state))
+        told = f"stale: {stale}" if stale and state != MISSING else _LISTED.get(state, state)
+        rows.append((scene, path, told))
     return rows

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pseudorigid.sweep import grid
 
 from ...config import places, unknown
+from ...config.expected import needed
 from ...records.files import identity
 from ..folder import MisuseError, UsageError
 
@@ -28,18 +29,6 @@ def chosen(sweeps, names) -> list[str]:
     return list(dict.fromkeys(names)) or list(sweeps)
 
 
-def lacking(sweeps, names, outdated) -> dict[str, tuple[int, int]]:
-    """Block -> (cells, impacts), of those that are outdated."""
-    return {
-        path: (stop - start, (stop - start) * sweeps[name]["starts"] * sweeps[name]["impacts"])
-        for name in names
-        for path, (start, stop) in zip(
-            places.block_files(name, sweeps[name]), grid.ranges(sweeps[name]), strict=True
-        )
-        if path in outdated
-    }
-
-
 def shortage(blocks, total) -> str | None:
     """One line if the disk has not the space for `blocks` and a dataset of `total` cells."""
     need = RUN + CELL * total + BLOCK * len(blocks)
@@ -49,9 +38,29 @@ def shortage(blocks, total) -> str | None:
     return f"the disk is full: about {need / 1e6:.0f} MB are needed here, {free / 1e6:.0f} are free"
 
 
+def progress(sweeps, currency, targets):
+    """`told` of the sweeps behind some results; UsageError where the disk has not the space."""
+    outdated = currency.outdated(needed(currency.expected, targets))
+    blocks, total = {}, 0
+    for name, sweep in sweeps.items():
+        if places.sweep_dataset(name) in outdated:
+            total += grid.cells(sweep)
+        files = zip(places.block_files(name, sweep), grid.ranges(sweep), strict=True)
+        for path, (start, stop) in files:
+            if path in outdated:
+                cells = stop - start
+                blocks[path] = cells, cells * sweep["starts"] * sweep["impacts"]
+    if line := shortage(blocks, total):
+        raise UsageError(line)
+    return told(blocks, total)
+
+
 @contextmanager
-def progress(blocks, total, out=None):
-    """While the body runs, tell how many of `blocks` have been written, as given by `lacking`."""
+def told(blocks, total, out=None):
+    """While the body runs, tell how many of `total` cells are done.
+
+    `blocks` has those that are to be written: file -> (cells, impacts).
+    """
     pending = {path: identity(path) for path in blocks}
     begin = time.monotonic()
     ended = threading.Event()

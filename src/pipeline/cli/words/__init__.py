@@ -1,5 +1,5 @@
 """The words of ./reproduce: a module each, with `run(given)` -> exit status.
 
-`given` is what arguments.read has made of the command line, with `start`, the folder in which the
-user stands; the current one is the project's.
+`given` is an arguments.Given with `start`, the folder in which the user stands; the current one is
+the project's.
 """

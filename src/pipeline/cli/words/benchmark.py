@@ -33,25 +33,22 @@ def _runs(folder):
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
         copy(ROOT / part, folder / part)
-    ours = [sys.executable, "-P", "-m", "pipeline"]
-    bare = [sys.executable, "-P", "-m", "snakemake", "--cores", "all"]
+    how = {"env": os.environ | {"PYTHONPATH": str(folder / "src")}, "cwd": folder, "text": True}
+    ours, bare = ["pipeline"], ["snakemake", "--cores", "all"]
 
-    def command(words, again):
-        if again:
-            for name in ("results", ".snakemake"):
-                shutil.rmtree(folder / name, ignore_errors=True)
-        environment = os.environ | {"PYTHONPATH": str(folder / "src")}
-        made = subprocess.run(
-            words, cwd=folder, env=environment, capture_output=True, text=True, check=False
-        )
+    def run(words, *gone):
+        for name in gone:
+            shutil.rmtree(folder / name, ignore_errors=True)
+        command = [sys.executable, "-P", "-m", *words]
+        made = subprocess.run(command, **how, capture_output=True, check=False)
         if made.returncode:
             raise UsageError(f"a run of the benchmark failed: {made.stdout}{made.stderr}")
 
     calls = {
-        "all figures, warm code": lambda: command(ours, True),
-        "the same, a Python for each job": lambda: command(bare, True),
-        "nothing to do": lambda: command(ours, False),
-        "nothing to do, snakemake alone": lambda: command(bare, False),
+        "all figures, warm code": lambda: run(ours, "results", ".snakemake"),
+        "the same, a Python for each job": lambda: run(bare, "results", ".snakemake"),
+        "nothing to do": lambda: run(ours),
+        "nothing to do, snakemake alone": lambda: run(bare),
     }
     found = interleaved(calls, REPETITIONS)
     usual = found["the same, a Python for each job"][0]

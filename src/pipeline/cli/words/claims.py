@@ -2,15 +2,11 @@
 
 from collections import Counter
 
-from pseudorigid.sweep import grid
-
 from ...checks.currency import Currency
-from ...config import places
-from ...config.checking.reading import load
-from ...records.artifacts import ArtifactError
+from ...config import expected, places
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import MisuseError, UsageError, interruptible, locked
+from ..folder import MisuseError, interruptible, locked, one_line
 from ..telling import sweeping
 
 
@@ -18,30 +14,25 @@ def run(given) -> int:
     """Make what is missing, draw the pictures, and write CLAIMS.md; or check one claim."""
     if (given.check is None) != (given.data is None):
         raise MisuseError("claims: --check ID and --data FILE go together")
-    checked = load(ROOT / "config.yaml")
     from .. import ledger
+
+    checked = given.checked
 
     if given.check is not None:
         name, mark, file = given.data.rpartition("=")
-        try:
+        with one_line():
             print(ledger.check(checked, given.check, f"{name}{mark}{given.start / file}"))
-        except ArtifactError as error:
-            raise UsageError(str(error)) from None
         return 0
     with locked():
-        results, needed = ledger.results(checked)
-        currency = Currency(ROOT, results)
-        variants, sweeps = checked["variants"], checked["sweeps"]
-        outdated = currency.outdated(running.needed(results, needed))
-        names = [name for name in sweeps if places.sweep_dataset(name) in outdated]
-        blocks = sweeping.lacking(sweeps, names, outdated)
-        with sweeping.progress(blocks, sum(grid.cells(sweeps[name]) for name in names)):
-            drawings = [made[-1] for _, made in places.figures(variants, "claims").values()]
-            status = running.make(currency, [*needed, *drawings], given.options)
+        targets = [path for path in ledger.paths(checked).values() if path != ledger.DERIVATIONS]
+        drawings = places.figures(checked["variants"], "claims").values()
+        targets += [behind[-1] for _, behind in drawings]
+        currency = Currency(ROOT, expected.of_all(checked))
+        with sweeping.progress(checked["sweeps"], currency, targets):
+            status = running.make(currency, targets, given.options)
         if status or running.only_says(given.options):
             return status
-        status = figures.make(checked, "claims", given.options)
-        if status:
+        if status := figures.make(checked, "claims", given.options):
             return status
         with interruptible():
             ledger.derive(checked)

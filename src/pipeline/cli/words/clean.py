@@ -6,7 +6,6 @@ import sys
 from contextlib import suppress
 
 from ...config import ConfigError, expected
-from ...config.checking.reading import load
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import hint
@@ -21,37 +20,38 @@ _MORE += ("report/*.html", "archive/pseudorigid.tar", "compare/*/*.png")
 def run(given) -> int:
     """Delete the results in some folders of results/, all without a name, and snakemake's own."""
     there = sorted(f.name for f in RESULTS.iterdir() if f.is_dir()) if RESULTS.is_dir() else []
-    for name in given.name:
+    for name in given.folder:
         if name not in there:
             has = f": there are {', '.join(there) or 'none'}"
             raise MisuseError(f"no folder results/{name}{hint(name, there) or has}")
+    names = given.folder or there
     with locked():
-        files = _made(given.name or there)
-        folders = [] if given.name else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
+        files = _made(given, names)
+        folders = [] if given.folder else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
         if not files and not folders:
             print("nothing to delete")
             return 0
         size = sum(file.stat().st_size for file in files) / 1e6
-        what = f"{len(files)} files, {size:.1f} MB, in " + ", ".join(
-            [f"results/{name}" for name in given.name or there] + [f.name for f in folders]
-        )
+        places = ", ".join([f"results/{name}" for name in names] + [f.name for f in folders])
+        what = f"{len(files)} files, {size:.1f} MB, in {places}"
         if not given.yes and not _agreed(what):
             raise UsageError("nothing was deleted")
         for file in files:
             file.unlink()
         for folder in folders:
             shutil.rmtree(folder)
-        _remove_empty_folders(given.name or there)
+        _remove_empty_folders(names)
         print(f"deleted {what}")
     return 0
 
 
-def _made(names):
+def _made(given, names):
     """The files in these folders that this project made: git's, and any other, stay."""
     committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
-    found = {RESULTS / path for path in _expected()} | {
-        file for pattern in _MORE for file in RESULTS.glob(pattern)
-    }
+    found = {file for pattern in _MORE for file in RESULTS.glob(pattern)}
+    with suppress(ConfigError):  # in case that records are lost
+        results = expected.of_all(given.checked)
+        found |= {ROOT / path for path in (*results, *map(record_path, results))}
     for record in RESULTS.glob("*/provenance/*.json"):
         with suppress(OSError, ValueError, KeyError, TypeError):
             output = json.loads(record.read_text(encoding="utf-8"))["output"]["file"]
@@ -64,22 +64,6 @@ def _made(names):
         and file.relative_to(RESULTS).parts[0] in names
         and str(file.relative_to(ROOT)) not in committed
     )
-
-
-def _expected():
-    """Results of the present config, in case their records are lost, and those records."""
-    try:
-        checked = load(ROOT / "config.yaml")
-    except ConfigError:
-        return
-    variants = checked["variants"]
-    for path in (
-        *expected.of_variants(variants),
-        *expected.of_study(variants),
-        *expected.of_sweeps(checked["sweeps"]),
-    ):
-        yield path.removeprefix("results/")
-        yield record_path(path).removeprefix("results/")
 
 
 def _agreed(what):

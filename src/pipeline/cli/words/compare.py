@@ -1,16 +1,14 @@
 """./reproduce compare A B [FIGURE ...]: what differs between two variants."""
 
 from ... import config
-from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import MisuseError, UsageError, interruptible, locked
+from ..folder import MisuseError, interruptible, locked, one_line
 
 
 def run(given) -> int:
     """Make what is missing of two variants, and say what differs between them."""
-    checked = load(ROOT / "config.yaml")
-    more = set(config.PUBLISHED) - {config.PAPER}
+    checked, more = given.checked, set(config.PUBLISHED) - {config.PAPER}
     variants = {name: made for name, made in checked["variants"].items() if name not in more}
     names = [name for name in (given.a, given.b) if name is not None]
     for name in names:
@@ -29,11 +27,8 @@ def run(given) -> int:
         from ...checks.compare import compare
 
         scenes = given.figure or list(checked["scenes"])
-        with interruptible():
-            print()
-            try:
-                absent = [figures.known_absent(name) for name in names]
-                compare(ROOT, variants, names, absent, scenes)
-            except ValueError as error:  # a damaged file, named
-                raise UsageError(str(error).replace(f"{ROOT}/", "")) from None
+        absent = [figures.known_absent(name) for name in names]
+        print()
+        with interruptible(), one_line():
+            compare(ROOT, variants, names, absent, scenes)
     return 0

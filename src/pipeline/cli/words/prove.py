@@ -2,12 +2,11 @@
 
 import os
 
-from ...config.checking.reading import load
-from ...records.files import replacing
+from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import CERTIFICATES, hint
-from ..folder import MisuseError, UsageError, interruptible, locked, say
+from ..folder import MisuseError, interruptible, locked, one_line, say
 
 
 def run(given) -> int:
@@ -18,15 +17,12 @@ def run(given) -> int:
         raise MisuseError("prove: --impacts and --pictures take no theorems")
     if given.pictures:
         with locked():
-            return figures.make(load(ROOT / "config.yaml"), "proofs", [])
+            return figures.make(given.checked, "proofs", [])
     if given.impacts:
         from ...checks.proving import impacts
 
-        with locked(), interruptible():
-            try:
-                return impacts(load(ROOT / "config.yaml"))
-            except ValueError as error:  # a file that is missing or damaged, named
-                raise UsageError(str(error)) from None
+        with locked(), interruptible(), one_line():
+            return impacts(given.checked)
     from pseudorigid.proofs import THEOREMS, search_certificate
 
     for name in given.theorem:
@@ -38,9 +34,7 @@ def run(given) -> int:
         for name in names:
             say(f"searching a certificate of {name}")
             path = ROOT / CERTIFICATES / THEOREMS[name].certificate
-            text = search_certificate(name)
-            with replacing(path) as part:
-                part.write_text(text, encoding="utf-8")
+            write_whole(path, search_certificate(name))
     status = 0
     for name in names:
         result = THEOREMS[name].check()

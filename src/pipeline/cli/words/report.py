@@ -1,18 +1,17 @@
 """./reproduce report: one HTML page with the figures, their numbers and what made them."""
 
 from ... import config
-from ...config.checking.reading import load
-from ...records.files import replacing
+from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import UsageError, interruptible, locked
+from ..folder import interruptible, locked, one_line
 
 PAGE = "results/report/report.html"
 
 
 def run(given) -> int:
     """Make what is missing, with the options given, and then the page."""
-    checked = load(ROOT / "config.yaml")
+    checked = given.checked
     with locked():
         status = figures.make(checked, config.PAPER, given.options)
         absent = {name: figures.known_absent(name) for name in checked["variants"]}
@@ -20,12 +19,7 @@ def run(given) -> int:
             return status
         from ...checks.report import page
 
-        with interruptible():
-            try:
-                text = page.render(ROOT, checked, absent)
-            except ValueError as error:  # a damaged file, named
-                raise UsageError(str(error).replace(f"{ROOT}/", "")) from None
-            with replacing(ROOT / PAGE) as part:
-                part.write_text(text, encoding="utf-8")
+        with interruptible(), one_line():
+            write_whole(ROOT / PAGE, page.render(ROOT, checked, absent))
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return status

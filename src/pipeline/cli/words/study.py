@@ -2,7 +2,6 @@
 
 from ...checks.currency import Currency
 from ...config import expected
-from ...config.checking.reading import load
 from ...config.declared import study as parts
 from ...records.sources import ROOT
 from .. import figures, running
@@ -15,17 +14,17 @@ def run(given) -> int:
 
     Charts of what is measured stay in results until `accept`.
     """
-    checked = load(ROOT / "config.yaml")
     if not running.only_says(given.options) and (status := add_packages("study")):
         return status
-    made = expected.of_study(checked["variants"])
+    made = expected.of_study(given.checked["variants"])
     with locked():
-        currency = Currency(ROOT, expected.of_variants(checked["variants"]) | made)
+        currency = Currency(ROOT, expected.of_all(given.checked))
         status = running.make(currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
-            charts = parts.CHARTS
-            computed = [chart for chart in charts if charts[chart][0] in parts.FIXED]
-            figures.publish({parts.published(c): parts.drawn(c) for c in computed})
-            files = {c: parts.published(c) if c in computed else parts.drawn(c) for c in charts}
-            figures.table(parts.FOLDER, {path: (c, "made") for c, path in files.items()})
+            files = {
+                parts.published(chart) if data in parts.FIXED else drawn: drawn
+                for chart, (data, *_) in parts.CHARTS.items()
+                for drawn in [parts.drawn(chart)]
+            }
+            figures.made(parts.FOLDER, files)
     return status

@@ -1,13 +1,9 @@
 """./reproduce sweep and atlas."""
 
 import shutil
-from pathlib import Path
-
-from pseudorigid.sweep import grid
 
 from ...checks.currency import Currency
 from ...config import expected, places
-from ...config.checking.reading import load
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import UsageError, locked
@@ -20,8 +16,8 @@ def run(given) -> int:
 
     It is told how far the cells are.
     """
-    sweeps = load(ROOT / "config.yaml")["sweeps"]
-    names, options = sweeping.chosen(sweeps, given.name), given.options
+    sweeps = given.checked["sweeps"]
+    names, options = sweeping.chosen(sweeps, given.sweep), given.options
     if given.slurm:
         if shutil.which("sbatch") is None:
             raise UsageError("--slurm: there is no sbatch on this machine")
@@ -29,22 +25,15 @@ def run(given) -> int:
         if status := add_packages("slurm"):
             return status
     results = expected.of_sweeps({name: sweeps[name] for name in names})
-    targets = [places.sweep_dataset(name) for name in names]
+    files = {path: path for path in map(places.sweep_dataset, names)}
     if given.word == "atlas":
-        targets += [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
+        drawn = [file for name in names for file in places.sweep_pictures(name, sweeps[name])]
+        files |= {places.atlas_published(drawing): drawing for drawing in drawn}
+    targets = list(files.values())
     with locked():
         currency = Currency(ROOT, results)
-        outdated = currency.outdated(running.needed(results, targets))
-        blocks = sweeping.lacking(sweeps, names, outdated)
-        cells = sum(grid.cells(sweeps[name]) for name in names)
-        if line := sweeping.shortage(blocks, cells):
-            raise UsageError(line)
-        with sweeping.progress(blocks, cells):
+        with sweeping.progress(sweeps, currency, targets):
             status = running.make(currency, targets, options)
         if status == 0 and not running.only_says(options):
-            drawn = [file for file in targets if file.startswith("results/sweep/figures/")]
-            pictures = {places.atlas_published(file): file for file in drawn}
-            figures.publish(pictures)
-            files = [*targets[: len(names)], *pictures]
-            figures.table(places.ATLAS, {path: (Path(path).stem, "made") for path in files})
+            figures.made(places.ATLAS, files)
     return status

@@ -1,8 +1,7 @@
 """./reproduce verify: whether everything here is as committed."""
 
-from ...config.checking.reading import load
 from ...records.sources import ROOT
-from ..folder import MisuseError, UsageError
+from ..folder import MisuseError, one_line
 
 # What another tree has, or the folder of its results.
 TREE = ("results", "paper_figures", "figures", "*.nc", "*.png")
@@ -15,14 +14,11 @@ def run(given) -> int:
         raise MisuseError(f"verify: no archive or folder {against}")
     if against is not None and against.is_dir() and not any(map(list, map(against.glob, TREE))):
         raise MisuseError(f"verify: {against} is no tree of this project, and has no results")
-    checked = load(ROOT / "config.yaml")
     if against is not None and not against.is_dir():
         from ...checks import archive
 
-        try:
-            return archive.verify(ROOT, checked, against)
-        except archive.ArchiveError as error:
-            raise UsageError(f"verify: {error}") from None
+        with one_line("verify: "):
+            return archive.verify(ROOT, given.checked, against)
     from ...checks.verify import verify
 
-    return verify(ROOT, checked, against, given.strict)
+    return verify(ROOT, given.checked, against, given.strict)

@@ -7,11 +7,10 @@ from pydantic import Field
 from ..declared.fields import BallBlock, Block, Name
 from ..declared.variant import Prove
 from . import sweeps, variants
-from .mistakes import mistakes
+from .mistakes import complete, mistakes
 from .scenes import checked
 from .words import ConfigError, refusal
 
-Scenes = Annotated[dict[Name, Any], Field(description="a mapping from names to scenes")]
 # Scenes beside the paper's own: made on request, and not varied.
 MORE = ("claims", "proofs")
 # The words of ./reproduce, which are told from names of figures by being words.
@@ -19,18 +18,21 @@ WORDS = ("list", "variant", "compare", "sweep", "atlas", "study", "claims", "pro
 WORDS += ("archive", "verify", "accept", "clean", "benchmark", "test", "help", "all")
 
 
+def _named(what, **bounds):
+    return Annotated[
+        dict[Name, Any], Field(description=f"a mapping from names to {what}", **bounds)
+    ]
+
+
 class Document(Block):
     """a mapping with the keys ball and scenes"""
 
     ball: BallBlock
-    scenes: Annotated[
-        dict[Name, Any],
-        Field(min_length=1, description="a mapping from names to scenes, at least one"),
-    ]
-    variants: Annotated[dict[Name, Any], Field(description="a mapping from names to variants")] = {}
-    sweeps: Annotated[dict[Name, Any], Field(description="a mapping from names to sweeps")] = {}
-    claims: Scenes = {}
-    proofs: Scenes = {}
+    scenes: _named("scenes, at least one", min_length=1)
+    variants: _named("variants") = {}
+    sweeps: _named("sweeps") = {}
+    claims: _named("scenes") = {}
+    proofs: _named("scenes") = {}
     prove: Prove = {"impacts": 20_000}
 
 
@@ -54,19 +56,18 @@ def check(document) -> dict:
         Where there is none, with a line for each mistake.
     """
     lines = mistakes(Document, document, ())
-    parts = document if isinstance(document, dict) else {}
-    given = {key: parts.get(key) for key in Document.model_fields}
+    given = complete(Document, document if isinstance(document, dict) else {})
     given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
-    ball = None if mistakes(BallBlock, given["ball"], ()) else given["ball"]
+    ball = None if mistakes(BallBlock, given.get("ball"), ()) else given["ball"]
     sets, found = {}, []
     for key in ("scenes", *MORE):
         sets[key] = {}
-        for name, block in given[key].items():
+        for name, block in given.get(key, {}).items():
             sets[key][name], wrong = checked(block, ball, (key, name))
             found += wrong
             if name in WORDS:
                 found.append(refusal((key,), name, "a name that is no word of ./reproduce"))
-            if key in MORE and name in given["scenes"]:
+            if key in MORE and name in given.get("scenes", {}):
                 found.append(refusal((key,), name, "a name that no scene of the paper has"))
     derived = {variants.PAPER: sets.pop("scenes")} | sets
     for name, block in given["variants"].items() if not (lines or found) else ():
@@ -83,5 +84,5 @@ def check(document) -> dict:
         "scenes": derived[variants.PAPER],
         "variants": derived,
         "sweeps": grids,
-        "prove": given["prove"] or Document.model_fields["prove"].default,
+        "prove": given["prove"],
     }

@@ -1,14 +1,14 @@
 """Whether a block fits its declaration: pydantic's findings in our words, all of them."""
 
-import difflib
 import math
 import typing
+from contextlib import suppress
 
 from pydantic import TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
 from ..declared.fields import TAGS, Block
-from .words import dotted, refusal
+from .words import dotted, meant, refusal
 
 
 def mistakes(model, given, place) -> list[str]:
@@ -48,14 +48,13 @@ def _line(model, error, place) -> str:
     where = (*place, *(part for part in loc if part not in TAGS))
     if error["type"] == "extra_forbidden":
         known = list(allowed_at(model, loc[:-1])[0].model_fields)
-        near = difflib.get_close_matches(str(loc[-1]), known, 1, 0.5)
-        hint = f"did you mean {near[0]}?" if near else f"allowed here: {', '.join(known)}"
+        (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"
     if error["type"] == "missing":
         return f"{dotted(where)}: missing"
     if loc[-1:] == ("[key]",):
-        where, loc = where[:-2], loc[:-1]
-    annotation, allowed = allowed_at(model, error["loc"])
+        where = where[:-2]
+    annotation, allowed = allowed_at(model, loc)
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
@@ -73,8 +72,7 @@ def allowed_at(annotation, loc):
     while True:
         if isinstance(annotation, FieldInfo):
             allowed = annotation.description or allowed
-            parts = (annotation.annotation, *annotation.metadata)
-            annotation = typing.Annotated[parts] if annotation.metadata else parts[0]
+            annotation = annotation.rebuild_annotation()
         whole = annotation
         if typing.get_origin(annotation) is typing.Annotated:
             annotation, *metadata = typing.get_args(annotation)
@@ -86,26 +84,17 @@ def allowed_at(annotation, loc):
                 return annotation, allowed
             annotation, loc = annotation.model_fields[loc[0]], loc[1:]
             continue
-        if not loc:
+        if loc in ((), ("[key]",)):
             return whole, allowed
-        arguments = typing.get_args(annotation)
-        if loc[0] in TAGS:
-            annotation = arguments[TAGS.index(loc[0])]
-        elif typing.get_origin(annotation) is dict:
-            of_key = loc[1:] == ("[key]",)
-            annotation = arguments[0 if of_key else 1]
-            loc = loc[:1] if of_key else loc
-        else:
-            annotation = arguments[0]
-        loc = loc[1:]
+        mapped = typing.get_origin(annotation) is dict and loc[1:] != ("[key]",)
+        place = TAGS.index(loc[0]) if loc[0] in TAGS else int(mapped)
+        annotation, loc = typing.get_args(annotation)[place], loc[1:]
 
 
 def _number_in(text):
     """The number that a text was meant to be, whole where it can be, or None."""
-    try:
+    with suppress(ValueError):
         number = float(text)
-    except ValueError:
-        return None
-    if not math.isfinite(number):
-        return None
-    return int(number) if number.is_integer() and abs(number) < 1e15 else number
+        if math.isfinite(number):
+            return int(number) if number.is_integer() and abs(number) < 1e15 else number
+    return None

@@ -18,34 +18,22 @@ from .words import dotted, refusal, unknown
 
 PAPER = "paper"
 # Folders in results/ and words that a variant's name must leave alone.
-RESERVED = (
-    PAPER,
-    "claims",
-    "proofs",
-    "study",
-    "sweep",
-    "sweeps",
-    "atlas",
-    "compare",
-    "report",
-    "archive",
-)
+RESERVED = (PAPER, "claims", "proofs", "study", "sweep", "sweeps", "atlas", "compare")
+RESERVED += ("report", "archive")
 _FOR_ALL = ("ball", "energy", "method")
 
 
 def derive(document, name, given):
-    """(scenes, []) of the variant `name` of a correct document, or (None, its mistakes)."""
+    """(scenes, its mistakes) of the variant `name` of a correct document."""
     place = ("variants", name)
     if name in RESERVED:
         return None, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
     lines = mistakes(Variant, given, place)
-    if not lines and not given:
-        lines = [refusal(place, given, Variant.__doc__)]
-    if lines:
-        return None, lines
-    changes = given.get("scenes", {})
+    changes = {} if lines else given.get("scenes", {})
     for scene, change in changes.items():
         lines += _change_mistakes(document["scenes"], scene, change, (*place, "scenes", scene))
+    if not lines and not given:
+        lines = [refusal(place, given, Variant.__doc__)]
     if lines:
         return None, lines
     scenes = {}
@@ -59,7 +47,7 @@ def derive(document, name, given):
         lines += wrong
     scale = given.get("scale", 1)
     if lines or scale == 1:
-        return (None, lines) if lines else (scenes, [])
+        return scenes, lines
     return {scene: scaled(block, scale) for scene, block in scenes.items()}, []
 
 
@@ -83,8 +71,6 @@ def _derived(block, variant, change):
 def _change_mistakes(scenes, scene, change, place):
     if scene not in scenes:
         return [f"{dotted(place)}: {unknown('scene', scene, list(scenes))}"]
-    if not isinstance(change, dict):
-        return [refusal(place, change, "a mapping with fields of the scene")]
     picture = scenes[scene]["picture"]
     if change.get("picture", picture) != picture:
         what = f"{picture}, which a variant does not change"

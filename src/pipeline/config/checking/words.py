@@ -1,6 +1,7 @@
 """The lines that say what is wrong in the config and what is allowed."""
 
 import difflib
+from itertools import islice
 
 
 class ConfigError(Exception):
@@ -19,27 +20,26 @@ def refusal(place, value, allowed) -> str:
 
 def unknown(kind, name, known) -> str:
     """In words that there is no such thing, and which was meant."""
-    near = difflib.get_close_matches(str(name), known, 1, 0.5)
-    hint = f"did you mean {near[0]}? " if near else ""
-    return f"no {kind} {name}: {hint}config.yaml has {', '.join(known) or 'none'}"
+    there = f"config.yaml has {', '.join(known) or 'none'}"
+    return f"no {kind} {name}: {' '.join([*meant(name, known), there])}"
+
+
+def meant(name, known) -> list[str]:
+    """The question which was meant, of an unknown name; empty where none is near."""
+    return [f"did you mean {near}?" for near in difflib.get_close_matches(str(name), known, 1, 0.5)]
 
 
 def dotted(place) -> str:
     """A place in the config as scenes.fig2.starts[1]."""
-    text = ""
-    for part in place:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}"
-    return text.removeprefix(".")
+    texts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
+    return "".join(texts).removeprefix(".")
 
 
 def shown(value) -> str:
     """A value as in YAML, shortened to a part of a line."""
-    text = ""
-    for piece in _pieces(value):  # aliases in YAML can make a value of any size
-        text += piece
-        if len(text) > 60:
-            return text[:57] + "..."
-    return text
+    # Aliases in YAML can make a value of any size.
+    text = "".join(islice(_pieces(value), 61))
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _pieces(value):
@@ -47,7 +47,8 @@ def _pieces(value):
     if isinstance(value, dict | list):
         yield "{" if isinstance(value, dict) else "["
         for i, item in enumerate(value):
-            yield ", " if i else ""
+            if i:
+                yield ", "
             yield from _pieces(item)
             if isinstance(value, dict):
                 yield ": "

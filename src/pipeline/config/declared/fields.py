@@ -6,8 +6,10 @@ blocks stay the plain mappings that were written, so that 1 and 1.0 stay what th
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
+from annotated_types import Predicate
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model
 from pydantic.types import Strict
 
@@ -25,26 +27,40 @@ def real(allowed: str, **bounds):
     return Annotated[float, Strict(), Field(description=allowed, **bounds)]
 
 
-def whole(low: int, high: int):
-    """The type of a whole number from `low` to `high`."""
-    allowed = f"a whole number from {low} to {high}"
-    return Annotated[int, Strict(), Field(description=allowed, ge=low, le=high)]
+def whole(low: int, high: int, multiple: int = 1):
+    """The type of a whole number from `low` to `high`, a multiple of another."""
+    more = f", a multiple of {multiple}" if multiple > 1 else ""
+    allowed = f"a whole number from {low} to {high}{more}"
+    bounds = Field(description=allowed, ge=low, le=high, multiple_of=multiple)
+    return Annotated[int, Strict(), bounds]
 
 
-def listed(item, allowed: str, low: int = 1, high: int | None = None):
-    """The type of a list of `low` to `high` items."""
-    return Annotated[list[item], Field(description=allowed, min_length=low, max_length=high)]
+def listed(item, allowed: str, low: int = 1, high: int | None = None, *fits: Callable):
+    """The type of a list of `low` to `high` items of which all `fits` are true."""
+    bounds = Field(description=allowed, min_length=low, max_length=high)
+    return Annotated[list[item], bounds, *map(Predicate, fits)]
+
+
+def distinct(items) -> bool:
+    """Whether no item is there twice."""
+    return len(set(items)) == len(items)
+
+
+def rising(numbers) -> bool:
+    """Whether each number is above the one before."""
+    return all(a < b for a, b in pairwise(numbers))
+
+
+def one_of(*texts: str, more: str = ""):
+    """The type of one of some texts; there may be `more` to say."""
+    return Annotated[Literal[texts], Field(description=f"one of {', '.join(texts)}{more}")]
 
 
 def one_or(other, one, is_other: Callable, allowed: str):
     """The type of what is either `other`, where `is_other` says so of what is given, or `one`."""
-
-    def which(value):
-        return "(other)" if is_other(value) else "(one)"
-
     return Annotated[
         Annotated[one, Tag("(one)")] | Annotated[other, Tag("(other)")],
-        Discriminator(which),
+        Discriminator(lambda value: "(other)" if is_other(value) else "(one)"),
         Field(description=allowed),
     ]
 
@@ -55,7 +71,7 @@ Number = real("a number")
 Inertia = real("a number with 0 < k <= 1", gt=0, le=1)
 Gravity = real("a number with 0 < g < k", gt=0)
 Energy = real("a number with -g^2/(2k) < energy < k/2 - g")
-Range = listed(Number, "a list of two increasing numbers", 2, 2)
+Range = listed(Number, "a list of two increasing numbers", 2, 2, rising)
 Name = Annotated[
     str,
     Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$",
@@ -146,13 +162,16 @@ class Branch(Block):
     """how far the branch is followed from the orbit"""
 
 
-class Branches(Block):
+class _Branches(Block):
     """a mapping with the keys outer and inner, or one of them"""
 
     outer: Branch = None
     """the branches that leave away from the fixed point"""
     inner: Branch = None
     """the branches on the fixed point's side"""
+
+
+Branches = Annotated[_Branches, Predicate(lambda given: given.model_fields_set)]
 
 
 class Resolution(Block):
@@ -173,12 +192,8 @@ class Window(Block):
     """the same in xdot"""
 
 
-Between = listed(
-    real("a fraction with -1 < start < 1", gt=-1, lt=1),
-    "two fractions of the section's radius",
-    2,
-    2,
-)
+Fraction = real("a fraction with -1 < start < 1", gt=-1, lt=1)
+Between = listed(Fraction, "two fractions of the section's radius", 2, 2)
 Start = one_or(
     Point,
     real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",
@@ -186,11 +201,8 @@ Start = one_or(
     lambda value: isinstance(value, dict),
     "a fraction of the section's radius, or a point {x, xdot} or {x, y}",
 )  # fmt: skip
-Starts = listed(
-    Start,
-    "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
-    "{x, xdot} or {x, y}",
-)
+_STARTS = "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
+Starts = listed(Start, _STARTS + "{x, xdot} or {x, y}")
 Impacts = one_or(
     listed(whole(1, LARGEST), "a list of whole numbers, one for each start"),
     whole(1, LARGEST),
@@ -198,16 +210,11 @@ Impacts = one_or(
     "a whole number, or a list of them, one for each start",
 )
 Period = whole(1, 12)
-OrbitType = Annotated[
-    Literal["elliptic", "hyperbolic", "inverse hyperbolic"],
-    Field(description="one of elliptic, hyperbolic, inverse hyperbolic"),
-]
-Saddle = Annotated[
-    Literal["hyperbolic", "inverse hyperbolic"],
-    Field(description="one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
-]
-Format = Annotated[Literal["png", "svg", "pdf"], Field(description="one of png, svg, pdf")]
-Formats = listed(Format, "a list of png, svg, pdf, none of them twice")
+OrbitType = one_of("elliptic", "hyperbolic", "inverse hyperbolic")
+Saddle = one_of("hyperbolic", "inverse hyperbolic", more=" (others have no manifolds)")
+Format = one_of("png", "svg", "pdf")
+_FORMATS = "a list of png, svg, pdf that has png in it, none of them twice"
+Formats = listed(Format, _FORMATS, 1, None, distinct, lambda given: "png" in given)
 
 
 def axes_of(*names: str) -> Any:

@@ -11,31 +11,13 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from .fields import (
-    LARGEST,
-    BallBlock,
-    Block,
-    Branches,
-    Energy,
-    FineMethod,
-    Formats,
-    Impacts,
-    Method,
-    OrbitType,
-    Period,
-    Resolution,
-    Saddle,
-    Starts,
-    View,
-    axes_of,
-    whole,
-)
+from . import fields
 
 Fault = tuple[tuple, Any, str]  # place in the scene, value, what is allowed
-SECTION = axes_of("x", "xdot", "udot")
+SECTION = fields.axes_of("x", "xdot", "udot")
 
 
-class Scene(Block):
+class Scene(fields.Block):
     """a mapping that begins with picture
 
     The docstring of a kind has, below its first line, the caption of the kind's figures: Jinja,
@@ -53,13 +35,13 @@ class Scene(Block):
 
     picture: Annotated[str, Field(description="the kind of picture: one of those below")]
     """what is drawn"""
-    ball: BallBlock = None
+    ball: fields.BallBlock = None
     """the ball of this scene, where it is another"""
-    energy: Energy
+    energy: fields.Energy
     """the energy, which each impact keeps"""
-    method: Method = None
+    method: fields.Method = None
     """how impacts are found, where not by the certified first root"""
-    formats: Formats = ["png"]
+    formats: fields.Formats = ["png"]
     """the files drawn"""
 
     @classmethod
@@ -80,21 +62,20 @@ class Scene(Block):
             yield ("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"
             return
         yield from _energy_faults(block)
-        formats = block["formats"]
-        if len(set(formats)) < len(formats):
-            yield ("formats",), formats, "a list of png, svg, pdf, none of them twice"
-        if "png" not in formats:
-            yield ("formats",), formats, "a list that has png in it"
         for axis, drawn in block.get("axes", {}).items():
-            yield from _axis_faults(drawn, ("axes", axis))
+            low, high = drawn["limits"]
+            what = f"numbers within the limits {drawn['limits']}"
+            for tick in drawn["ticks"]:
+                if not low <= tick <= high:
+                    yield ("axes", axis, "ticks"), tick, what
 
 
 class OfOrbits(Scene):
     """A scene of orbits from given starts."""
 
-    starts: Starts
+    starts: fields.Starts
     """where the orbits start, on y = 0 or at a point of the section"""
-    impacts: Impacts
+    impacts: fields.Impacts
     """how many impacts of each orbit"""
 
     @classmethod
@@ -107,15 +88,15 @@ class OfOrbits(Scene):
                 yield from _start_faults(block, start, ("starts", i))
         if isinstance(impacts, list) and len(impacts) != len(starts):
             yield ("impacts",), impacts, f"one number for each of the {len(starts)} starts"
-        elif sum(each(impacts, starts)) > LARGEST:
-            what = f"at most {LARGEST} impacts in a scene, counted over all its starts"
+        elif sum(each(impacts, starts)) > fields.LARGEST:
+            what = f"at most {fields.LARGEST} impacts in a scene, counted over all its starts"
             yield ("impacts",), impacts, what
 
 
 class OfRecords(OfOrbits):
     """A scene of exponents along orbits."""
 
-    records: whole(2, 10_000)
+    records: fields.whole(2, 10_000)
     """how many numbers of impacts have their exponents kept"""
 
     @classmethod
@@ -130,9 +111,9 @@ class OfRecords(OfOrbits):
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
-    period: Period
+    period: fields.Period
     """impacts after which the orbit closes"""
-    type: OrbitType
+    type: fields.OrbitType
     """its stability"""
 
     @staticmethod
@@ -151,9 +132,9 @@ class OfPeriodicOrbit(Scene):
 class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
 
-    method: FineMethod = None
-    type: Saddle
-    resolution: Resolution
+    method: fields.FineMethod = None
+    type: fields.Saddle
+    resolution: fields.Resolution
     """how finely the manifolds are traced"""
 
     sides: ClassVar[int] = 2  # of a point on which branches leave it
@@ -169,17 +150,17 @@ class OfManifolds(OfPeriodicOrbit):
         yield from super().faults(block)
         # each of them leaves every point twice, stable and unstable
         branches = 2 * block["period"] * cls.sides
-        longest = LARGEST * block["resolution"]["distance"] / branches
+        longest = fields.LARGEST * block["resolution"]["distance"] / branches
         for place, length in cls.lengths(block).items():
             if length > longest:
-                what = f"at most {LARGEST} times resolution.distance"
+                what = f"at most {fields.LARGEST} times resolution.distance"
                 yield place, length, f"{what}, shared by {branches} branches = {longest:g}"
 
 
 class OfBranches(OfManifolds):
     """A scene of branches of both sides, each as long as it says."""
 
-    branches: Branches
+    branches: fields.Branches
     """which branches, and how far"""
 
     @classmethod
@@ -192,16 +173,22 @@ class OfBranches(OfManifolds):
 class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
-    view: View = {"elevation": 40, "azimuth": 115}
+    view: fields.View = {"elevation": 40, "azimuth": 115}
     """from where the surface is seen"""
     axes: SECTION = None
 
 
 def bounded(block, first, second, what) -> Iterator[Fault]:
     """The fault of two whole numbers whose product counts numbers that are held at once."""
-    if block[first] * block[second] > LARGEST:
-        allowed = f"at most {LARGEST} {what}, {first} times {second}"
-        yield (second,), block[second], f"{allowed}: here {LARGEST // block[first]}"
+    if block[first] * block[second] > fields.LARGEST:
+        allowed = f"at most {fields.LARGEST} {what}, {first} times {second}"
+        yield (second,), block[second], f"{allowed}: here {fields.LARGEST // block[first]}"
+
+
+def listing(data, words, *names) -> str:
+    """The values of some variables of a dataset side by side, each time in these words."""
+    rows = zip(*(data[name].values for name in names), strict=True)
+    return ", ".join(words.format(*row) for row in rows)
 
 
 def each(impacts, starts) -> list[int]:
@@ -235,16 +222,6 @@ def _energy_faults(block):
         elif not exact(energy) < highest:
             where = f"k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
             yield place, energy, f"a number below {where}"
-
-
-def _axis_faults(axis, place):
-    low, high = axis["limits"]
-    if not low < high:
-        yield (*place, "limits"), axis["limits"], "two increasing numbers"
-        return
-    for tick in axis["ticks"]:
-        if not low <= tick <= high:
-            yield (*place, "ticks"), tick, f"numbers within the limits {axis['limits']}"
 
 
 def _start_faults(block, start, place):

@@ -23,13 +23,13 @@ class Stage(NamedTuple):
         return self.follows and (self.exact is not None or "exact" not in method)
 
 
-_DYNAMICS = "pseudorigid.dynamics"
+_DYNAMICS, _PROOFS = "pseudorigid.dynamics", "pseudorigid.proofs"
 STAGES = {
     "orbits": Stage(
         f"{_DYNAMICS}.orbits",
         "scene_orbits",
         ("starts", "impacts"),
-        exact=("pseudorigid.proofs.true_orbits.scene", "true_scene_orbits"),
+        exact=(f"{_PROOFS}.true_orbits.scene", "true_scene_orbits"),
     ),
     "periodic": Stage(f"{_DYNAMICS}.periodic", "symmetric_orbits", ("period",), follows=False),
     "motion": Stage(
@@ -53,11 +53,9 @@ STAGES = {
         }.items()
     },
     "horseshoe": Stage(
-        "pseudorigid.proofs.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
+        f"{_PROOFS}.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
     ),
-    "twist": Stage(
-        "pseudorigid.proofs.theorems.scenes", "scene_twist", ("energies",), follows=False
-    ),
+    "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",), follows=False),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 

@@ -35,27 +35,18 @@ class Closeup(OfManifolds):
 
     @classmethod
     def faults(cls, block):
-        """A point of the orbit, and a window with an inside."""
+        """A point of the orbit."""
         yield from super().faults(block)
         last = block["period"] - 1
         if block["point"] > last:
             yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
-        for axis, (low, high) in block["window"].items():
-            if not low < high:
-                yield ("window", axis), [low, high], "two increasing numbers"
 
     @staticmethod
     def numbers(block, periodic, manifolds):
         """The orbit, the point, and the window around it."""
-        window = {
-            f"window, {name}": "{:.7g} to {:.7g}".format(*manifolds.attrs[f"window_{name}"])
-            for name in ("x", "xdot")
-        }
-        return (
-            Closeup.about_orbit(periodic, block)
-            | window
-            | {
-                "x of the point": f"{manifolds.attrs['point_x']:.7f}",
-                "xdot of the point": f"{manifolds.attrs['point_xdot']:.7f}",
-            }
-        )
+        found, about = Closeup.about_orbit(periodic, block), manifolds.attrs
+        for name in ("x", "xdot"):
+            found[f"window, {name}"] = "{:.7g} to {:.7g}".format(*about[f"window_{name}"])
+        for name in ("x", "xdot"):
+            found[f"{name} of the point"] = f"{about[f'point_{name}']:.7f}"
+        return found

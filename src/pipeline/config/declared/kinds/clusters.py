@@ -1,7 +1,7 @@
 """Clusters of impacts in the sea, and what they remember."""
 
 from ..fields import Between, listed, real, whole
-from ..scene import Scene, bounded
+from ..scene import Scene, bounded, listing
 
 LONGEST = 1_000_000  # flight: their histogram has ten bins a unit of time
 
@@ -51,5 +51,4 @@ class Clusters(Scene):
     @staticmethod
     def numbers(block, clusters):
         """The mean time from one cluster to the next, for each cut."""
-        pairs = zip(clusters["cut"].values, clusters["period"].values, strict=True)
-        return {"time between clusters": ", ".join(f"{t:.2f} cut at {cut:g}" for cut, t in pairs)}
+        return {"time between clusters": listing(clusters, "{:.2f} cut at {:g}", "period", "cut")}

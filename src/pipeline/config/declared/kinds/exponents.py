@@ -31,14 +31,13 @@ class Exponents(OfRecords):
 
         from pseudorigid.dynamics.variables import final_exponents
 
-        last = np.sort(final_exponents(lyapunov)[:, 0])
-        spread = f", standard deviation {np.std(last, ddof=1):.4f}" if last.size > 1 else ""
+        last = final_exponents(lyapunov)
+        largest, all_three = np.sort(last[:, 0]), np.round(last, 4) + 0.0
+        spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
+        rows = [", ".join(f"{value:.4f}" for value in row) for row in (largest, *all_three)]
         return {
-            "largest exponent": ", ".join(f"{value:.4f}" for value in last),
-            "their mean": f"{np.mean(last):.4f}{spread}",
-            "all three of an orbit, at the end": "; ".join(
-                ", ".join(f"{value:.4f}" for value in row)
-                for row in np.round(final_exponents(lyapunov), 4) + 0.0
-            ),
+            "largest exponent": rows[0],
+            "their mean": f"{np.mean(largest):.4f}{spread}",
+            "all three of an orbit, at the end": "; ".join(rows[1:]),
             "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
         }

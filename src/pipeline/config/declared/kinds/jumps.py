@@ -1,6 +1,7 @@
 """The curves where the map jumps."""
 
 from ..fields import Energy, listed, whole
+from ..scene import listing
 from .portrait import Portrait
 
 
@@ -20,19 +21,10 @@ class Jumps(Portrait):
 
     energies: listed(Energy, "a list of energies", 1, 20)
     """further energies, drawn below"""
-    sides: whole(4, 100_000)
-    """sides of each curve as it is drawn and measured"""
-
-    @classmethod
-    def faults(cls, block):
-        """Sides that are compared with half and with a quarter of them."""
-        yield from super().faults(block)
-        if block["sides"] % 4:
-            yield ("sides",), block["sides"], "a multiple of four"
+    sides: whole(4, 100_000, 4)
+    """sides of each curve as it is drawn, and measured beside half and a quarter of them"""
 
     @staticmethod
     def numbers(block, jumps, orbits):
         """How long the curve is in (x, y) at each energy."""
-        pairs = zip(jumps["energy"].values, jumps["length"].values, strict=True)
-        found = ", ".join(f"{length:.4f} at E = {energy:g}" for energy, length in pairs)
-        return {"jump curve": f"length {found}"}
+        return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}

@@ -1,7 +1,7 @@
 """The last invariant curve of the main island."""
 
 from ..fields import LARGEST, Between, listed, whole
-from ..scene import Scene
+from ..scene import Scene, listing
 
 
 class LastCurve(Scene):
@@ -47,6 +47,5 @@ class LastCurve(Scene):
     @staticmethod
     def numbers(block, last_curve):
         """The residue of the last convergent of either number, and its period."""
-        ends = (last_curve[name].values[:, -1] for name in ("residue", "period"))
-        found = (f"{residue:.2g} at period {n:.0f}" for residue, n in zip(*ends, strict=True))
-        return {"last residues": ", ".join(found)}
+        last = last_curve.isel(convergent=-1)
+        return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}

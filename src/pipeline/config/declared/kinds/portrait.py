@@ -1,9 +1,9 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
-from ..fields import listed, whole
+from ..fields import LARGEST, distinct, listed, whole
 from ..scene import OfOrbits, OnSurface, measured_energy
 
-Place = whole(0, 10_000_000)
+PLACES = "a list of places in starts, counted from 0, none of them twice"
 
 
 class Portrait(OnSurface, OfOrbits):
@@ -24,7 +24,7 @@ class Portrait(OnSurface, OfOrbits):
     telling = "impacts"
     studied = "portrait"
 
-    sea: listed(Place, "a list of places in starts, counted from 0, none of them twice", 0) = []
+    sea: listed(whole(0, LARGEST), PLACES, 0, None, distinct) = []
     """which orbits are chaotic, drawn in grey"""
 
     @classmethod
@@ -32,8 +32,6 @@ class Portrait(OnSurface, OfOrbits):
         """Places in `sea` are places in `starts`."""
         yield from super().faults(block)
         last = len(block["starts"]) - 1
-        if len(set(block["sea"])) < len(block["sea"]):
-            yield ("sea",), block["sea"], "a list of places in starts, none of them twice"
         for place in block["sea"]:
             if place > last:
                 yield ("sea",), place, f"a place in starts, from 0 to {last}"

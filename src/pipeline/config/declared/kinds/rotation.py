@@ -1,7 +1,7 @@
 """Rotation number and exponent against the start."""
 
 from ..fields import Between, Energy, listed, whole
-from ..scene import Scene
+from ..scene import Scene, listing
 
 
 class Rotation(Scene):
@@ -31,5 +31,5 @@ class Rotation(Scene):
     @staticmethod
     def numbers(block, rotation):
         """The rotation number at the fixed point, at each energy."""
-        pairs = zip(rotation["energy"].values, rotation["fixed_rotation"].values, strict=True)
-        return {"at the fixed point": ", ".join(f"{w:.6f} at E = {e:g}" for e, w in pairs)}
+        found = listing(rotation, "{:.6f} at E = {:g}", "fixed_rotation", "energy")
+        return {"at the fixed point": found}

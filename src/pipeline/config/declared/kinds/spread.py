@@ -1,6 +1,6 @@
 """Exponents of many orbits, at many lengths."""
 
-from ..fields import Between, listed, real, whole
+from ..fields import Between, Fraction, listed, whole
 from ..scene import OfRecords
 
 
@@ -26,7 +26,7 @@ class Spread(OfRecords):
     """impacts of each of them"""
     blocks: whole(2, 10_000)
     """stretches into which each is cut"""
-    regular: listed(real("a fraction with -1 < start < 1", gt=-1, lt=1), "a list of fractions")
+    regular: listed(Fraction, "a list of fractions")
     """starts of regular orbits"""
     regular_impacts: whole(2, 10_000_000)
     """impacts of each of them"""

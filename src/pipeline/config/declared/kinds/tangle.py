@@ -20,13 +20,6 @@ class Tangle(OfBranches, OfOrbits, OnSurface):
     telling = "orbit"
     studied = "tangle"
 
-    @classmethod
-    def faults(cls, block):
-        """At least one branch."""
-        if not block["branches"]:
-            yield ("branches",), {}, "a mapping with the keys outer and inner, or one of them"
-        yield from super().faults(block)
-
     @staticmethod
     def numbers(block, orbits, periodic, manifolds):
         """The orbit, and how much there is of its branches."""
