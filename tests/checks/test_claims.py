@@ -307,7 +307,8 @@ def test_a_dataset_that_is_missing_is_named(datasets):
 
 
 def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
-    claim = ledger.Claim(1, "", "", False, "E", (), (), lambda data, proved: proved("twist-six"))
+    theorems = ("twist-zero",)
+    claim = ledger.Claim(1, "", "", False, "E", (), theorems, lambda proved: proved("twist-six"))
     with pytest.raises(KeyError, match="does not name the theorem twist-six"):
         claim.judge({}, {"twist-six": PROVED})
 
@@ -396,11 +397,10 @@ def test_page_wants_all_verdicts(verdicts):
 
 
 def test_a_claim_is_well_formed():
-    claim = ledger.collector([])
-    with pytest.raises(ValueError, match="either a quote or words"):
-        claim(1, "here", "E", quote="a", words="b")
+    with pytest.raises(ValueError, match="claim 1 has no words"):
+        ledger.claim(1, "here", "E")(lambda: None)
     with pytest.raises(ValueError, match="kind 'X' is not allowed"):
-        claim(1, "here", "X", quote="a")
+        ledger.claim(1, "here", "X")
 
 
 @pytest.mark.parametrize("word", ["true", "not computed", "not computed: ", ""])
