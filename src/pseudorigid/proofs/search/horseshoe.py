@@ -13,7 +13,7 @@ import numpy as np
 from flint import arb, ctx
 
 from .periodic import polished
-from .writing import decimal, header, rows
+from .writing import decimal, decimals, header, rows
 
 BITS = 320  # for an orbit that starts DEEP rounds nearer to its saddle than a double can tell
 DEEP = 100  # rounds about the saddles before the float's start of the connection
@@ -216,15 +216,14 @@ def _text(surface, saddles, mirror, expanding, rho, track, middle, first, plan):
         for z, u, s in zip(saddles, expanding, contracting, strict=True)
     ]
     approach = [[*points[i], *sides[i], *_mirror(sides[2 * middle - i])] for i in chain[:steps]]
-    decimals = [[decimal(a, DIGITS) for a in row] for row in at_saddles + approach]
     half = [decimal(a, DIGITS) for a in (points[middle][0], *sides[middle])]
     return (
         header("horseshoe", surface)
         + f"leaves = {leaves}\nenters = {enters}\n"
         + "# a row: centre, expanding side, contracting side\n"
-        + rows("saddles", decimals[:count])
+        + rows("saddles", decimals(at_saddles, DIGITS))
         + "# up to y = 0; the rest of the chain is the mirror image\n"
-        + rows("approach", decimals[count:])
+        + rows("approach", decimals(approach, DIGITS))
         + f"middle = [{', '.join(half)}]\n"
         + "# of each covering: how far beyond its target's edges, and the room within the others\n"
     )
