@@ -44,7 +44,7 @@ class Plan:
     room: float
 
 
-def propose(surface, ball, points, plan, measure):
+def propose(surface, ball, points, plan, prove):
     """A certificate of a horseshoe.
 
     Parameters
@@ -55,8 +55,9 @@ def propose(surface, ball, points, plan, measure):
     points : list of (float, float)
         The hyperbolic orbit, (x, y); its own mirror image.
     plan : Plan
-    measure : callable
-        What a checker measures of a text: [(beyond, room), ...] of the coverings, in order.
+    prove : callable
+        What a checker finds of a text, with margins [(beyond, room), ...] of the coverings, in
+        order, among its parts.
 
     Returns
     -------
@@ -81,7 +82,7 @@ def propose(surface, ball, points, plan, measure):
         first = (impacts - plan.steps) % len(points)
         text = _text(surface, saddles, mirror, expanding, rho, track, impacts, first, plan)
     free = [["0.0", "0.0"]] * (len(points) + 2 * plan.steps + 2)
-    measured = measure(text + rows("margins", free))
+    measured = prove(text + rows("margins", free)).parts["margins"]
     margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
     return text + rows("margins", margins)
 

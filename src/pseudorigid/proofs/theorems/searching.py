@@ -37,12 +37,8 @@ def _zero(theorem):
 
 def _horseshoe(theorem):
     surface, period = theorem.bounds["surface"], theorem.bounds["period"]
-    points = known.points(surface, period, "hyperbolic")
-
-    def measure(text):
-        return theorem.prove(text).parts["margins"]
-
-    return horseshoes.propose(surface, known.ball(surface), points, PLANS[theorem.name], measure)
+    points, plan = known.points(surface, period, "hyperbolic"), PLANS[theorem.name]
+    return horseshoes.propose(surface, known.ball(surface), points, plan, theorem.prove)
 
 
 SEARCHES = {
