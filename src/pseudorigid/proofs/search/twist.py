@@ -4,7 +4,6 @@ The twist is proposed by the closed formula for Birkhoff's first coefficient.
 """
 
 from fractions import Fraction
-from math import comb, factorial
 
 from flint import acb, arb, arb_mat, ctx
 
@@ -104,13 +103,11 @@ def estimate(surface, points):
         image = surface.impact(x, y)
         x, y = image.x, image.y
     q, p = x / beta, (y - x * (delta / beta)) * beta
-    terms = {}
-    for (i, j), re, im in zip(plane.monomials, q.coefficients, p.coefficients, strict=True):
-        for (m, n), share in _complex_monomial(i, j).items():
-            terms[m, n] = terms.get((m, n), 0) + acb(re.mid(), im.mid()) * share
-    g20, g11, g02, g21 = (
-        terms[m, n] * factorial(m) * factorial(n) for m, n in ((2, 0), (1, 1), (0, 2), (2, 1))
-    )
+    pairs = zip(q.coefficients, p.coefficients, strict=True)
+    map_ = Jet(plane, [acb(a.mid(), b.mid()) for a, b in pairs])
+    z, bar = (Jet.variable(plane, i, acb(0)) for i in (0, 1))
+    map_ = map_.at((z + bar) * acb(0.5), (z - bar) * acb(0, -0.5))  # from q and p
+    g20, g11, g02, g21 = 2 * map_[2, 0], map_[1, 1], 2 * map_[0, 2], 2 * map_[2, 1]
     z, w = acb(cosine, -sine), acb(cosine, sine)
     first = (
         g20 * g11 * (w - 3 + 2 * z) / (2 * (z * z - z) * (w - 1))
@@ -119,15 +116,3 @@ def estimate(surface, points):
         + g21 / 2
     )
     return (2 * (w * first).imag).mid()
-
-
-def _complex_monomial(i, j):
-    """q^i p^j as a polynomial in z = q + i p and its conjugate: {(powers): coefficient}."""
-    found = {}
-    scale = acb(0.5) ** i * (acb(0, -0.5)) ** j
-    for m in range(i + 1):
-        for n in range(j + 1):
-            key = (m + n, i + j - m - n)
-            share = scale * comb(i, m) * comb(j, n) * (-1) ** (j - n)
-            found[key] = found.get(key, acb(0)) + share
-    return found

@@ -29,7 +29,6 @@ class Result:
     ----------
     name, statement, certificate : str
         Of the theorem, and its certificate's file.
-    verdict : {"proved", "not proved"}
     reason : str
         Why not; empty where it is proved.
     digits : dict of str to str
@@ -43,11 +42,15 @@ class Result:
     name: str
     statement: str
     certificate: str
-    verdict: str
     reason: str
     digits: dict
     margins: dict
     seconds: float
+
+    @property
+    def verdict(self):
+        """Either "proved" or "not proved"."""
+        return "not proved" if self.reason else "proved"
 
     def line(self):
         """All of it in one line."""
@@ -128,10 +131,8 @@ class Theorem:
             reason = "there is no such certificate"
         except NotProvedError as error:
             reason = " ".join(str(error).split())
-        return Result(
-            self.name, self.statement, self.certificate, "not proved" if reason else "proved",
-            reason, digits, margins, time.perf_counter() - begin,
-        )  # fmt: skip
+        seconds = time.perf_counter() - begin
+        return Result(self.name, self.statement, self.certificate, reason, digits, margins, seconds)
 
     def of_any_size(self, text):
         """Whether the checker takes a certificate whatever the radius that it claims.
