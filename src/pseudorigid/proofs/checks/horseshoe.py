@@ -100,11 +100,8 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
         bound = _entropy(period, loop)
         if not bound > ball_of(entropy):
             raise NotProvedError(f"the entropy is not proved to be above {float(entropy)}")
-        margins = {
-            "beyond": min(m for m, _ in measured),
-            "room": min(m for _, m in measured),
-            "cones": cone,
-        }
+        beyond, room = map(min, zip(*measured, strict=True))
+        margins = {"beyond": beyond, "room": room, "cones": cone}
         digits = {"entropy": bound, "crossing x": x, "crossing angle": angle}
         return Finding(digits, margins, {
             "saddles": saddles, "chain": chain, "edges": edges, "margins": measured, "loop": loop,
