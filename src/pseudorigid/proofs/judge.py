@@ -41,13 +41,9 @@ def first_root(k, g, x, v, w):
     bits = START_BITS
     while bits <= MOST_BITS:
         with ctx.workprec(bits):
-            x_, c, s, g_ = _after_impact(*(arb(a) for a in (k, g, x, v, w)))
-            if s == 0 and (g_ + x_ > 0 or (g_ + x_ == 0 and -c >= 0)):
-                return arb(0)  # pressed onto the floor
             try:
-                gap = Gap(x_, c, s, g_)
-                root = refine(gap, *isolate(gap))
-                if root.rel_accuracy_bits() >= ACCURACY:
+                root = _time(_after_impact(*(arb(a) for a in (k, g, x, v, w))))
+                if root == 0 or root.rel_accuracy_bits() >= ACCURACY:
                     return root
             except UndecidedError:
                 pass
@@ -56,9 +52,17 @@ def first_root(k, g, x, v, w):
 
 
 def _after_impact(k, g, x, v, w):
-    """x, c, s and g of the gap after the impact of a state, eq. (25)."""
+    """The gap after the impact of a state, eq. (25)."""
     s = v + w
-    return x, w - 2 * s / (1 + k), s, g
+    return Gap(x, w - 2 * s / (1 + k), s, g)
+
+
+def _time(gap):
+    """The time of the next impact, 0 where the ball is pressed onto the floor."""
+    bend = gap.g + gap.x
+    if gap.s == 0 and (bend > 0 or (bend == 0 and gap.c <= 0)):
+        return arb(0)
+    return refine(gap, *isolate(gap))
 
 
 def flight_times(ball, x, xdot, udot):
@@ -159,10 +163,10 @@ def impact_errors(k, g, before, after, tau):
 
 def _impact(k, g, x, v, w):
     """(x', v', w', tau) of the next impact."""
-    gap = Gap(*_after_impact(k, g, x, v, w))
-    if gap.s == 0 and (g + x > 0 or (g + x == 0 and -gap.c >= 0)):
-        return x, v, w, arb(0)  # pressed onto the floor
-    tau = refine(gap, *isolate(gap))
+    gap = _after_impact(k, g, x, v, w)
+    tau = _time(gap)
+    if tau == 0:
+        return x, v, w, tau
     sine, cosine = tau.sin_cos()
     b = v - 2 * k * gap.s / (1 + k)
     return x * cosine - gap.c * sine, b + g * tau, x * sine + gap.c * cosine, tau

@@ -5,11 +5,7 @@ import numpy as np
 from pseudorigid.evidence.rotation import regular
 from pseudorigid.evidence.spread import stretches
 
-from . import ledger
-from .ledger import CORRECTED, FALSE, HOLDS, Verdict, formula
-
-CLAIMS = []
-claim = ledger.collector(CLAIMS)
+from .ledger import CORRECTED, DERIVED, FALSE, HOLDS, Verdict, claim, decided, formula
 
 SHORT = 200_000  # impacts of a run of Figure 7
 ENERGIES = (0.001, 0.01)  # of the paper's figures
@@ -19,48 +15,31 @@ PARTS, FAR = 50, 5.0  # of an orbit; standard errors that an orbit's mean may be
 LITTLE = 0.01  # of a variance: what an uncorrelated cluster may seem to explain of the next
 
 
-@claim(
-    32,
-    "4.1",
-    "P",
-    quote="the sphere may experience a sequence of densely clustered impacts before it globally "
-    "separates from the foundation",
-    data=["clusters/clusters"],
-)
-def clustered(data, proved):
-    found = data["clusters/clusters"]
+@claim(32, "4.1", "P", "clusters/clusters")
+def clustered(found):
+    """“the sphere may experience a sequence of densely clustered impacts before it globally
+    separates from the foundation”"""
     count, edge = found["flights"].values, found["bin_edge"].values
     last = count.size - 2  # the last bin may be cut short
     valley = int(np.argmin(count[: last + 1] + np.where(edge[: last + 1] < 3.0, count.max(), 0)))
-    valley_low = count[valley] < 0.25 * min(count[:valley].max(), count[valley:].max())
-    word = HOLDS if valley_low else FALSE
-    pairs = [
-        f"{cut:g}: {size:.1f} impacts, {period:.2f}"
-        for cut, size, period in zip(
-            *(found[name].values for name in ("cut", "cluster_impacts", "period")), strict=True
-        )
-    ]
+    deep = count[valley] < 0.25 * min(count[:valley].max(), count[valley:].max())
+    columns = (found[name].values for name in ("cut", "cluster_impacts", "period"))
+    rows = zip(*columns, strict=True)
+    pairs = [f"{cut:g}: {size:.1f} impacts, {period:.2f}" for cut, size, period in rows]
     error = float(found["period_error"].values.max())
     value = f"few flights of {edge[valley]:.1f}; impacts in a cluster and time between them, "
     value += f"cut at {'; '.join(pairs)}"
-    return Verdict(word, value, f"{error:.1g} of the times", "more_figures/claims/clusters.png")
+    return decided(deep, value, f"{error:.1g} of the times", "more_figures/claims/clusters.png")
 
 
-@claim(
-    33,
-    "4.1",
-    "Q",
-    quote="the initial conditions for such successive clusters of impact appear to be completely "
-    "uncorrelated",
-    data=["clusters/clusters"],
-)
-def uncorrelated(data, proved):
-    found = data["clusters/clusters"]
+@claim(33, "4.1", "Q", "clusters/clusters")
+def uncorrelated(found):
+    """“the initial conditions for such successive clusters of impact appear to be completely
+    uncorrelated”"""
     explained = found["dependence_low"].values[:, 0].max(axis=1)
     strongest = np.abs(found["correlation"].values[:, 0]).max(axis=(1, 2))
-    word = FALSE if float(explained.min()) > LITTLE else HOLDS
-    if word == HOLDS and float(explained.max()) > LITTLE:
-        word = CORRECTED
+    least, most = float(explained.min()), float(explained.max())
+    word = FALSE if least > LITTLE else CORRECTED if most > LITTLE else HOLDS
     largest = found["dependence"].values[:, 0].max(axis=1)
     said = ", ".join(f"{share:.2f}" for share in largest)
     cuts = ", ".join(f"{cut:g}" for cut in found["cut"].values)
@@ -70,50 +49,33 @@ def uncorrelated(data, proved):
     return Verdict(word, value, f"{width.max():.1g}", "more_figures/claims/clusters.png")
 
 
-@claim(
-    34,
-    "4.1",
-    "T",
-    quote="The globally connected character of the chaotic region in Figure 2 is asserted by a "
-    "calculation of Lyapunov characteristic exponents",
-    data=["spread/spread"],
-)
-def connected(data, proved):
-    found = data["spread/spread"]
+@claim(34, "4.1", "T", "spread/spread")
+def connected(found):
+    """“The globally connected character of the chaotic region in Figure 2 is asserted by a
+    calculation of Lyapunov characteristic exponents”"""
     every, least = (int(found[f"entered_{name}"].values[-1]) for name in ("any", "least"))
     impacts, orbits = int(found["visit"].values[-1]), found.sizes["orbit"]
-    word = HOLDS if least > 0.95 * every else FALSE
     value = f"each of {orbits} orbits of {impacts:,} impacts enters {least} or more of the {every} "
     value += "cells that any enters; equal exponents alone would not show it"
-    return Verdict(word, value, "numerical", "more_figures/claims/spread.png")
+    everywhere = least > 0.95 * every
+    return decided(everywhere, value, "numerical", "more_figures/claims/spread.png")
 
 
-@claim(
-    35,
-    "4.1",
-    "T",
-    quote="vanish identically for initial conditions resulting in regular trajectories",
-    data=["spread/spread"],
-)
-def vanish(data, proved):
-    found = data["spread/spread"]
+@claim(35, "4.1", "T", "spread/spread")
+def vanish(found):
+    """“vanish identically for initial conditions resulting in regular trajectories”"""
     length = int(found["length"].values[-1])
     largest = float(np.abs(found["regular_exponent"].values[-1]).max())
-    word = HOLDS if largest < 3.0 * np.log(length) / length else FALSE
+    small = largest < 3.0 * np.log(length) / length
     value = f"at most {largest:.1e} after {length:,} impacts of {found.sizes['island']} orbits"
-    return Verdict(word, value, "falls like ln n/n", "more_figures/claims/spread.png")
+    return decided(small, value, "falls like ln n/n", "more_figures/claims/spread.png")
 
 
-@claim(
-    36,
-    "4.1",
-    "T",
-    quote="a positive maximal Lyapunov exponent that is independent of the choice of chaotic "
-    "trajectory",
-    data=["spread/spread"],
-)
-def independent(data, proved):
-    block = data["spread/spread"]["exponent"].values[:, :, 0]
+@claim(36, "4.1", "T", "spread/spread")
+def independent(found):
+    """“a positive maximal Lyapunov exponent that is independent of the choice of chaotic
+    trajectory”"""
+    block = found["exponent"].values[:, :, 0]
     means = block.mean(axis=0)
     # parts of an orbit spread by chance; if orbits do not differ, so do their means
     parts = np.array_split(block, min(PARTS, block.shape[0]))
@@ -121,38 +83,26 @@ def independent(data, proved):
     freedom = (len(parts) - 1) * means.size
     error = np.sqrt(float(np.sum(within * within)) / freedom / len(parts))
     furthest = float(np.abs(means - means.mean()).max()) / error
-    word = HOLDS if furthest < FAR and float(means.min()) > 0.0 else FALSE
+    alike = furthest < FAR and float(means.min()) > 0.0
     value = f"{means.size} orbits from {means.min():.4f} to {means.max():.4f}"
     said = f"at most {furthest:.1f} standard errors from their mean"
-    return Verdict(word, value, said, "more_figures/claims/spread.png")
+    return decided(alike, value, said, "more_figures/claims/spread.png")
 
 
-@claim(
-    39,
-    "Figure 7",
-    "F",
-    quote="Lyapunov exponents corresponding to three distinct trajectories in the chaotic",
-    data=["fig7/lyapunov"],
-)
-def figure_7(data, proved):
-    found = data["fig7/lyapunov"]
+@claim(39, "Figure 7", "F", "fig7/lyapunov")
+def figure_7(found):
+    """“Lyapunov exponents corresponding to three distinct trajectories in the chaotic”"""
     impacts, orbits = int(found["impact"].values[-1]), found.sizes["orbit"]
     ends = found["exponent"].values[-1, :, 0]
     good = impacts == SHORT and orbits == 3 and float(ends.min()) > 0.1
     value = f"{orbits} orbits of {impacts:,} impacts end at "
     value += ", ".join(f"{end:.4f}" for end in ends)
-    return Verdict(HOLDS if good else FALSE, value, "one draw", "paper_figures/fig7.png")
+    return decided(good, value, "one draw", "paper_figures/fig7.png")
 
 
-@claim(
-    40,
-    "4.1",
-    "N",
-    quote="The three maximal values converge to approximately 0.235",
-    data=["spread/spread"],
-)
-def long_run(data, proved):
-    found = data["spread/spread"]
+@claim(40, "4.1", "N", "spread/spread")
+def long_run(found):
+    """“The three maximal values converge to approximately 0.235”"""
     means = found["exponent"].values[:, :, 0].mean(axis=0)
     error = float(means.std(ddof=1)) / np.sqrt(means.size)
     mean = float(means.mean())
@@ -169,57 +119,36 @@ def _short_runs(spread):
     return stretches(spread, max(SHORT // block, 1) * block)
 
 
-@claim(
-    41,
-    "4.1",
-    "T",
-    quote="The two non-vanishing exponents are equal and opposite",
-    data=["derivations", "spread/spread"],
-)
-def opposite(data, proved):
-    found = data["spread/spread"]
+@claim(41, "4.1", "T", "derivations", "spread/spread")
+def opposite(algebra, found):
+    """“The two non-vanishing exponents are equal and opposite”"""
     means = found["exponent"].values.mean(axis=0)
     impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
     drift = max(float(np.abs(means[:, 0] + means[:, 2]).max()), float(np.abs(means[:, 1]).max()))
-    exact = formula(data["derivations"], "determinants")[0]
-    word = HOLDS if exact and drift < 100.0 / impacts else FALSE
+    holds = formula(algebra, "determinants")[0] and drift < 100.0 / impacts
     value = f"|l1 + l3|, |l2| up to {drift:.0e} after {impacts:,} impacts, falling like 1/n"
-    return Verdict(word, value, "exact in the limit", "tests/proofs/test_derivations.py")
+    return decided(holds, value, "exact in the limit", DERIVED)
 
 
-@claim(
-    43,
-    "4.1",
-    "Q",
-    quote="The presence of regular behavior in the system depends crucially on the energy",
-    data=["atlas/line"],
-)
-def depends_on_energy(data, proved):
-    line = data["atlas/line"]
+@claim(43, "4.1", "Q", "atlas/line")
+def depends_on_energy(line):
+    """“The presence of regular behavior in the system depends crucially on the energy”"""
     low, high = float(line["regular"].min()), float(line["regular"].max())
-    word = HOLDS if low < 0.5 * high else FALSE
     value = f"regular share of the section from {low:.3f} to {high:.3f}"
     energy = line["energy"].values * float(line.attrs["g"]) ** 2
     for one in ENERGIES:
         row = int(np.argmin(np.abs(energy - one)))
         share, *ends = (float(line[f"regular{end}"].values[0, row]) for end in ENDS)
         value += f"; {share:.3f} ({ends[0]:.3f} to {ends[1]:.3f}) at E = {energy[row]:.4g}"
-    return Verdict(word, value, _widest(line), "more_figures/atlas/line.png")
+    return decided(low < 0.5 * high, value, _widest(line), "more_figures/atlas/line.png")
 
 
-@claim(
-    44,
-    "4.1",
-    "Q",
-    quote="the regular trajectories appear to be progressively destroyed as the total energy "
-    "increases",
-    data=["atlas/line"],
-)
-def destroyed(data, proved):
-    line = data["atlas/line"]
-    share, low, high = (line[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
-    falls = float(share[-1]) < 0.5 * float(share[0])
-    rises = _rises(low, high)
+@claim(44, "4.1", "Q", "atlas/line")
+def destroyed(line):
+    """“the regular trajectories appear to be progressively destroyed as the total energy
+    increases”"""
+    share, low, high = (line[f"regular{end}"].values[0] for end in ENDS)
+    falls, rises = float(share[-1]) < 0.5 * float(share[0]), _rises(low, high)
     word = FALSE if not falls else CORRECTED if rises else HOLDS
     energy = line["energy"].values * float(line.attrs["g"]) ** 2
     said = "; ".join(
@@ -260,33 +189,21 @@ def _rises(low, high):
     return [*found, (begin, best)] if best is not None else found
 
 
-@claim(
-    45,
-    "4.1",
-    "Q",
-    quote="does not appear to depend continuously on initial conditions",
-    data=["rotation/rotation"],
-)
-def discontinuous(data, proved):
-    found = data["rotation/rotation"]
+@claim(45, "4.1", "Q", "rotation/rotation")
+def discontinuous(found):
+    """“does not appear to depend continuously on initial conditions”"""
     good = regular(found["exponent"].values[0], found.attrs["impacts"])
     switches = int(np.sum(good[1:] != good[:-1]))
-    word = HOLDS if switches >= 3 else FALSE
     value = f"along y = 0 regular and chaotic starts change places {switches} times"
-    return Verdict(word, value, f"{good.size} starts", "more_figures/claims/rotation.png")
+    starts = f"{good.size} starts"
+    return decided(switches >= 3, value, starts, "more_figures/claims/rotation.png")
 
 
-@claim(
-    46,
-    "1, 5",
-    "Q",
-    quote="an energy surface typically consists of periodic, quasi-periodic and chaotic "
-    "trajectories",
-    data=["atlas/plane"],
-)
-def mixture(data, proved):
-    share = data["atlas/plane"]["regular"].values
+@claim(46, "1, 5", "Q", "atlas/plane")
+def mixture(plane):
+    """“an energy surface typically consists of periodic, quasi-periodic and chaotic
+    trajectories”"""
+    share = plane["regular"].values
     mixed = float(np.mean((share > 0.0) & (share < 1.0)))
-    word = HOLDS if mixed > 0.5 else FALSE
     value = f"{100 * mixed:.0f} % of {share.size:,} pairs of k and E/g^2 have both"
-    return Verdict(word, value, "share of the cells", "more_figures/atlas/plane.png")
+    return decided(mixed > 0.5, value, "share of the cells", "more_figures/atlas/plane.png")

@@ -1,14 +1,12 @@
-"""Claims of the paper's sections 4.2 and 5: twist, conjecture, what is left open."""
+"""Claims of the paper's sections 4.2 and 5: twist, conjecture, what is open or not computed."""
 
 import numpy as np
 
 from pseudorigid.evidence.rotation import island, regular
 
-from . import ledger
-from .ledger import CORRECTED, HOLDS, NOT_COMPUTED, OPEN, PROVED, Verdict, formula
+from .ledger import CORRECTED, HOLDS, NOT_COMPUTED, OPEN, PROVED, Verdict, claim, formula
 
-CLAIMS = []
-claim = ledger.collector(CLAIMS)
+KAM = ("twist-fixed-point", "twist-fixed-point-low", "twist-six")
 
 
 def _turns(rises, falls):
@@ -25,16 +23,9 @@ def _turning(found, row):
     return int(np.sum(large & (steps > 0.0))), int(np.sum(large & (steps < 0.0)))
 
 
-@claim(
-    49,
-    "4.2",
-    "O",
-    quote="the impact map cannot be readily categorized as a twist map",
-    data=["rotation/rotation"],
-    theorems=["twist-fixed-point", "twist-zero"],
-)
-def no_twist_map(data, proved):
-    found = data["rotation/rotation"]
+@claim(49, "4.2", "O", "rotation/rotation", theorems=["twist-fixed-point", "twist-zero"])
+def no_twist_map(found, proved):
+    """“the impact map cannot be readily categorized as a twist map”"""
     energies = found["energy"].values
     counts = [_turning(found, row) for row in range(energies.size)]
     both = [f"{e:g}" for e, count in zip(energies, counts, strict=True) if _turns(*count)]
@@ -47,64 +38,52 @@ def no_twist_map(data, proved):
     return Verdict(word, value + zero, "along y = 0", "more_figures/claims/rotation.png")
 
 
-@claim(
-    50,
-    "4.2",
-    "O",
-    quote="it is conjectured here that its symplectic property is responsible for the observed "
-    "regular behavior",
-    data=["derivations"],
-    theorems=["twist-fixed-point", "twist-six"],
-)
-def conjecture(data, proved):
-    area = formula(data["derivations"], "area")[0]
-    reversible = formula(data["derivations"], "reversible")[1]
-    both = proved("twist-fixed-point") and proved("twist-six")
-    if not (area and both):
+@claim(50, "4.2", "O", "derivations", theorems=["twist-fixed-point", "twist-six"])
+def conjecture(algebra, proved):
+    """“it is conjectured here that its symplectic property is responsible for the observed
+    regular behavior”"""
+    if not (formula(algebra, "area")[0] and proved("twist-fixed-point", "twist-six")):
         return Verdict(OPEN, "", "", "./reproduce prove")
     value = "area kept makes the curves around the elliptic points (Moser)"
-    value += "; so would the reversor, which the map has too" if reversible else ""
+    if formula(algebra, "reversible")[1]:
+        value += "; so would the reversor, which the map has too"
     return Verdict(CORRECTED, value, "near these points", "./reproduce prove")
 
 
-@claim(
-    51,
-    "4.2",
-    "Q",
-    quote="This result is consistent with the findings in the recent work by Fetecau et al.",
-)
-def fetecau(data, proved):
+@claim(51, "4.2", "Q")
+def fetecau():
+    """“This result is consistent with the findings in the recent work by Fetecau et al.”"""
     return Verdict(f"{NOT_COMPUTED}: a matter of citation", "", "", "")
 
 
-@claim(
-    52,
-    "5",
-    "O",
-    quote="A rigorous justification for the existence of regular trajectories in the vicinity of "
-    "the periodic points of the map along the lines of the KAM theory remains an outstanding "
-    "question",
-    theorems=["twist-fixed-point", "twist-fixed-point-low", "twist-six"],
-)
-def kam(data, proved):
-    names = ("twist-fixed-point", "twist-fixed-point-low", "twist-six")
-    done = [name for name in names if proved(name)]
-    word = PROVED if len(done) == len(names) else OPEN
+@claim(52, "5", "O", theorems=KAM)
+def kam(proved):
+    """“A rigorous justification for the existence of regular trajectories in the vicinity of
+    the periodic points of the map along the lines of the KAM theory remains an outstanding
+    question”"""
+    done = [name for name in KAM if proved(name)]
+    word = PROVED if len(done) == len(KAM) else OPEN
     value = f"invariant curves in every neighbourhood: {', '.join(done)}" if done else ""
     return Verdict(word, value, "near the points" if done else "", "./reproduce prove")
 
 
-@claim(
-    56,
-    "4.2",
-    "Q",
-    quote="is remarkably similar to that of symplectic twist maps",
-    data=["rotation/rotation"],
-    theorems=["twist-fixed-point", "twist-six"],
-)
-def like_twist_maps(data, proved):
-    up, down = _turning(data["rotation/rotation"], 0)
-    word = HOLDS if min(up, down) == 0 < max(up, down) else OPEN
-    word = PROVED if word == HOLDS and proved("twist-fixed-point") and proved("twist-six") else word
+@claim(56, "4.2", "Q", "rotation/rotation", theorems=["twist-fixed-point", "twist-six"])
+def like_twist_maps(rotation, proved):
+    """“is remarkably similar to that of symplectic twist maps”"""
+    up, down = _turning(rotation, 0)
+    word = PROVED if proved("twist-fixed-point", "twist-six") else HOLDS
+    word = word if min(up, down) == 0 < max(up, down) else OPEN
     value = f"the rotation number changes one way over {up + down} starts across the main island"
     return Verdict(word, value, "along y = 0", "more_figures/claims/rotation.png")
+
+
+@claim(57, "2.2", "Q")
+def agree_with_solberg():
+    """“The resulting equations agree with those derived in [7]”"""
+    return Verdict(f"{NOT_COMPUTED}: the source is not at hand", "", "", "")
+
+
+@claim(58, "Figure 1", "F")
+def sketch():
+    """a sketch of the ball, its position and its strain"""
+    return Verdict(f"{NOT_COMPUTED}: a sketch, not a result", "", "", "")

@@ -3,9 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 HOLDS, CORRECTED, FALSE = "holds", "holds with a correction", "does not hold"
 PROVED, OPEN, NOT_COMPUTED = "proved", "open", "not computed"
 VERDICTS = (HOLDS, CORRECTED, FALSE, PROVED, OPEN)
+DERIVED = "tests/proofs/test_derivations.py"  # the evidence for what computer algebra settles
+CLAIMS = {}  # number -> Claim
 KINDS = {
     "E": "equation",
     "N": "number",
@@ -64,8 +68,8 @@ class Claim:
     theorems : tuple of str
         Names of theorems whose proofs it asks for.
     check : callable
-        From (datasets, proved) to a Verdict; `datasets` has those named, `proved` is a function
-        from a theorem's name to whether it is proved.
+        From the datasets, in that order, to a Verdict; where theorems are named its last argument
+        is `proved`, a function from names of some to whether all of these are proved.
     """
 
     number: int
@@ -94,36 +98,41 @@ class Claim:
         if missing:
             raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
 
-        def proved(name):
-            if name not in self.theorems:
-                raise KeyError(f"claim {self.number} does not name the theorem {name}")
-            return proofs.get(name) == PROVED
+        def proved(*names):
+            for name in names:
+                if name not in self.theorems:
+                    raise KeyError(f"claim {self.number} does not name the theorem {name}")
+            return all(proofs.get(name) == PROVED for name in names)
 
-        return self.check({name: datasets[name] for name in self.data}, proved)
+        given = [datasets[name] for name in self.data]
+        return self.check(*given, proved) if self.theorems else self.check(*given)
 
 
-def collector(claims):
-    """A decorator that adds a claim with the function below it as its check to the list `claims`.
+def claim(number, place, kind, *data, theorems=()):
+    """A decorator that adds a claim, with the function below it as its check, to CLAIMS.
 
-    Its arguments are those of Claim; `quote` gives the paper's words, `words` a paraphrase.
+    The function's docstring is the statement: the paper's own words in quotation marks, “ and ”,
+    or else a paraphrase. The arguments are those of Claim.
     """
+    if not kind or set(kind) - set(KINDS):
+        raise ValueError(f"claim {number}: kind {kind!r} is not allowed: of {''.join(KINDS)}")
 
-    def claim(number, place, kind, *, quote=None, words=None, data=(), theorems=()):
-        if (quote is None) == (words is None):
-            raise ValueError(f"claim {number} needs either a quote or words")
-        if not kind or set(kind) - set(KINDS):
-            raise ValueError(f"claim {number}: kind {kind!r} is not allowed: of {''.join(KINDS)}")
+    def add(check):
+        said = " ".join((check.__doc__ or "").split())
+        words = said.strip("“”")
+        if not words:
+            raise ValueError(f"claim {number} has no words")
+        quoted = words != said
+        CLAIMS[number] = Claim(number, place, words, quoted, kind, data, tuple(theorems), check)
+        return check
 
-        def add(check):
-            said = quote or words
-            claims.append(
-                Claim(number, place, said, bool(quote), kind, tuple(data), tuple(theorems), check)
-            )
-            return check
+    return add
 
-        return add
 
-    return claim
+def decided(holds, value, error, evidence, proved=False):
+    """The Verdict on a statement that holds or does not, and if it holds may be proved."""
+    word = FALSE if not holds else PROVED if proved else HOLDS
+    return Verdict(word, value, error, evidence)
 
 
 def formula(dataset, *names):
@@ -131,23 +140,20 @@ def formula(dataset, *names):
 
     `corrected` is whether each that does not hold as printed holds when it is corrected.
     """
-    known = dataset["formula"].values.tolist()
-    rows = [known.index(name) for name in names]
-    printed = [int(dataset["printed"].values[row]) for row in rows]
-    corrected = [int(dataset["corrected"].values[row]) for row in rows]
-    holds = all(p == 1 or (p == -1 and c == 1) for p, c in zip(printed, corrected, strict=True))
-    mended = all(p == 1 or c == 1 for p, c in zip(printed, corrected, strict=True))
-    return holds, mended
+    found = dataset.sel(formula=list(names))
+    printed, corrected = found["printed"].values, found["corrected"].values
+    holds = (printed == 1) | ((printed == -1) & (corrected == 1))
+    return bool(np.all(holds)), bool(np.all((printed == 1) | (corrected == 1)))
 
 
-def derived(dataset, *names, value="", remark=""):
+def derived(dataset, *names, value, remark="exact", proved=False):
     """The Verdict on formulas that computer algebra settles."""
     holds, mended = formula(dataset, *names)
-    word = HOLDS if holds else CORRECTED if mended else FALSE
-    return Verdict(word, value, remark or "exact", "tests/proofs/test_derivations.py")
+    if mended and not holds:
+        return Verdict(CORRECTED, value, remark, DERIVED)
+    return decided(holds, value, remark, DERIVED, proved)
 
 
 def number_of(dataset, name):
     """The number that comes with a formula of the dataset of derivations."""
-    row = dataset["formula"].values.tolist().index(name)
-    return float(dataset["value"].values[row])
+    return float(dataset["value"].sel(formula=name))

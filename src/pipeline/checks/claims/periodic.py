@@ -4,50 +4,32 @@ import numpy as np
 
 from pseudorigid.evidence.rotation import plateaus, regular
 
-from . import ledger
-from .ledger import CORRECTED, FALSE, HOLDS, OPEN, PROVED, Verdict
+from .ledger import CORRECTED, FALSE, HOLDS, OPEN, PROVED, Verdict, claim, decided
 
-CLAIMS = []
-claim = ledger.collector(CLAIMS)
-
+HORSESHOES = ("horseshoe-inner", "horseshoe-outer")
+SIXES = ("six-elliptic", "six-hyperbolic", "six-inverse")
 TRANSVERSAL = 1e-8  # sines of crossing angles in doubles can be told from 0 above that
 STEPS = range(20, 44)  # of differences, as negative powers of two
 GONE = 0.1  # a residue that falls below that share of its largest goes to 0
 BROKEN = 1.0  # a residue above that belongs to no curve
 
 
-@claim(
-    21,
-    "4.1",
-    "NT",
-    quote="the map possesses one elliptic fixed point",
-    data=["fig3/periodic"],
-    theorems=["fixed-point"],
-)
-def fixed_point(data, proved):
-    found = data["fig3/periodic"]
-    kinds = found["type"].values.tolist()
-    word = HOLDS if kinds == ["elliptic"] else FALSE
-    word = PROVED if word == HOLDS and proved("fixed-point") else word
-    places = ", ".join(f"{float(x):.12f}" for x in found["x"].values[:, 0])
-    return Verdict(word, f"x = {places}", "1e-12", "paper_figures/fig3.png")
+@claim(21, "4.1", "NT", "fig3/periodic", theorems=["fixed-point"])
+def fixed_point(found, proved):
+    """“the map possesses one elliptic fixed point”"""
+    one = found["type"].values.tolist() == ["elliptic"]
+    value = f"x = {', '.join(f'{float(x):.12f}' for x in found['x'].values[:, 0])}"
+    return decided(one, value, "1e-12", "paper_figures/fig3.png", proved("fixed-point"))
 
 
-@claim(
-    22,
-    "4.1",
-    "NQ",
-    quote="two sets of period-six points are found to exist outside this major island",
-    data=["fig4/periodic"],
-    theorems=["six-elliptic", "six-hyperbolic", "six-inverse"],
-)
-def period_six(data, proved):
-    kinds = data["fig4/periodic"]["type"].values.tolist()
-    both = "elliptic" in kinds and "hyperbolic" in kinds and _alternate(data["fig4/periodic"])
+@claim(22, "4.1", "NQ", "fig4/periodic", theorems=SIXES)
+def period_six(orbits, proved):
+    """“two sets of period-six points are found to exist outside this major island”"""
+    kinds = orbits["type"].values.tolist()
+    both = "elliptic" in kinds and "hyperbolic" in kinds and _alternate(orbits)
     word = HOLDS if sorted(kinds) == ["elliptic", "hyperbolic"] else CORRECTED if both else FALSE
-    names = ("six-elliptic", "six-hyperbolic", "six-inverse")
-    exist = "each proved to exist" if all(proved(name) for name in names) else "symmetric ones"
-    value = f"{len(kinds)} orbits: {_named(data['fig4/periodic'])}"
+    exist = "each proved to exist" if proved(*SIXES) else "symmetric ones"
+    value = f"{len(kinds)} orbits: {_named(orbits)}"
     value += "; those of the first two between each other" if both else ""
     return Verdict(word, value, exist, "more_figures/claims/jumps.png")
 
@@ -72,16 +54,9 @@ def _alternate(found):
     return bool(np.all(owner != np.roll(owner, 1)))
 
 
-@claim(
-    23,
-    "4.1",
-    "T",
-    quote="A dense set of quasi-periodic solutions is formed around the elliptic fixed point",
-    data=["rotation/rotation"],
-    theorems=["twist-fixed-point"],
-)
-def dense(data, proved):
-    found = data["rotation/rotation"]
+@claim(23, "4.1", "T", "rotation/rotation", theorems=["twist-fixed-point"])
+def dense(found, proved):
+    """“A dense set of quasi-periodic solutions is formed around the elliptic fixed point”"""
     place, turns = found["detail_place"].values, found["detail_rotation"].values
     good = regular(found["detail_exponent"].values, found.attrs["detail_impacts"])
     gaps = plateaus(place[good], turns[good])
@@ -94,34 +69,23 @@ def dense(data, proved):
     return Verdict(CORRECTED, value, error, "more_figures/claims/rotation.png")
 
 
-@claim(
-    24,
-    "Figures 3, 4",
-    "F",
-    words="the elliptic motions of period one and six, over 16 and 60 units of time",
-    data=["fig3/periodic", "fig4/periodic", "fig3/motion", "fig4/motion"],
-)
-def motions(data, proved):
-    times = [float(data[f"fig{n}/motion"]["t"].values[-1]) for n in (3, 4)]
-    periods = [float(data[f"fig{n}/periodic"]["total_time"].values[0]) for n in (3, 4)]
-    kinds = [str(data[f"fig{n}/periodic"]["type"].values[0]) for n in (3, 4)]
-    good = times == [16.0, 60.0] and kinds == ["elliptic"] * 2
+@claim(24, "Figures 3, 4", "F", "fig3/periodic", "fig4/periodic", "fig3/motion", "fig4/motion")
+def motions(*found):
+    """the elliptic motions of period one and six, over 16 and 60 units of time"""
+    orbits, lines = found[:2], found[2:]
+    times = [float(line["t"].values[-1]) for line in lines]
+    periods = [float(orbit["total_time"].values[0]) for orbit in orbits]
+    elliptic = all(str(orbit["type"].values[0]) == "elliptic" for orbit in orbits)
     value = f"periods {periods[0]:.12f} and {periods[1]:.11f}"
     evidence = "paper_figures/fig3.png, fig4.png"
-    return Verdict(HOLDS if good else FALSE, value, "1e-11", evidence)
+    return decided(elliptic and times == [16.0, 60.0], value, "1e-11", evidence)
 
 
-@claim(
-    25,
-    "4.1",
-    "Q",
-    quote="substituting all partial derivatives by first-order differences",
-    data=["fig4/periodic"],
-)
-def differences(data, proved):
+@claim(25, "4.1", "Q", "fig4/periodic")
+def differences(found):
+    """“substituting all partial derivatives by first-order differences”"""
     from pseudorigid.dynamics.ball import Ball
 
-    found = data["fig4/periodic"]
     ball = Ball(float(found.attrs["k"]), float(found.attrs["g"]))
     names, period = ("x", "xdot", "udot"), found.sizes["point"]
     worst = 0.0
@@ -131,9 +95,9 @@ def differences(data, proved):
         exact = float(found["trace"].values[orbit])
         errors = [abs(trace - exact) / max(1.0, abs(exact)) for trace in traces]
         worst = max(worst, min(errors))
-    word = HOLDS if worst < 1e-3 else FALSE
     value = f"at the best step the traces of P^{period} are right to {worst:.0e}"
-    return Verdict(word, value, "about half of the digits", "tests/kernel/test_impact.py")
+    remark = "about half of the digits"
+    return decided(worst < 1e-3, value, remark, "tests/kernel/test_impact.py")
 
 
 def _trace(ball, point, step, period):
@@ -144,39 +108,27 @@ def _trace(ball, point, step, period):
     return sum(float(after[i][i + 1] - after[i][0]) for i in range(3)) / step - 1.0
 
 
-@claim(
-    26,
-    "4.1",
-    "T",
-    quote="The stable and unstable manifolds of the heteroclinic hyperbolic period-six points "
-    "intersect transversally",
-    data=["flux/flux"],
-    theorems=["horseshoe-inner", "horseshoe-outer"],
-)
-def transversal(data, proved):
-    sines = np.abs(data["flux/flux"]["sine"].values)
-    word = HOLDS if float(sines.min()) > TRANSVERSAL else FALSE
-    both = proved("horseshoe-inner") and proved("horseshoe-outer")
-    word = PROVED if word == HOLDS and both else word
+@claim(26, "4.1", "T", "flux/flux", theorems=HORSESHOES)
+def transversal(flux, proved):
+    """“The stable and unstable manifolds of the heteroclinic hyperbolic period-six points
+    intersect transversally”"""
+    sines = np.abs(flux["sine"].values)
+    crossed = float(sines.min()) > TRANSVERSAL
     inner, outer = (" and ".join(f"{s:.8g}" for s in row) for row in sines)
     value = f"sines of the angles in (x, y): inner {inner}; outer {outer}"
-    return Verdict(word, value, "all digits", "more_figures/claims/flux.png")
+    evidence = "more_figures/claims/flux.png"
+    return decided(crossed, value, "all digits", evidence, proved(*HORSESHOES))
 
 
-@claim(
-    27,
-    "4.1",
-    "Q",
-    quote="whose oscillations remain small until they reach the vicinity of the hyperbolic points",
-    data=["flux/flux"],
-)
-def oscillations(data, proved):
-    found = data["flux/flux"]
+@claim(27, "4.1", "Q", "flux/flux")
+def oscillations(found):
+    """“whose oscillations remain small until they reach the vicinity of the hyperbolic
+    points”"""
     inner, outer = (float(a) for a in found["area"].values)
-    word = HOLDS if inner < 1e-3 * outer else FALSE
     digits = " and ".join(_short(str(text)) for text in found["digits"].values)
     value = f"lobes of the inner and the outer branches: {digits}"
-    return Verdict(word, value, "all digits", "more_figures/claims/flux.png")
+    small = inner < 1e-3 * outer
+    return decided(small, value, "all digits", "more_figures/claims/flux.png")
 
 
 def _short(digits):
@@ -191,90 +143,58 @@ def _short(digits):
     return kept + (f"e{exponent}" if exponent else "")
 
 
-@claim(
-    28,
-    "4.1",
-    "T",
-    quote="they prevent the quasi-periodic trajectories from further expanding around the "
-    "elliptic fixed point",
-    data=["last_curve/last_curve"],
-)
-def last_curve(data, proved):
-    found = data["last_curve/last_curve"]
+@claim(28, "4.1", "T", "last_curve/last_curve")
+def last_curve(found):
+    """“they prevent the quasi-periodic trajectories from further expanding around the elliptic
+    fixed point”"""
     size = np.abs(found["residue"].values)
     gone = size[:, -1] < GONE * size.max(axis=1)
     broken = (size[:, -1] == size.max(axis=1)) & (size[:, -1] > BROKEN)
-    numbers = found["rotation"].values
+    numbers, evidence = found["rotation"].values, "more_figures/claims/last_curve.png"
     if not (gone.any() and broken.any()):
-        return Verdict(OPEN, "no break-up between the rotation numbers", "", "last_curve.png")
+        return Verdict(OPEN, "no break-up between the rotation numbers", "", evidence)
     inside, outside = float(numbers[gone].min()), float(numbers[broken].max())
     value = f"a curve with rotation number {inside:.7f}, none with {outside:.7f}"
     last = int(found["period"].values[:, -1].min())
-    error = f"residues of convergents up to period {last}"
-    return Verdict(HOLDS, value, error, "more_figures/claims/last_curve.png")
+    return Verdict(HOLDS, value, f"residues of convergents up to period {last}", evidence)
 
 
-@claim(
-    29,
-    "Figures 5, 6",
-    "FN",
-    words="one hyperbolic point lies in the window 0.21 < x < 0.2116, 0.0925 < xdot < 0.0932",
-    data=["fig6/manifolds"],
-)
-def window(data, proved):
-    x, xdot = (float(data["fig6/manifolds"].attrs[f"point_{name}"]) for name in ("x", "xdot"))
+@claim(29, "Figures 5, 6", "FN", "fig6/manifolds")
+def window(manifolds):
+    """one hyperbolic point lies in the window 0.21 < x < 0.2116, 0.0925 < xdot < 0.0932"""
+    x, xdot = (float(manifolds.attrs[f"point_{name}"]) for name in ("x", "xdot"))
     inside = 0.21 < x < 0.2116 and 0.0925 < xdot < 0.0932
     value = f"x = {x:.12f}, xdot = {xdot:.12f}"
-    return Verdict(HOLDS if inside else FALSE, value, "1e-12", "paper_figures/fig6.png")
+    return decided(inside, value, "1e-12", "paper_figures/fig6.png")
 
 
-@claim(
-    30,
-    "4.1",
-    "O",
-    quote="a formal proof of the existence of such a set is currently unavailable",
-    theorems=["horseshoe-inner", "horseshoe-outer"],
-)
-def horseshoe(data, proved):
+@claim(30, "4.1", "O", theorems=HORSESHOES)
+def horseshoe(proved):
+    """“a formal proof of the existence of such a set is currently unavailable”"""
     sides = [side for side in ("inner", "outer") if proved(f"horseshoe-{side}")]
     word = PROVED if len(sides) == 2 else OPEN
     value = f"a horseshoe along the {' and the '.join(sides)} connections" if sides else ""
     return Verdict(word, value, "ball arithmetic" if sides else "", "./reproduce prove")
 
 
-@claim(
-    31,
-    "4.1",
-    "Q",
-    quote="heteroclinic hyperbolic period-six points",
-    data=["flux/flux"],
-)
-def heteroclinic(data, proved):
-    found = data["flux/flux"]
+@claim(31, "4.1", "Q", "flux/flux")
+def heteroclinic(found):
+    """“heteroclinic hyperbolic period-six points”"""
     pairs = list(zip(found["saddle"].values, found["target"].values, strict=True))
-    word = HOLDS if all(one != other for one, other in pairs) else FALSE
+    apart = all(one != other for one, other in pairs)
     value = "branches join neighbours: inner {} to {}, outer {} to {}; points of one orbit"
     value = value.format(*(int(place) for pair in pairs for place in pair))
-    return Verdict(word, value, "primary orbits, enclosed", "more_figures/claims/flux.png")
+    return decided(apart, value, "primary orbits, enclosed", "more_figures/claims/flux.png")
 
 
-@claim(
-    55,
-    "1",
-    "Q",
-    quote="Chaos occurs at a given energy level due to the transversal intersections of the "
-    "stable and unstable manifolds of hyperbolic points",
-    data=["flux/flux"],
-    theorems=["horseshoe-inner", "horseshoe-outer"],
-)
-def source_of_chaos(data, proved):
-    found = data["flux/flux"]
+@claim(55, "1", "Q", "flux/flux", theorems=HORSESHOES)
+def source_of_chaos(found, proved):
+    """“Chaos occurs at a given energy level due to the transversal intersections of the stable
+    and unstable manifolds of hyperbolic points”"""
     crossed = float(np.abs(found["sine"].values).min()) > TRANSVERSAL
-    bounded = float(found["sea_inside"].values[0]) == 0.0 < float(found["sea_out"].values[1])
-    word = HOLDS if crossed and bounded else FALSE
-    both = proved("horseshoe-inner") and proved("horseshoe-outer")
-    said = "proved to make chaos" if both else "seen"
-    share = float(found["sea_out"].values[1])
+    inside, share = float(found["sea_inside"].values[0]), float(found["sea_out"].values[1])
+    holds = crossed and inside == 0.0 < share
+    said = "proved to make chaos" if proved(*HORSESHOES) else "seen"
     value = f"crossings {said}; the sea never passes the inner branches, and the outer ones at "
     value += f"{share:.5f} of its impacts"
-    return Verdict(word, value, "of a finite run", "more_figures/claims/flux.png")
+    return decided(holds, value, "of a finite run", "more_figures/claims/flux.png")

@@ -94,23 +94,11 @@ def _complex(x, y, matrix):
     q, p = (z + conjugate) * acb(0.5), (z - conjugate) * (acb(0.5) / I)
     place = (q * acb(beta), q * acb(delta) + p * acb(1 / beta))
     rest = [Jet(plane, [acb(0), *(acb(c) for c in jet.coefficients[1:])]) for jet in (x, y)]
-    x, y = (_at(jet, *place) for jet in rest)
+    x, y = (jet.at(*place) for jet in rest)
     map_ = x * (1 / beta - I * delta) + y * (I * beta)
     rotation = acb(cosine, -sine)
     map_.coefficients[1:3] = [rotation, acb(0)]  # as they are by the choice of q and p
     return rotation, map_
-
-
-def _at(jet, first, second):
-    """The jet with two jets in the place of its variables."""
-    powers = [[Jet.constant_of(jet.algebra, acb(1))] for _ in range(2)]
-    for row, base in zip(powers, (first, second), strict=True):
-        for _ in range(jet.algebra.order):
-            row.append(row[-1] * base)
-    total = Jet.constant_of(jet.algebra, acb(0))
-    for (i, j), c in zip(jet.algebra.monomials, jet.coefficients, strict=True):
-        total = total + powers[0][i] * powers[1][j] * c
-    return total
 
 
 def _conjugate(jet):
@@ -125,7 +113,7 @@ def _twists(rotation, map_, order):
     back = rotation.conjugate()
     twists = []
     for degree in range(2, order + 1):
-        rest = _at(map_, change, _conjugate(change)) - _at(change, normal, _conjugate(normal))
+        rest = map_.at(change, _conjugate(change)) - change.at(normal, _conjugate(normal))
         for place, (i, j) in enumerate(plane.monomials):
             if i + j != degree:
                 continue

@@ -74,8 +74,7 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
         saddle = periodic.prove(surface, centres, radius)
         if saddle.type != "hyperbolic":
             raise NotProvedError(f"the orbit at the sets is {saddle.type}, not hyperbolic")
-        if window and not any(periodic.inside(surface, z, window) for z in saddle.points):
-            raise NotProvedError("no point is proved to lie in the window of the paper's figure")
+        periodic.passes(surface, saddle, window)
     with ctx.workprec(BITS):
         saddles, chain, leaves, enters = _sets(certificate)
         for one, point in zip(saddles, saddle.points, strict=True):
@@ -101,11 +100,8 @@ def check(text, surface, *, period, radius, window, crossing, entropy):
         bound = _entropy(period, loop)
         if not bound > ball_of(entropy):
             raise NotProvedError(f"the entropy is not proved to be above {float(entropy)}")
-        margins = {
-            "beyond": min(m for m, _ in measured),
-            "room": min(m for _, m in measured),
-            "cones": cone,
-        }
+        beyond, room = map(min, zip(*measured, strict=True))
+        margins = {"beyond": beyond, "room": room, "cones": cone}
         digits = {"entropy": bound, "crossing x": x, "crossing angle": angle}
         return Finding(digits, margins, {
             "saddles": saddles, "chain": chain, "edges": edges, "margins": measured, "loop": loop,

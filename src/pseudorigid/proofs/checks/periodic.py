@@ -90,18 +90,10 @@ def check(text, surface, *, period, type, radius, window=None):
     with ctx.workprec(BITS):
         certificate = Certificate(text, "periodic orbit")
         certificate.surface(surface)
-        centres, size = certificate.numbers("points", 2), certificate.number("radius")
-        if len(centres) != period:
-            raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-        if not size >= radius:
-            raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
-        orbit = prove(surface, centres, size)
-        meets(orbit, centres)
-        if orbit.type != type:
-            raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
-        if window is not None and not any(inside(surface, z, window) for z in orbit.points):
-            raise NotProvedError("no point is proved to lie in the window of the paper's figure")
-        margins = {"radius": float(size), "trace": lowest(abs(abs(orbit.trace) - 2))}
+        orbit = stated(certificate, surface, period, type, radius)
+        meets(orbit, certificate)
+        passes(surface, orbit, window)
+        margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
         return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
 
 
@@ -141,6 +133,40 @@ def check_only_fixed_point(text, k, g, energy):
             raise NotProvedError("a second fixed point is not excluded")
         margins = {"theta": lowest(3 * arb.pi() / 2 - bound), "earlier": float(2 - longest * k)}
         return Finding({"energies up to": ball_of(highest)}, margins)
+
+
+def stated(certificate, surface, period, type, radius):
+    """The Orbit near a certificate's points, proved to be of a type and alone in its boxes.
+
+    Parameters
+    ----------
+    certificate : Certificate
+        Its fields points and radius.
+    surface : Surface
+    period : int
+        How many points there must be.
+    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
+    radius : Fraction
+        Of the boxes, at least.
+
+    Returns
+    -------
+    Orbit
+
+    Raises
+    ------
+    NotProvedError
+        With the reason.
+    """
+    centres, size = certificate.numbers("points", 2), certificate.number("radius")
+    if len(centres) != period:
+        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
+    if not size >= radius:
+        raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
+    orbit = prove(surface, centres, size)
+    if orbit.type != type:
+        raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
+    return orbit
 
 
 def prove(surface, centres, radius):
@@ -184,21 +210,21 @@ def prove(surface, centres, radius):
     return orbit
 
 
-def meets(orbit, centres):
+def meets(orbit, certificate):
     """Check that the orbit's points are those that a certificate states, to CLOSE.
 
     Parameters
     ----------
     orbit : Orbit
-    centres : list of (Fraction, Fraction)
-        (x, y).
+    certificate : Certificate
+        Its field points.
 
     Raises
     ------
     NotProvedError
         Where one is not.
     """
-    for point, centre in zip(orbit.points, centres, strict=True):
+    for point, centre in zip(orbit.points, certificate.numbers("points", 2), strict=True):
         for value, stated in zip(point, centre, strict=True):
             if not abs(value - ball_of(stated)) < ball_of(CLOSE):
                 raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
@@ -249,32 +275,34 @@ def _enclose(surface, points, radius):
         "hyperbolic": trace > 2,
         "inverse hyperbolic": trace < -2,
     }
-    (kind,) = [name for name, holds in kinds.items() if holds] or [None]
-    if kind is None:
-        raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
-    return Orbit(tuple(tuple(z) for z in points), tuple(impacts), matrix, kind, radius)
+    for kind, holds in kinds.items():
+        if holds:
+            return Orbit(tuple(map(tuple, points)), tuple(impacts), matrix, kind, radius)
+    raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
 
 
-def inside(surface, point, window):
-    """Whether a point is proved to lie in a window of x and xdot.
+def passes(surface, orbit, window):
+    """Check that one of the orbit's points lies in a window of x and xdot.
 
     Parameters
     ----------
     surface : Surface
-    point : (arb, arb)
-        (x, y).
-    window : ((x low, x high), (xdot low, xdot high))
-        Fractions.
+    orbit : Orbit
+    window : ((x low, x high), (xdot low, xdot high)) or None
+        Fractions; None for any orbit.
 
-    Returns
-    -------
-    bool
+    Raises
+    ------
+    NotProvedError
+        Where none is proved to.
     """
-    xdot, _ = surface.velocities(*point)
-    return all(
-        ball_of(low) < value < ball_of(high)
-        for value, (low, high) in zip((point[0], xdot), window, strict=True)
-    )
+    if window is None:
+        return
+    for x, y in orbit.points:
+        sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
+        if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
+            return
+    raise NotProvedError("no point is proved to lie in the window of the paper's figure")
 
 
 def _digits(surface, orbit):

@@ -58,9 +58,8 @@ def check(text, surface, *, period, radius):
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist")
         certificate.surface(surface)
-        centres = certificate.numbers("points", 2)
-        orbit = _elliptic(surface, centres, certificate, period, radius)
-        periodic.meets(orbit, centres)
+        orbit = periodic.stated(certificate, surface, period, "elliptic", radius)
+        periodic.meets(orbit, certificate)
         form = birkhoff.normal_form(surface, orbit)
         (twist,) = form.twists
         stated = certificate.number("twist")
@@ -109,14 +108,13 @@ def check_zero(text, k, g, *, radius, width):
             raise NotProvedError(
                 f"the band is {float(band):g} wide, not {float(width):g} as stated"
             )
-        centres = certificate.numbers("points", 2)
         high = Surface(low.k, low.g, low.energy + band)
         between = Surface(low.k, low.g, low.energy, band)
         twists = []
         for part in (low, high, between):
-            orbit = _elliptic(part, centres, certificate, 1, radius)
+            orbit = periodic.stated(certificate, part, 1, "elliptic", radius)
             if part is low:
-                periodic.meets(orbit, centres)
+                periodic.meets(orbit, certificate)
             twists.append(birkhoff.normal_form(part, orbit, order=5))
         first, last, whole = (form.twists for form in twists)
         if not (first[0] > 0 and last[0] < 0):
@@ -130,15 +128,3 @@ def check_zero(text, k, g, *, radius, width):
             "nonresonance": lowest(twists[2].nonresonance),
         }
         return Finding(digits, margins)
-
-
-def _elliptic(surface, centres, certificate, period, radius):
-    if len(centres) != period:
-        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-    size = certificate.number("radius")
-    if not size >= radius:
-        raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
-    orbit = periodic.prove(surface, centres, size)
-    if orbit.type != "elliptic":
-        raise NotProvedError(f"the orbit is {orbit.type}, not elliptic")
-    return orbit

@@ -1,4 +1,7 @@
-"""The paper's formulas derived again by computer algebra: which hold, and which when corrected."""
+"""The paper's formulas derived again by computer algebra: which hold, and which when corrected.
+
+Each function of `model`, `motion` and `forms` that returns a Formula is one, in that order.
+"""
 
 import numpy as np
 import xarray as xr
@@ -22,66 +25,28 @@ def derivations(ball, energy):
         or NaN.
     """
     from . import forms, model, motion
+    from .symbols import Formula
 
     table = {
         name: function()
-        for module, names in (
-            (model, MODEL),
-            (motion, MOTION),
-            (forms, FORMS),
-        )
-        for name, function in ((name, getattr(module, name)) for name in names)
+        for module in (model, motion, forms)
+        for name, function in vars(module).items()
+        if getattr(function, "__annotations__", {}).get("return") is Formula
     }
     said = {
         "printed": "whether the formula holds as printed; -1 where the paper prints none",
         "corrected": "whether it holds corrected; -1 where it needs no correction",
+        "value": "a number that comes with the formula",
     }
-    data = {
-        name: ("formula", [_number(getattr(row, name)) for row in table.values()], _about(what))
-        for name, what in said.items()
-    }
-    values = [row.value for row in table.values()]
-    data["value"] = ("formula", values, _about("a number that comes with the formula"))
+    data = {}
+    for name, what in said.items():
+        numbers = [_number(getattr(row, name)) for row in table.values()]
+        data[name] = ("formula", numbers, {"long_name": what, "units": "1"})
     names = np.array(list(table), dtype=object)
     label = ("formula", names, {"long_name": "function of this package that derives it"})
     return xr.Dataset(data, coords={"formula": label})
 
 
-MODEL = (
-    "equations_of_motion",
-    "euler_tensor",
-    "shell",
-    "uncoupled",
-    "softness",
-    "impulse",
-    "impulse_without_stiffness",
-    "jump_conditions",
-    "impulsive_forces",
-    "scaled_impulse",
-    "scaling",
-)
-MOTION = (
-    "flights",
-    "impact_map",
-    "conserved_energy",
-    "bound",
-    "bound_in_flight",
-    "smooth",
-    "contact_speed",
-)
-FORMS = (
-    "jacobian",
-    "exponents",
-    "determinants",
-    "one_form",
-    "area",
-    "reversible",
-)
-
-
-def _number(truth):
-    return -1 if truth is None else int(truth)
-
-
-def _about(what):
-    return {"long_name": what, "units": "1"}
+def _number(found):
+    """A number, or 1, 0 and -1 for true, false and None."""
+    return found if isinstance(found, float) else -1 if found is None else int(found)

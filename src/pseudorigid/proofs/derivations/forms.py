@@ -37,7 +37,7 @@ def some_flights():
         yield values | {g: (-2 * rest / tau**2).subs(values)}
 
 
-def jacobian():
+def jacobian() -> Formula:
     """(33) from the nine linear equations that differentiating (28) gives."""
     (x1, v1, w1), lines = map_residuals(-1)
     lines = sp.Matrix(lines)
@@ -54,14 +54,14 @@ def jacobian():
     return Formula(bool(agree))
 
 
-def exponents():
+def exponents() -> Formula:
     """(32), of a constant Jacobian e^rate: without 1/i the limit is infinite."""
     i, rate = sp.symbols("i rate", positive=True)
     growth = i * rate
     return Formula(sp.limit(growth, i, sp.oo) == rate, sp.limit(growth / i, i, sp.oo) == rate)
 
 
-def determinants():
+def determinants() -> Formula:
     """The Jacobian's determinant is s/s' in (x, xdot, udot), s = xdot + udot, and 1 in (x, y).
 
     The first telescopes along an orbit, so the three exponents add up to 0; the second makes two
@@ -84,7 +84,7 @@ def determinants():
     return Formula(bool(good))
 
 
-def one_form():
+def one_form() -> Formula:
     """(34)-(39): the form on the section, and that the impact keeps it."""
     velocity, rate, position, strain = sp.symbols("xd ud X U", real=True)
     lagrangian = velocity**2 / 2 + k * rate**2 / 2 + g * position - k * strain**2 / 2
@@ -95,7 +95,7 @@ def one_form():
     return Formula(zeros([form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), kept]))
 
 
-def area():
+def area() -> Formula:
     """(40)-(42) although flight times vary (Poincare and Cartan).
 
     The action's differential is xdot dx + k udot du between the ends plus tau dE, whatever is
@@ -114,7 +114,7 @@ def area():
     return Formula(zeros(conditions))
 
 
-def reversible():
+def reversible() -> Formula:
     """The reversor (x, v, w) -> (x, -b, -c) undoes a flight, so P^-1 = R P R."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)

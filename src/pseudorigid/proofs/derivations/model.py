@@ -5,7 +5,7 @@ import sympy as sp
 from .symbols import E0, EV0, GRAVITY, Formula, M, R, T, energy, g, k, rebound, v, w, x, zero, zeros
 
 
-def equations_of_motion():
+def equations_of_motion() -> Formula:
     """(10) between impacts, from the Lagrangian (1)-(3)."""
     position, strain = sp.Function("X")(T), sp.Function("U")(T)
     kinetic = M * position.diff(T) ** 2 / 2 + E0 * strain.diff(T) ** 2 / 2
@@ -15,7 +15,7 @@ def equations_of_motion():
     return Formula(zeros(e.lhs - e.rhs + p for e, p in zip(found, printed, strict=True)))
 
 
-def euler_tensor():
+def euler_tensor() -> Formula:
     """(4): T = integral of rho (X3 udot)^2/2 has a component, not the trace. Value: solid k."""
     r, theta, phi = sp.symbols("r theta phi", positive=True)
 
@@ -33,7 +33,7 @@ def euler_tensor():
     return Formula(printed, corrected, float(solid))
 
 
-def shell():
+def shell() -> Formula:
     """(5): k = 1 for a shell as printed; a third, which is the value, by the component."""
     theta, phi = sp.symbols("theta phi", positive=True)
     ranges = ((theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
@@ -43,7 +43,7 @@ def shell():
     return Formula(found == 1, found == sp.Rational(1, 3), float(found))
 
 
-def uncoupled():
+def uncoupled() -> Formula:
     """Without Poisson's ratio, and only so, a force along an axis strains that axis alone."""
     young, nu = sp.symbols("Y nu", positive=True)
     lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
@@ -53,7 +53,7 @@ def uncoupled():
     return Formula(bool(alone and alike))
 
 
-def softness():
+def softness() -> Formula:
     """Young's modulus in units of rho g R, the value, that g = 0.04 and k = 1/5 ask for."""
     density, young = sp.symbols("rho Y", positive=True)
     volume = 4 * sp.pi * R**3 / 3
@@ -63,7 +63,7 @@ def softness():
     return Formula(None, bool(ratio.is_number), float(ratio))
 
 
-def impulse():
+def impulse() -> Formula:
     """(13) from (11) and (12)."""
     before_x, before_u, p = sp.symbols("xm um p", real=True)
     inertia = k * M * R**2
@@ -74,14 +74,14 @@ def impulse():
     return Formula(len(nontrivial) == 1 and zero(nontrivial[0] - printed))
 
 
-def impulse_without_stiffness():
+def impulse_without_stiffness() -> Formula:
     """(13) has the stiffness EV0 neither in it nor in what it follows from."""
     before_x, before_u = sp.symbols("xm um", real=True)
     printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
     return Formula(EV0 not in printed.free_symbols and impulse().printed)
 
 
-def jump_conditions():
+def jump_conditions() -> Formula:
     """(14) and (25): energy kept, contact speed reversed, an involution."""
     after = rebound(v, w)
     printed = (
@@ -98,7 +98,7 @@ _MASS, _LENGTH, _TIME = sp.symbols("mass length time", positive=True)
 _FORCE, _IMPULSE = _MASS * _LENGTH / _TIME**2, _MASS * _LENGTH / _TIME
 
 
-def impulsive_forces():
+def impulsive_forces() -> Formula:
     """(9), by dimensions: p is an impulse, so p without a delta is no force."""
     delta = 1 / _TIME
     multiplier = sp.cancel(_FORCE / delta)  # of the first line's last member, -p delta
@@ -109,7 +109,7 @@ def impulsive_forces():
     return Formula(printed, corrected)
 
 
-def scaled_impulse():
+def scaled_impulse() -> Formula:
     """(24), by dimensions and from (10) with the delta of the scaled time."""
     rate, p = sp.symbols("omega p", positive=True)
     omega = 1 / _TIME
@@ -121,7 +121,7 @@ def scaled_impulse():
     return Formula(*found)
 
 
-def scaling():
+def scaling() -> Formula:
     """(15)-(20): two numbers are left; and the unit of length is free, so that one of them is."""
     rate, position, strain, unit = sp.symbols("omega X U L", positive=True)
     dx, du = sp.symbols("dX dU", real=True)

@@ -6,7 +6,7 @@ from .symbols import E as LEVEL
 from .symbols import Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero, zeros
 
 
-def flights():
+def flights() -> Formula:
     """(26) and (27)."""
     position, strain = flight(x, b, c, T)
     start = [position, position.diff(T), strain, strain.diff(T)]
@@ -30,7 +30,7 @@ def map_residuals(sign):
     )
 
 
-def impact_map():
+def impact_map() -> Formula:
     """(28): one sign."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)
@@ -45,7 +45,7 @@ def impact_map():
     return Formula(*found)
 
 
-def conserved_energy():
+def conserved_energy() -> Formula:
     """(29): kept by the flight, and an ellipsoid."""
     position, strain = flight(x, b, c, tau)
     whole = position.diff(tau) ** 2 / 2 + k * strain.diff(tau) ** 2 / 2
@@ -60,7 +60,7 @@ def _largest():
     return g / k + sp.sqrt(2 * LEVEL / k + g**2 / k**2)
 
 
-def bound():
+def bound() -> Formula:
     """(31) follows from (30) where g < k, and not where g > k; value: at k = 0.2, g = 0.04."""
     potential = k * x**2 / 2 - g * x
     limit = k / 2 - g
@@ -74,7 +74,7 @@ def bound():
     return Formula(follows and below and above, follows and below, value)
 
 
-def bound_in_flight():
+def bound_in_flight() -> Formula:
     """(6) in flight as well: the amplitude of u is at most the largest x at an impact."""
     square = sp.solve(energy(x, b, c) - LEVEL, c)[0] ** 2 + x**2
     strain = flight(x, b, c, T)[1]
@@ -87,7 +87,7 @@ def bound_in_flight():
     return Formula(zeros(conditions) and bool(sp.diff(2 * (LEVEL + g * x) / k, x) > 0))
 
 
-def smooth():
+def smooth() -> Formula:
     """The energy up to which no flight can touch the floor; value: at k = 0.2, g = 0.04.
 
     A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
@@ -99,7 +99,7 @@ def smooth():
     return Formula(None, len(found) == 1 and zero(found[0] - threshold), value)
 
 
-def contact_speed():
+def contact_speed() -> Formula:
     """(8) and (22): f' >= 0 where the gap closes, and f' = 0 is possible: a grazing impact.
 
     The gap x + u is below zero before, so its slope at zero is not negative; on the rim v + w = 0

@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
+from math import prod
+
+from flint import acb
 
 
 @dataclass(frozen=True)
@@ -148,6 +151,28 @@ class Jet:
             factorial *= n + 1
         shifted = [n * a for n, a in enumerate(terms)][1:]  # cos = sin', term by term
         return self._compose(terms[:-1]), self._compose(shifted)
+
+    def at(self, *places):
+        """The series with other jets of its algebra in the place of its variables.
+
+        Parameters
+        ----------
+        *places : Jet
+            One a variable, with complex balls as coefficients.
+
+        Returns
+        -------
+        Jet
+        """
+        total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
+        powers = [[one] for _ in places]
+        for row, place in zip(powers, places, strict=True):
+            for _ in range(self.algebra.order):
+                row.append(row[-1] * place)
+        for monomial, c in zip(self.algebra.monomials, self.coefficients, strict=True):
+            first, *rest = (row[i] for row, i in zip(powers, monomial, strict=True))
+            total = total + prod(rest, start=first) * c
+        return total
 
     def _compose(self, terms):
         """The sum of terms[n] (self - constant)^n."""

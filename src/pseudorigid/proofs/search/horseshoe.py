@@ -13,7 +13,7 @@ import numpy as np
 from flint import arb, ctx
 
 from .periodic import polished
-from .writing import decimal, header, rows
+from .writing import decimal, decimals, header, rows
 
 BITS = 320  # for an orbit that starts DEEP rounds nearer to its saddle than a double can tell
 DEEP = 100  # rounds about the saddles before the float's start of the connection
@@ -44,7 +44,7 @@ class Plan:
     room: float
 
 
-def propose(surface, ball, points, plan, measure):
+def propose(surface, ball, points, plan, prove):
     """A certificate of a horseshoe.
 
     Parameters
@@ -55,8 +55,9 @@ def propose(surface, ball, points, plan, measure):
     points : list of (float, float)
         The hyperbolic orbit, (x, y); its own mirror image.
     plan : Plan
-    measure : callable
-        What a checker measures of a text: [(beyond, room), ...] of the coverings, in order.
+    prove : callable
+        What a checker finds of a text, with margins [(beyond, room), ...] of the coverings, in
+        order, among its parts.
 
     Returns
     -------
@@ -81,7 +82,7 @@ def propose(surface, ball, points, plan, measure):
         first = (impacts - plan.steps) % len(points)
         text = _text(surface, saddles, mirror, expanding, rho, track, impacts, first, plan)
     free = [["0.0", "0.0"]] * (len(points) + 2 * plan.steps + 2)
-    measured = measure(text + rows("margins", free))
+    measured = prove(text + rows("margins", free)).parts["margins"]
     margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
     return text + rows("margins", margins)
 
@@ -216,15 +217,14 @@ def _text(surface, saddles, mirror, expanding, rho, track, middle, first, plan):
         for z, u, s in zip(saddles, expanding, contracting, strict=True)
     ]
     approach = [[*points[i], *sides[i], *_mirror(sides[2 * middle - i])] for i in chain[:steps]]
-    decimals = [[decimal(a, DIGITS) for a in row] for row in at_saddles + approach]
     half = [decimal(a, DIGITS) for a in (points[middle][0], *sides[middle])]
     return (
         header("horseshoe", surface)
         + f"leaves = {leaves}\nenters = {enters}\n"
         + "# a row: centre, expanding side, contracting side\n"
-        + rows("saddles", decimals[:count])
+        + rows("saddles", decimals(at_saddles, DIGITS))
         + "# up to y = 0; the rest of the chain is the mirror image\n"
-        + rows("approach", decimals[count:])
+        + rows("approach", decimals(approach, DIGITS))
         + f"middle = [{', '.join(half)}]\n"
         + "# of each covering: how far beyond its target's edges, and the room within the others\n"
     )

@@ -31,7 +31,7 @@ def propose(surface, speed, radius):
         k, g, energy = surface.constants()
         fastest = ((2 * energy - g * g * (2 + k)) / (1 + k)).sqrt().mid()
         xdot = ball_of(Fraction(speed))
-        x = _rim(surface, xdot)
+        x = (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
         before, beyond = _flight(surface, x, xdot), _flight(surface, x, -xdot)
         first = _flight(surface, -g, -fastest)
         places = {
@@ -65,11 +65,6 @@ def propose_smooth(k, g):
         f'kind = "no touch"\nk = "{k}"\ng = "{g}"\n'
         f'energy_below = "{threshold}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'
     )
-
-
-def _rim(surface, xdot):
-    k, g, energy = surface.constants()
-    return (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
 
 
 def _flight(surface, x, xdot):

@@ -1,11 +1,11 @@
 """Certificates of periodic orbits: centres from Newton's method, and the largest round box."""
 
-from fractions import Fraction
+from bisect import bisect_left
 from math import ceil, sqrt
 
 from flint import arb, arb_mat, ctx
 
-from .writing import decimal, header, rows
+from .writing import decimals, header, rows
 
 BITS = 160
 DIGITS = 36  # the checker holds thirty of them against the orbit
@@ -62,50 +62,39 @@ def propose(surface, points, holds):
     points : sequence of (float, float)
         (x, y) near the orbit's.
     holds : callable
-        Whether a checker takes a text; the size is the largest for which it does.
+        Whether a checker takes a text; the radius is the largest for which it does.
 
     Returns
     -------
     str
     """
     with ctx.workprec(BITS):
-        points = polished(surface, points)
-        centres = [[decimal(a, DIGITS) for a in point] for point in points]
-    return largest(lambda size: _text(surface, centres, size), holds)
+        centres = rows("points", decimals(polished(surface, points), DIGITS))
+    return largest(header("periodic orbit", surface), centres, holds)
 
 
-def largest(text, holds):
-    """A text with the largest size of one digit for which it holds.
+def largest(before, after, holds):
+    """A text with the largest radius of one digit for which it holds.
 
     Parameters
     ----------
-    text : callable
-        The text for a size, a Fraction.
+    before, after : str
+        The text up to the line with the radius, and behind it.
     holds : callable
-        Whether a text holds; what holds for a size must hold for smaller ones.
+        Whether a text holds; what holds for a radius must hold for smaller ones.
 
     Returns
     -------
     str
-        That with the smallest size if none holds.
+        That with the smallest radius if none holds.
     """
-    sizes = [Fraction(m, 10**e) for e in range(LARGEST, SMALLEST + 1) for m in range(9, 0, -1)]
-    low, high = 0, len(sizes) - 1  # what holds for a size holds for smaller ones
-    while low < high:
-        middle = (low + high) // 2
-        if holds(text(sizes[middle])):
-            high = middle
-        else:
-            low = middle + 1
-    return text(sizes[high])
+    sizes = [f"{m}e-{e:02}" for e in range(LARGEST, SMALLEST + 1) for m in range(9, 0, -1)]
 
+    def text(size):
+        return f"{before}radius = {size}\n{after}"
 
-def _text(surface, centres, size):
-    return (
-        header("periodic orbit", surface)
-        + f"radius = {float(size):.0e}\n"
-        + rows("points", centres)
-    )
+    first = bisect_left(sizes, True, hi=len(sizes) - 1, key=lambda size: holds(text(size)))
+    return text(sizes[first])
 
 
 def propose_only_fixed_point(k, g, energy):

@@ -4,14 +4,13 @@ The twist is proposed by the closed formula for Birkhoff's first coefficient.
 """
 
 from fractions import Fraction
-from math import comb, factorial
 
-from flint import acb, arb, ctx
+from flint import acb, arb, arb_mat, ctx
 
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface
 from .periodic import BITS, DIGITS, largest, polished
-from .writing import decimal, header, rows
+from .writing import decimal, decimals, header, rows
 
 TWIST_DIGITS = 13  # the checker holds nine of them against the twist
 ENERGY_DIGITS = 13  # decimals of the energy
@@ -26,7 +25,7 @@ def propose(surface, points, holds):
     points : sequence of (float, float)
         (x, y) near the orbit's.
     holds : callable
-        Whether a checker takes a text; the size is the largest for which it does.
+        Whether a checker takes a text; the radius is the largest for which it does.
 
     Returns
     -------
@@ -34,10 +33,9 @@ def propose(surface, points, holds):
     """
     with ctx.workprec(BITS):
         points = polished(surface, points)
-        centres = [[decimal(a, DIGITS) for a in point] for point in points]
         value = decimal(estimate(surface, points), TWIST_DIGITS)
-    first = header("twist", surface) + f"twist = {value}\n" + rows("points", centres)
-    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
+        centres = rows("points", decimals(points, DIGITS))
+    return largest(header("twist", surface) + f"twist = {value}\n" + centres, "", holds)
 
 
 def propose_zero(k, g, low, high, start, holds):
@@ -52,7 +50,7 @@ def propose_zero(k, g, low, high, start, holds):
     start : (float, float)
         (x, y) of the fixed point at one of these energies.
     holds : callable
-        Whether a checker takes a text; the size is the largest for which it does.
+        Whether a checker takes a text; the radius is the largest for which it does.
 
     Returns
     -------
@@ -70,10 +68,9 @@ def propose_zero(k, g, low, high, start, holds):
             else:
                 high = middle
         surface = Surface(k, g, low)
-        centres = [[decimal(a, DIGITS) for a in polished(surface, point)[0]]]
-    first = header("zero of the twist", surface)
-    first += f"width = {float(high - low):.0e}\n" + rows("points", centres)
-    return largest(lambda size: first + f"radius = {float(size):.0e}\n", holds)
+        centre = rows("points", decimals(polished(surface, point), DIGITS))
+    width = f"width = {float(high - low):.0e}\n"
+    return largest(header("zero of the twist", surface) + width + centre, "", holds)
 
 
 def estimate(surface, points):
@@ -90,7 +87,10 @@ def estimate(surface, points):
     arb
         tau_1 of `checks.birkhoff`, a midpoint: an estimate.
     """
-    (a, b), (_, d) = _product(surface, points)
+    matrix = arb_mat([[1, 0], [0, 1]])
+    for point in points:
+        matrix = (arb_mat(surface.jacobian(*point)[0]) * matrix).mid()
+    (a, b), (_, d) = matrix.table()
     cosine = ((a + d) / 2).mid()
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)
     beta = (b / sine).sqrt().mid()
@@ -103,46 +103,16 @@ def estimate(surface, points):
         image = surface.impact(x, y)
         x, y = image.x, image.y
     q, p = x / beta, (y - x * (delta / beta)) * beta
-    terms = {}
-    for (i, j), re, im in zip(plane.monomials, q.coefficients, p.coefficients, strict=True):
-        for (m, n), share in _complex_monomial(i, j).items():
-            terms[m, n] = terms.get((m, n), 0) + acb(re.mid(), im.mid()) * share
-    g20, g11, g02, g21 = (
-        terms[m, n] * factorial(m) * factorial(n) for m, n in ((2, 0), (1, 1), (0, 2), (2, 1))
-    )
-    z = acb(cosine, -sine)
-    w = acb(cosine, sine)
+    pairs = zip(q.coefficients, p.coefficients, strict=True)
+    map_ = Jet(plane, [acb(a.mid(), b.mid()) for a, b in pairs])
+    z, bar = (Jet.variable(plane, i, acb(0)) for i in (0, 1))
+    map_ = map_.at((z + bar) * acb(0.5), (z - bar) * acb(0, -0.5))  # from q and p
+    g20, g11, g02, g21 = 2 * map_[2, 0], map_[1, 1], 2 * map_[0, 2], 2 * map_[2, 1]
+    z, w = acb(cosine, -sine), acb(cosine, sine)
     first = (
         g20 * g11 * (w - 3 + 2 * z) / (2 * (z * z - z) * (w - 1))
-        + g11 * _conjugate(g11) / (1 - w)
-        + g02 * _conjugate(g02) / (2 * (z * z - w))
+        + g11 * g11.conjugate() / (1 - w)
+        + g02 * g02.conjugate() / (2 * (z * z - w))
         + g21 / 2
     )
     return (2 * (w * first).imag).mid()
-
-
-def _conjugate(number):
-    return acb(number.real, -number.imag)
-
-
-def _product(surface, points):
-    """The product of DP along the orbit, midpoints, as two rows."""
-    rows_ = ((arb(1), arb(0)), (arb(0), arb(1)))
-    for point in points:
-        matrix, _ = surface.jacobian(*point)
-        rows_ = tuple(
-            tuple((m[0] * rows_[0][j] + m[1] * rows_[1][j]).mid() for j in (0, 1)) for m in matrix
-        )
-    return rows_
-
-
-def _complex_monomial(i, j):
-    """q^i p^j as a polynomial in z = q + i p and its conjugate: {(powers): coefficient}."""
-    found = {}
-    scale = acb(0.5) ** i * (acb(0, -0.5)) ** j
-    for m in range(i + 1):
-        for n in range(j + 1):
-            key = (m + n, i + j - m - n)
-            share = scale * comb(i, m) * comb(j, n) * (-1) ** (j - n)
-            found[key] = found.get(key, acb(0)) + share
-    return found

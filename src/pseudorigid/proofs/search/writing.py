@@ -14,12 +14,15 @@ def header(kind, surface):
     return HEADER.format(kind=kind, surface=surface)
 
 
-def decimal(value, digits=20):
-    """The midpoint of a ball, or a float, as a decimal of `digits` significant digits."""
-    if isinstance(value, float):
-        return f"{value:.{digits - 1}e}"
+def decimal(value, digits):
+    """The midpoint of a ball as a decimal of `digits` significant digits."""
     text = value.mid().str(digits, radius=False)
     return text if "." in text or "e" in text else text + ".0"
+
+
+def decimals(values, digits):
+    """Rows of balls as rows of decimals."""
+    return [[decimal(value, digits) for value in row] for row in values]
 
 
 def rows(name, values):

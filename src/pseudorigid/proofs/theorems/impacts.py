@@ -32,38 +32,14 @@ def prove_impacts(k, g, before, after, tau, name="impacts"):
     """
     begin = time.perf_counter()
     errors = impact_errors(k, g, before, after, tau)
-    return impact_result(errors, name, time.perf_counter() - begin)
-
-
-def impact_result(errors, name, seconds):
-    """The Result from the errors of impacts, perhaps of several calls.
-
-    Parameters
-    ----------
-    errors : ndarray, shape (n,)
-        As from `judge.impact_errors`.
-    name : str
-        Of the result.
-    seconds : float
-        That they took.
-
-    Returns
-    -------
-    Result
-    """
-    worst = float(np.max(errors, initial=0.0))
-    reason = ""
-    if not worst < LIMIT:
-        place = int(np.argmax(errors))
-        reason = (
-            f"impact {place} is off by {worst:.3g}: not the first one"
-            if worst < np.inf
-            else f"impact {place} grazes: which one is first is not decided"
-        )
+    worst, reason = float(np.max(errors, initial=0.0)), ""
+    if worst == np.inf:
+        reason = f"impact {np.argmax(errors)} grazes: which one is first is not decided"
+    elif not worst < LIMIT:
+        reason = f"impact {np.argmax(errors)} is off by {worst:.3g}: not the first one"
     statement = f"each of {errors.size:,} impacts computed is the first one"
-    verdict = "not proved" if reason else "proved"
-    margins = {"worst error": worst}
-    return Result(name, statement, name, verdict, reason, {}, margins, seconds)
+    seconds = time.perf_counter() - begin
+    return Result(name, statement, name, reason, {}, {"worst error": worst}, seconds)
 
 
 def of_orbits(ball, energy, orbits, starts):

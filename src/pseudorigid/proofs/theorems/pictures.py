@@ -51,37 +51,25 @@ def horseshoe_data(name="horseshoe-outer"):
             [[_image(surface, source, target, *point) for point in edge] for edge in _edges(EDGE)]
         )
         centres = np.array([[float(a) for a in one.centre] for one in sets])
-    text = {
-        "x": "centre of the set, position at impact",
-        "y": "centre of the set, y = xdot - k udot",
-        "chain": "index along the chain; NaN at the saddles",
-        "corner_x": "corners of the set, x",
-        "corner_y": "corners of the set, y",
-        "image_p": "image of a set, across the next one's expanding direction",
-        "image_q": "image of a set, across the next one's contracting direction",
+    corner, edge = ("set", "corner"), ("edge", "point")
+    across = "image of a set, across the next one's"
+    data = {
+        "x": ("set", centres[:, 0], "centre of the set, position at impact"),
+        "y": ("set", centres[:, 1], "centre of the set, y = xdot - k udot"),
+        "chain": ("set", np.array(index), "index along the chain; NaN at the saddles"),
+        "corner_x": (corner, corners[:, :, 0], "corners of the set, x"),
+        "corner_y": (corner, corners[:, :, 1], "corners of the set, y"),
+        "image_p": (edge, image[:, :, 0], f"{across} expanding direction"),
+        "image_q": (edge, image[:, :, 1], f"{across} contracting direction"),
     }
-    return _dataset(
-        {
-            "x": ("set", centres[:, 0]),
-            "y": ("set", centres[:, 1]),
-            "chain": ("set", np.array(index)),
-            "corner_x": (("set", "corner"), corners[:, :, 0]),
-            "corner_y": (("set", "corner"), corners[:, :, 1]),
-            "image_p": (("edge", "point"), image[:, :, 0]),
-            "image_q": (("edge", "point"), image[:, :, 1]),
-        },
-        text,
-        surface,
-    )
+    return _dataset(data, surface)
 
 
 def _edges(count):
     """The four edges of the unit square as lists of (p, q): p = -1, p = 1, q = -1, q = 1."""
     line = [arb(2 * i - (count - 1)) / (count - 1) for i in range(count)]
-    for side in (arb(-1), arb(1)):
-        yield [(side, q) for q in line]
-    for side in (arb(-1), arb(1)):
-        yield [(p, side) for p in line]
+    sides = arb(-1), arb(1)
+    return [*([(p, q) for q in line] for p in sides), *([(p, q) for p in line] for q in sides)]
 
 
 def _image(surface, source, target, p, q):
@@ -118,23 +106,19 @@ def twist_data(energies):
             values.append(float(birkhoff.normal_form(surface, orbit).twists[0]))
     theorem = THEOREMS["twist-zero"]
     zero = float(theorem.prove(theorem.text()).digits["energy"])
-    text = {
-        "energy": "total energy",
-        "twist": "twist of the elliptic fixed point",
-        "zero": "energy at which the twist vanishes",
-    }
     with ctx.workprec(64):
         axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
-    return _dataset(
-        {"energy": ("energy", axis), "twist": ("energy", np.array(values)), "zero": ((), zero)},
-        text,
-        surfaces[0],
-    )
-
-
-def _dataset(variables, text, surface):
     data = {
-        name: (dims, values, {"long_name": text[name], "units": "1"})
-        for name, (dims, values) in variables.items()
+        "energy": ("energy", axis, "total energy"),
+        "twist": ("energy", np.array(values), "twist of the elliptic fixed point"),
+        "zero": ((), zero, "energy at which the twist vanishes"),
+    }
+    return _dataset(data, surfaces[0])
+
+
+def _dataset(variables, surface):
+    data = {
+        name: (dims, values, {"long_name": text, "units": "1"})
+        for name, (dims, values, text) in variables.items()
     }
     return xr.Dataset(data, attrs={"k": float(surface.k), "g": float(surface.g)})

@@ -5,6 +5,10 @@ from fractions import Fraction
 from ..checks import horseshoe, periodic
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
+from ..search import horseshoe as horseshoes
+from ..search import known
+from ..search import periodic as orbits
+from .statements import Theorem
 
 
 def prove_orbit(ball, orbit, energy=None):
@@ -38,22 +42,13 @@ def prove_orbit(ball, orbit, energy=None):
     >>> prove_orbit(Surface("1/5", "1/25", "1/100"), one).type
     'elliptic'
     """
-    from ..search import periodic as proposals
-
     surface, points, kind = _request(ball, orbit, energy)
-    bounds = {"period": len(points), "type": kind, "radius": Fraction(0)}
-
-    def holds(text):
-        try:
-            periodic.check(text, surface, **bounds)
-        except NotProvedError:
-            return False
-        return True
-
     what = f"the {kind} orbit of period {len(points)} at {surface}"
+    bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
+    theorem = Theorem(what, what, periodic.check, bounds)
     try:
-        text = proposals.propose(surface, points, holds)
-        return periodic.check(text, surface, **bounds).parts["orbit"]
+        text = orbits.propose(surface, points, theorem.of_any_size)
+        return theorem.prove(text).parts["orbit"]
     except (NotProvedError, ArithmeticError) as error:
         raise ValueError(f"{what} cannot be proved: {error}") from None
 
@@ -92,33 +87,25 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
     ----------
     Those of `checks.horseshoe.check`.
     """
-    from ..search import horseshoe as proposals
-    from ..search import known
-
     if side not in ("outer", "inner"):
         raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
     surface, points, kind = _request(ball, orbit, energy)
     if kind != "hyperbolic":
         raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
-    bounds = {
-        "period": len(points), "radius": prove_orbit(ball, orbit, energy).radius, "window": None,
-        "crossing": None, "entropy": Fraction(0),
-    }  # fmt: skip
-    plan = proposals.Plan(1 if side == "outer" else -1, steps, size, room)
+    radius = prove_orbit(ball, orbit, energy).radius
+    bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
+    what = f"the horseshoe at {surface}"
+    theorem = Theorem(what, what, horseshoe.check, bounds | {"window": None, "crossing": None})
+    plan = horseshoes.Plan(1 if side == "outer" else -1, steps, size, room)
     try:
-        text = proposals.propose(
-            surface, known.ball(surface), points, plan,
-            lambda text: horseshoe.check(text, surface, **bounds).parts["margins"],
-        )  # fmt: skip
-        return text, horseshoe.check(text, surface, **bounds)
+        text = horseshoes.propose(surface, known.ball(surface), points, plan, theorem.prove)
+        return text, theorem.prove(text)
     except (NotProvedError, ArithmeticError) as error:
-        raise ValueError(f"the horseshoe at {surface} cannot be proved: {error}") from None
+        raise ValueError(f"{what} cannot be proved: {error}") from None
 
 
 def _request(ball, orbit, energy):
     """(surface, points (x, y), type) of a request."""
-    from ..search import known
-
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
     if isinstance(ball, Surface):

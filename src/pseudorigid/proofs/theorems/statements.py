@@ -6,7 +6,7 @@ result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from importlib import resources
 
@@ -29,7 +29,6 @@ class Result:
     ----------
     name, statement, certificate : str
         Of the theorem, and its certificate's file.
-    verdict : {"proved", "not proved"}
     reason : str
         Why not; empty where it is proved.
     digits : dict of str to str
@@ -43,11 +42,15 @@ class Result:
     name: str
     statement: str
     certificate: str
-    verdict: str
     reason: str
     digits: dict
     margins: dict
     seconds: float
+
+    @property
+    def verdict(self):
+        """Either "proved" or "not proved"."""
+        return "not proved" if self.reason else "proved"
 
     def line(self):
         """All of it in one line."""
@@ -62,7 +65,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Theorem:
-    """A statement, its checker with the statement's numbers, and how a certificate is sought.
+    """A statement, and its checker with the statement's numbers.
 
     Attributes
     ----------
@@ -71,15 +74,12 @@ class Theorem:
         Takes a certificate's text and the bounds, returns a Finding.
     bounds : dict
         The statement's numbers, exact.
-    search : callable
-        Takes the theorem, returns a certificate's text.
     """
 
     name: str
     statement: str
     checker: Callable
     bounds: dict
-    search: Callable = field(repr=False)
 
     @property
     def certificate(self):
@@ -131,10 +131,8 @@ class Theorem:
             reason = "there is no such certificate"
         except NotProvedError as error:
             reason = " ".join(str(error).split())
-        return Result(
-            self.name, self.statement, self.certificate, "not proved" if reason else "proved",
-            reason, digits, margins, time.perf_counter() - begin,
-        )  # fmt: skip
+        seconds = time.perf_counter() - begin
+        return Result(self.name, self.statement, self.certificate, reason, digits, margins, seconds)
 
     def of_any_size(self, text):
         """Whether the checker takes a certificate whatever the radius that it claims.
@@ -177,69 +175,35 @@ def search_certificate(name):
     >>> THEOREMS["one-fixed-point"].check(text).verdict
     'proved'
     """
+    from .searching import SEARCHES
+
     theorem = THEOREMS[name]
-    return theorem.search(theorem)
+    return SEARCHES[theorem.checker](theorem)
 
 
 def _orbit_theorem(name, surface, period, kind, radius):
-    def propose(theorem):
-        from ..search import known
-        from ..search import periodic as proposals
-
-        points = known.points(surface, period, kind)
-        return proposals.propose(surface, points, theorem.of_any_size)
-
     article = "an" if kind[0] in "ei" else "a"
     statement = (
         f"at E = {surface.energy} there is {article} {kind} orbit of period {period}, "
         f"the only one within {float(radius):g} of its points"
     )
-    bounds = {"surface": surface, "period": period, "type": kind, "radius": radius}
+    bounds = {"surface": surface, "period": period, "type": kind, "radius": Fraction(radius)}
     if kind == "hyperbolic":
         bounds["window"] = WINDOW
-    return Theorem(name, statement, periodic.check, bounds, propose)
-
-
-def _only_theorem():
-    def propose(theorem):
-        from ..search import periodic as proposals
-
-        return proposals.propose_only_fixed_point(K, G, K / 2 - G)
-
-    statement = "at each energy up to k/2 - g, eq. (31), the map has exactly one fixed point"
-    bounds = {"k": K, "g": G, "energy": K / 2 - G}
-    return Theorem("one-fixed-point", statement, periodic.check_only_fixed_point, bounds, propose)
+    return Theorem(name, statement, periodic.check, bounds)
 
 
 def _twist_theorem(name, surface, period, radius):
-    def propose(theorem):
-        from ..search import known
-        from ..search import twist as proposals
-
-        return proposals.propose(
-            surface, known.points(surface, period, "elliptic"), theorem.of_any_size
-        )
-
     what = "fixed point" if period == 1 else f"orbit of period {period}"
     statement = (
         f"at E = {surface.energy} closed invariant curves surround the elliptic {what} in each of "
         "its neighbourhoods: it is stable for all time, and they fill a positive area"
     )
-    bounds = {"surface": surface, "period": period, "radius": radius}
-    return Theorem(name, statement, twist.check, bounds, propose)
+    bounds = {"surface": surface, "period": period, "radius": Fraction(radius)}
+    return Theorem(name, statement, twist.check, bounds)
 
 
-def _horseshoe_theorem(name, side, plan, crossing, entropy):
-    def propose(theorem):
-        from ..search import horseshoe as proposals
-        from ..search import known
-
-        def measure(text):
-            return theorem.prove(text).parts["margins"]
-
-        points = known.points(HIGH, 6, "hyperbolic")
-        return proposals.propose(HIGH, known.ball(HIGH), points, proposals.Plan(**plan), measure)
-
+def _horseshoe_theorem(side, crossing, entropy):
     statement = (
         f"at E = {HIGH.energy} the {side} connections of the hyperbolic orbit of period 6 are "
         "transversal, and P has a uniformly hyperbolic invariant set around them, conjugate to a "
@@ -247,85 +211,50 @@ def _horseshoe_theorem(name, side, plan, crossing, entropy):
     )
     bounds = {
         "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": WINDOW,
-        "crossing": crossing, "entropy": entropy,
+        "crossing": tuple(map(Fraction, crossing)), "entropy": Fraction(entropy),
     }  # fmt: skip
-    return Theorem(name, statement, horseshoe.check, bounds, propose)
+    return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
 
 
-def _zero_theorem():
-    def propose(theorem):
-        from ..search import known
-        from ..search import twist as proposals
-
-        low, high = Fraction("0.029"), Fraction("0.03")
-        (start,) = known.points(Surface(K, G, low), 1, "elliptic")
-        return proposals.propose_zero(K, G, low, high, start, theorem.of_any_size)
-
-    statement = (
+_THEOREMS = (
+    _orbit_theorem("fixed-point", HIGH, 1, "elliptic", "4e-3"),
+    _orbit_theorem("fixed-point-low", LOW, 1, "elliptic", "2e-3"),
+    _orbit_theorem("six-elliptic", HIGH, 6, "elliptic", "1e-4"),
+    _orbit_theorem("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4"),
+    _orbit_theorem("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4"),
+    _orbit_theorem("ten-elliptic", LOW, 10, "elliptic", "6e-6"),
+    _orbit_theorem("twelve-elliptic", LOW, 12, "elliptic", "6e-6"),
+    Theorem(
+        "one-fixed-point",
+        "at each energy up to k/2 - g, eq. (31), the map has exactly one fixed point",
+        periodic.check_only_fixed_point,
+        {"k": K, "g": G, "energy": K / 2 - G},
+    ),
+    _horseshoe_theorem("outer", ("0.326", "0.327"), "0.0185"),
+    _horseshoe_theorem("inner", ("0.187", "0.188"), "0.0083"),
+    _twist_theorem("twist-fixed-point", HIGH, 1, "4e-3"),
+    _twist_theorem("twist-fixed-point-low", LOW, 1, "2e-3"),
+    _twist_theorem("twist-six", HIGH, 6, "1e-4"),
+    Theorem(
+        "twist-zero",
         "as E rises the fixed point's twist falls through zero at the energy below, and the second "
-        "twist is negative there: just below it shearless curves shrink into the point"
-    )
-    bounds = {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")}
-    return Theorem("twist-zero", statement, twist.check_zero, bounds, propose)
-
-
-def _jump_theorem():
-    def propose(theorem):
-        from ..search import jump as proposals
-
-        return proposals.propose(HIGH, "0.02", "1e-28")
-
-    statement = (
+        "twist is negative there: just below it shearless curves shrink into the point",
+        twist.check_zero,
+        {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")},
+    ),
+    Theorem(
+        "jump-set",
         f"at E = {HIGH.energy} P is not continuous at the point below, and not a diffeomorphism; "
-        "its jump set is one curve, from the rim to an inner end"
-    )
-    bounds = {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.404")}
-    return Theorem("jump-set", statement, jump.check, bounds, propose)
-
-
-def _smooth_theorem():
-    def propose(theorem):
-        from ..search import jump as proposals
-
-        return proposals.propose_smooth(K, G)
-
-    statement = (
+        "its jump set is one curve, from the rim to an inner end",
+        jump.check,
+        {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.404")},
+    ),
+    Theorem(
+        "diffeomorphism",
         "at every E below g^2 (1 + k/2) P is analytic on the open disk of the section, with the "
-        "analytic inverse R P R"
-    )
-    return Theorem("diffeomorphism", statement, jump.check_smooth, {"k": K, "g": G}, propose)
-
-
-_ORBITS = (
-    ("fixed-point", HIGH, 1, "elliptic", "4e-3"),
-    ("fixed-point-low", LOW, 1, "elliptic", "2e-3"),
-    ("six-elliptic", HIGH, 6, "elliptic", "1e-4"),
-    ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4"),
-    ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4"),
-    ("ten-elliptic", LOW, 10, "elliptic", "6e-6"),
-    ("twelve-elliptic", LOW, 12, "elliptic", "6e-6"),
+        "analytic inverse R P R",
+        jump.check_smooth,
+        {"k": K, "g": G},
+    ),
 )
-_TWISTS = (
-    ("twist-fixed-point", HIGH, 1, "4e-3"),
-    ("twist-fixed-point-low", LOW, 1, "2e-3"),
-    ("twist-six", HIGH, 6, "1e-4"),
-)
-THEOREMS = {
-    theorem.name: theorem
-    for theorem in (
-        *(_orbit_theorem(*names, Fraction(radius)) for *names, radius in _ORBITS),
-        _only_theorem(),
-        _horseshoe_theorem(
-            "horseshoe-outer", "outer", {"side": 1, "steps": 59, "size": 6.5e-5, "room": 1.14},
-            (Fraction("0.326"), Fraction("0.327")), Fraction("0.0185"),
-        ),
-        _horseshoe_theorem(
-            "horseshoe-inner", "inner", {"side": -1, "steps": 177, "size": 1e-10, "room": 1.12},
-            (Fraction("0.187"), Fraction("0.188")), Fraction("0.0083"),
-        ),
-        *(_twist_theorem(*names, Fraction(radius)) for *names, radius in _TWISTS),
-        _zero_theorem(),
-        _jump_theorem(),
-        _smooth_theorem(),
-    )
-}  # fmt: skip
+THEOREMS = {theorem.name: theorem for theorem in _THEOREMS}

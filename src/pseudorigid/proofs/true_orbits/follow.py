@@ -13,7 +13,7 @@ where the columns of C follow the tangent map and are made orthogonal again at e
 import json
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
 from ..enclosure.flight import UndecidedError
 
@@ -66,7 +66,7 @@ class Run:
         with ctx.workprec(bits):
             centre = [a.mid() for a in place.balls()]
             off = [a - m for a, m in zip(place.balls(), centre, strict=True)]
-        self.centre, self.frame = centre, ((arb(1), arb(0)), (arb(0), arb(1)))
+        self.centre, self.frame = centre, arb_mat([[1, 0], [0, 1]])
         self.reach = [abs(a).upper() for a in off]
 
     def step(self):
@@ -91,18 +91,9 @@ class Run:
                 raise self._stuck(error) from None
         rows = self._tangent()
         with ctx.workprec(FRAME_BITS):
-            carried = [
-                [m[0] * self.frame[0][j] + m[1] * self.frame[1][j] for j in (0, 1)] for m in rows
-            ]
+            carried = arb_mat(rows) * self.frame
             frame, inverse = _frame(carried, self.reach)
-            spread = [
-                sum(
-                    abs(inverse[i][0] * carried[0][j] + inverse[i][1] * carried[1][j])
-                    * self.reach[j]
-                    for j in (0, 1)
-                )
-                for i in (0, 1)
-            ]
+            spread = [_across(row, self.reach) for row in (inverse * carried).table()]
         known = -max(_exponent(a) for a in (*spread, image.x.rad(), image.y.rad()))
         if known < LEAST_BITS:
             raise ShortOfBitsError
@@ -112,21 +103,18 @@ class Run:
             off = [image.x - self.centre[0], image.y - self.centre[1]]
         with ctx.workprec(FRAME_BITS):
             self.frame = frame
-            self.reach = [
-                (a + abs(row[0]) * abs(off[0]) + abs(row[1]) * abs(off[1])).upper()
-                for a, row in zip(spread, inverse, strict=True)
-            ]
+            pairs = zip(spread, inverse.table(), strict=True)
+            self.reach = [(a + _across(row, off)).upper() for a, row in pairs]
         self.values[self.count] = self._rounded(before)
         self.count += 1
 
     def _box(self, bits):
         """Balls around the true x and y."""
         with ctx.workprec(bits):
+            rows = zip(self.centre, self.frame.table(), strict=True)
             return [
-                arb((+z).mid(), (abs(row[0]) * self.reach[0] + abs(row[1]) * self.reach[1]
-                                 + (+z).rad()).upper())
-                for z, row in zip(self.centre, self.frame, strict=True)
-            ]  # fmt: skip
+                arb((+z).mid(), (_across(row, self.reach) + (+z).rad()).upper()) for z, row in rows
+            ]
 
     def _tangent(self):
         """DP over all points that the true one may be, with as few bits as will do."""
@@ -154,7 +142,7 @@ class Run:
 
     def state(self):
         """All of it but the results, as text."""
-        numbers = [*self.centre, *self.frame[0], *self.frame[1], *self.reach]
+        numbers = [*self.centre, *self.frame.entries(), *self.reach]
         pairs = [[int(part) for part in number.man_exp()] for number in numbers]
         return json.dumps([self.bits, self.count, self.digits, [[hex(m), e] for m, e in pairs]])
 
@@ -166,20 +154,24 @@ class Run:
         numbers = [arb((int(m, 16), e)) for m, e in pairs]
         run.count, run.digits = count, digits
         run.values[:count] = values
-        run.centre, run.frame = numbers[:2], (tuple(numbers[2:4]), tuple(numbers[4:6]))
-        run.reach = numbers[6:]
+        run.centre, run.frame, run.reach = numbers[:2], arb_mat(2, 2, numbers[2:6]), numbers[6:]
         return run
 
 
 def _frame(carried, reach):
     """An orthogonal frame along the longer of two carried columns, exact, and its inverse."""
-    sizes = [(abs(carried[0][j]) + abs(carried[1][j])).upper() * reach[j] for j in (0, 1)]
+    sizes = [(abs(carried[0, j]) + abs(carried[1, j])).upper() * reach[j] for j in (0, 1)]
     j = 0 if sizes[0] >= sizes[1] else 1
-    a, b = carried[0][j].mid(), carried[1][j].mid()
+    a, b = carried[0, j].mid(), carried[1, j].mid()
     length = (a * a + b * b).sqrt()
     a, b = (a / length).mid(), (b / length).mid()
     square = a * a + b * b
-    return ((a, -b), (b, a)), ((a / square, b / square), (-b / square, a / square))
+    return arb_mat([[a, -b], [b, a]]), arb_mat([[a, b], [-b, a]]) / square
+
+
+def _across(row, reach):
+    """A bound on |row e| for all e with |e_j| <= |reach_j|."""
+    return sum(abs(a) * abs(r) for a, r in zip(row, reach, strict=True))
 
 
 def _exponent(value):

@@ -62,20 +62,23 @@ def save(path, **arrays):
     os.replace(part, path)
 
 
-def load(path):
+def load(path, identity):
     """The arrays of a file that `save` wrote.
 
     Parameters
     ----------
     path : Path
+    identity : str
+        What the file's own must be.
 
     Returns
     -------
     dict or None
-        None if it is missing or damaged.
+        None if it is missing, damaged or of something else.
     """
     try:
         with np.load(path) as file:
-            return {name: file[name] for name in file.files}
+            found = {name: file[name] for name in file.files}
+            return found if str(found["identity"]) == identity else None
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         return None

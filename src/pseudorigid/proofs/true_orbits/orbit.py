@@ -85,7 +85,5 @@ def _memory(impacts):
 
 def _resumed(checkpoint, surface, place, impacts):
     """The run of a checkpoint of this very orbit, or None."""
-    saved = None if checkpoint is None else keeping.load(checkpoint)
-    if saved is None or str(saved["identity"]) != place.identity(impacts):
-        return None
-    return Run.restored(surface, place, impacts, str(saved["state"]), saved["values"])
+    saved = checkpoint and keeping.load(checkpoint, place.identity(impacts))
+    return saved and Run.restored(surface, place, impacts, str(saved["state"]), saved["values"])

@@ -69,13 +69,12 @@ def _kept(folder, index, place, start, count, progress):
         return _columns(true_orbit(*exact, count, start=start, progress=report))
     Path(folder).mkdir(parents=True, exist_ok=True)
     file = Path(folder) / f"orbit_{index}.npz"
-    saved = keeping.load(file)
-    if saved is not None and str(saved["identity"]) == place.identity(count):
+    identity = place.identity(count)
+    if saved := keeping.load(file, identity):
         return saved["values"]
     part = Path(folder) / f"orbit_{index}.part.npz"
-    found = true_orbit(*exact, count, start=start, progress=report, checkpoint=part)
-    values = _columns(found)
-    keeping.save(file, identity=place.identity(count), values=values)
+    values = _columns(true_orbit(*exact, count, start=start, progress=report, checkpoint=part))
+    keeping.save(file, identity=identity, values=values)
     return values
 
 
