@@ -10,6 +10,8 @@ that nearly cancel: by balls of python-flint, whose radii enclose every rounding
 import numpy as np
 from flint import arb, ctx
 
+from ..dynamics.variables import chart
+
 _NEWTON = 30  # steps at most; each doubles the digits
 _SCANNED = 64  # parameters of an unstable segment at which a crossing is looked for
 _FIRST = 1e-6  # where that segment ends, in the plane (x, y)
@@ -147,8 +149,7 @@ class Law:
             Where the working precision does not enclose the time of flight.
         """
         k, g = self.k, self.g
-        x, v, w = state
-        dx, dv, dw = tangent
+        (x, v, w), (dx, dv, dw) = state, tangent
         jump, step = 2 * (v + w) / (1 + k), 2 * (dv + dw) / (1 + k)
         b, c = v - k * jump, w - jump
         db, dc = dv - k * step, dw - step
@@ -166,7 +167,7 @@ class Law:
     def _time(self, state, b, c):
         """The ball of the root of the gap next to the certified root of the midpoints."""
         x, g = state[0], self.g
-        tau = arb(self.ball.time_to_impact(*(float(a) for a in state)))
+        tau = arb(self.ball.time_to_impact(*map(float, state)))
         middle = x.mid(), b.mid(), c.mid()
         for _ in range(_NEWTON):
             f, df = _gap(tau, *middle, g)
@@ -361,7 +362,7 @@ def first_crossing(saddle, sign, impacts):
     states = [np.array(a) for a in ball.state_xy(x, y, float(law.energy))]
     ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
     for _ in range(_MOST_IMAGES):
-        height = states[1] - ball.k * states[2]
+        _, height = chart(ball.k, *states)
         (crossing,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
         if crossing.size:
             return float(parameter[crossing[0]]), impacts
