@@ -13,10 +13,11 @@ from unittest.mock import patch
 
 import numpy as np
 
-from ..dynamics import manifolds
+from ..dynamics import branch as branch_rule
 from ..dynamics.ball import Ball
 from ..dynamics.follow import KEPT, VECTOR, follow
 from ..dynamics.lyapunov import lyapunov_spectrum
+from ..dynamics.manifolds import trace_manifold
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import of_type
 from ..kernel.arithmetic import sincos
@@ -132,7 +133,7 @@ def _whole():
     rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
     saddle = of_type(symmetric_orbits(states.BALL, WEAK, 10), "hyperbolic")
-    branch = partial(manifolds.trace_manifold, states.BALL, WEAK, saddle, length=0.5)
+    branch = partial(trace_manifold, states.BALL, WEAK, saddle, length=0.5)
     ball = Ball(k=states.BALL.k, g=1.0)
 
     def each_to_the_end():
@@ -141,7 +142,7 @@ def _whole():
                 to_the_end.cell(k, e, 200, 4000)
 
     def from_the_segment():
-        with patch.object(manifolds, "WEAK", 0.0):
+        with patch.object(branch_rule, "WEAK", 0.0):
             branch()
 
     return {
