@@ -6,7 +6,6 @@ import re
 import numpy as np
 
 from .axes.panel import Axis, Panel, decades, key, log10
-from .axes.raster import decades as decade_ticks
 from .axes.raster import minor
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
@@ -83,9 +82,8 @@ def work(data, which, cost):
     sheet = _sheet(1050 + (math.ceil(len(families) / 2) + 1) * 42)
     top = sheet.high - 70
     across = COSTS[cost]
-    blank = Axis(across.limits, across.ticks, "", True, [""] * len(across.ticks))
     error = _from_zero(ZERO, 0, "Relative error of the flight time")
-    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), blank, error)
+    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
     share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
     lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
     for family in families:
@@ -280,13 +278,12 @@ def verdicts(data):
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]
     across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
-    blank = Axis(across.limits, ticks, "", True, [""] * len(ticks))
     up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
     orbits = data.attrs["orbits"] * data.sizes["cell"]
-    for row, axis in enumerate((blank, across)):
+    for row, axis in enumerate((across.blank(), across)):
         frame = (LEFT, top - 420 - row * 500, RIGHT, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
-        minor(panel, up=decade_ticks(*up.limits))
+        minor(panel, across=False)
         title = f"Wrong verdicts, {data['cells'].values[row]}"
         sheet.text(LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
         for i, name in enumerate(data["name"].values):
@@ -295,8 +292,7 @@ def verdicts(data):
             error = np.sqrt(wrong * (1.0 - wrong) / orbits)
             shown = np.maximum((wrong, wrong - error, wrong + error), 10.0 ** up.limits[0])
             panel.line(cost, shown[0], color=color, lw=0.9)
-            for x, low, high in zip(cost, *shown[1:], strict=True):
-                panel.line([x, x], [low, high], color=color, lw=0.6)
+            panel.bars(cost, *shown[1:], color=color, lw=0.6)
             panel.dots(cost, shown[0], color, marker=marker)
     entries = [(name, *VERDICTS[name], False) for name in data["name"].values]
     key(sheet, entries, top - 1070, 2)

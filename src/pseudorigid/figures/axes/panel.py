@@ -1,7 +1,7 @@
 """A frame with linear or decade axes, several of which may share a sheet."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,6 +43,10 @@ class Axis:
         """The same of values in the units of the limits."""
         low, high = self.limits
         return (np.atleast_1d(np.asarray(values, dtype=float)) - low) / (high - low)
+
+    def blank(self):
+        """The axis without name and labels, for a panel that stands above another."""
+        return replace(self, name="", labels=[""] * len(self.ticks))
 
     def texts(self):
         """The ticks' labels."""
@@ -112,6 +116,11 @@ class Panel:
         """Draw a line, broken where a coordinate is NaN."""
         for piece in pieces(*self.place(x, y)):
             self.sheet.draw(*piece, **how)
+
+    def bars(self, x, low, high, **how):
+        """Draw an upright line at each x, none where an end is NaN."""
+        for at, *span in zip(x, low, high, strict=True):
+            self.line([at, at], span, **how)
 
     def dots(self, x, y, color, size=3.2, hollow=False, marker="o"):
         """Draw marks of `size` points, filled or hollow."""

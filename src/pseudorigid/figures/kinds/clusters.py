@@ -86,6 +86,5 @@ def _bars(panel, clusters, rows, shift, hollow):
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i in range(cuts.size):
         at = lags + 0.12 * (i - 0.5 * (cuts.size - 1)) + shift
-        for place, low, high in zip(at, rows[1][i], rows[2][i], strict=True):
-            panel.line([place, place], [low, high], color=style.HUES[i], lw=0.7)
+        panel.bars(at, rows[1][i], rows[2][i], color=style.HUES[i], lw=0.7)
         panel.dots(at, rows[0][i], style.HUES[i], hollow=hollow, marker=_MARKS[i % 4])
