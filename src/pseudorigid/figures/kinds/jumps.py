@@ -55,7 +55,7 @@ def draw(scene, jumps, orbits):
 
 def _orbits(panel, orbits, sea):
     x, y = chart(panel.k, *states_of(orbits))
-    spans = rows(orbits["row_size"].values)
+    spans = rows(orbits)
     for index in sorted(range(len(spans)), key=lambda i: (i not in sea, i)):
         hue, size = (style.GRID, 0.7) if index in sea else (style.BACKDROP, 0.9)
         panel.dots(x[spans[index]], y[spans[index]], hue, size=size)
