@@ -78,15 +78,15 @@ def work(data, which, cost):
     -------
     matplotlib.figure.Figure
     """
-    families = dict.fromkeys(data["family"].values.tolist())
-    sheet = _sheet(1050 + (math.ceil(len(families) / 2) + 1) * 42)
+    entries = _families(data)
+    sheet = _sheet(1050 + (math.ceil(len(entries) / 2) + 1) * 42)
     top = sheet.high - 70
     across = COSTS[cost]
     error = _from_zero(ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
     share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
     lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
-    for family in families:
+    for family in dict.fromkeys(data["family"].values):
         color, marker = _style(family)
         some = data.isel(set=which, method=data["family"].values == family)
         x = some[cost].values
@@ -102,7 +102,6 @@ def work(data, which, cost):
                 upper.line([low, high], [y, y], color=color, lw=1.6)
         lower.line(x, some["wrong"].values, color=color, lw=0.9)
         lower.dots(x, some["wrong"].values, color, marker=marker)
-    entries = [(_written(family), *_style(family), False) for family in families]
     entries += [("median", style.FRAME, "", False), ("worst right root", style.FRAME, "", True)]
     key(sheet, entries, top - 960, 2)
     return sheet.figure
@@ -239,22 +238,21 @@ def figure_errors(data):
     panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=7.0)
-    families = data["family"].values.tolist()
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
         errors = _seen(row["error"].values / float(row["limit"]), -16)
-        for family, error, missed in zip(families, errors, row["missed"].values, strict=True):
-            panel.dots(error, middle, _style(family)[0], hollow=bool(missed))
-        missed = ["" if n == 0 else " \N{WHITE CIRCLE}" for n in row["missed"].values]
-        named = list(zip(row["evaluations"].values, row["name"].values, missed, strict=True))
+        missed = row["missed"].values > 0
+        for family, error, hollow in zip(data["family"].values, errors, missed, strict=True):
+            panel.dots(error, middle, _style(family)[0], hollow=hollow)
+        circles = np.where(missed, " \N{WHITE CIRCLE}", "")
+        named = list(zip(row["evaluations"].values, row["name"].values, circles, strict=True))
         best = int(row["cheapest"])
         others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
         second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, _written(text), ha="left", va="center", size=7.0)
-    entries = [(family, *_style(family), False) for family in dict.fromkeys(families)]
-    key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
+    key(sheet, [*_families(data), ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
     return sheet.figure
 
 
@@ -316,21 +314,25 @@ def _seen(values, zero):
     return np.maximum(values, float(f"1e{zero}"))
 
 
+def _families(data):
+    """The key's entries, one a family of methods: name, colour, mark, not hollow."""
+    names = dict.fromkeys(data["family"].values)
+    return [(_written(family), *_style(family), False) for family in names]
+
+
 def _methods(data):
-    """The key's entries, one a method: name, colour, mark, not hollow."""
-    entries = []
-    for name, family in zip(data["name"].values, data["family"].values, strict=True):
-        color, marker = _style(family)
-        entries.append((_written(name), SINGLE.get(name, color), marker, False))
-    return entries
+    """The same, one a method."""
+    pairs = zip(data["name"].values, data["family"].values, strict=True)
+    return [(_written(name), *_style(family, name), False) for name, family in pairs]
 
 
 def _alike(data):
-    """The same, one entry for the scans of one tolerance: their steps cannot be told apart."""
-    entries, names = _methods(data), data["name"].values.tolist()
-    tolerances = [name.partition(", ")[2] if name.startswith("scan ") else "" for name in names]
-    for tolerance in dict.fromkeys(tolerances):
-        places = [i for i, one in enumerate(tolerances) if tolerance and one == tolerance]
+    """As `_methods`, one entry for the scans of one tolerance: their steps cannot be told apart."""
+    entries, names, scans = _methods(data), data["name"].values.tolist(), {}
+    for i, name in enumerate(names):
+        if name.startswith("scan "):
+            scans.setdefault(name.partition(", ")[2], []).append(i)
+    for tolerance, places in scans.items():
         if len(places) > 1:
             first, last = (_step(names[i]) for i in (places[0], places[-1]))
             text = _written(f"scan {first} to {last}, {tolerance}")
@@ -349,6 +351,7 @@ def _written(name):
     return re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", name).replace("<=", "\N{LESS-THAN OR EQUAL TO}")
 
 
-def _style(family):
-    """The colour and mark of a family; those of a new one until it has its own."""
-    return STYLES.get(family, (style.FRAME, "o"))
+def _style(family, name=""):
+    """The colour and mark of a family or a method; those of a new one until it has its own."""
+    color, marker = STYLES.get(family, (style.FRAME, "o"))
+    return SINGLE.get(name, color), marker
