@@ -271,7 +271,7 @@ class Heteroclinic:
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
-class Lobe:
+def lobe(saddle, sign, nearer):
     """The lobe between two neighbouring crossings of an unstable and a stable branch.
 
     The branch must lead to the mirror image of its saddle, so that it meets y = 0 on the way, and
@@ -286,12 +286,12 @@ class Lobe:
     nearer : int
         By so many images the orbits start nearer to the saddle than _FIRST.
 
-    Attributes
-    ----------
-    orbits : (Heteroclinic, Heteroclinic)
+    Returns
+    -------
     area : arb
         A ball around what the orbits give; their starts on the branch's tangent instead of the
         branch change it by the cube of their distance from the saddle.
+    orbits : (Heteroclinic, Heteroclinic)
 
     Raises
     ------
@@ -302,34 +302,28 @@ class Lobe:
     ----------
     MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
     """
-
-    def __init__(self, saddle, sign, nearer):
-        ratio, period = float(saddle.multiplier), saddle.period
-        one, other = (first_crossing(saddle, sign, offset) for offset in (0, period // 2))
-        if one is None or other is None:
-            raise ValueError("the branch does not meet y = 0")
-        (near, impacts), (far, after) = one, other
-        while far >= near:  # the crossing before that of the first orbit
-            far, after = far / ratio, after + period
-        while far * ratio < near:
-            far, after = far * ratio, after - period
-        shrink = saddle.multiplier**nearer
-        self.orbits = tuple(
-            Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
-            for parameter, count in ((near, impacts), (far, after))
-        )
-        self.area = self._area()
-
-    def _area(self):
-        """y dx around the lobe: along the unstable arc one way, along the stable one back."""
-        first, second = self.orbits
-        flights = 2 * min(first.impacts, second.impacts)
-        area = _under(first.points[0], second.points[0])
-        for flight in range(flights):
-            area += second.action(flight) - first.action(flight)
-        # both orbits are near the other saddle now, at the mirror images of points at the start
-        last = [orbit.points[2 * orbit.impacts - flights] for orbit in self.orbits]
-        return abs(area + _under(*last))
+    ratio, period = float(saddle.multiplier), saddle.period
+    crossings = [first_crossing(saddle, sign, offset) for offset in (0, period // 2)]
+    if None in crossings:
+        raise ValueError("the branch does not meet y = 0")
+    (near, impacts), (far, after) = crossings
+    while far >= near:  # the crossing before that of the first orbit
+        far, after = far / ratio, after + period
+    while far * ratio < near:
+        far, after = far * ratio, after - period
+    shrink = saddle.multiplier**nearer
+    first, second = (
+        Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
+        for parameter, count in ((near, impacts), (far, after))
+    )
+    # y dx around the lobe: along the unstable arc one way, along the stable one back
+    flights = 2 * min(first.impacts, second.impacts)
+    area = _under(first.points[0], second.points[0])
+    for flight in range(flights):
+        area += second.action(flight) - first.action(flight)
+    # both orbits are near the other saddle now, at the mirror images of points at the start
+    last = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
+    return abs(area + _under(*last)), (first, second)
 
 
 def _under(one, other):

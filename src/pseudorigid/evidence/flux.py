@@ -15,7 +15,7 @@ from ..dynamics.manifolds import trace_manifold
 from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import chart, of_rows, of_type, states_of
-from .actions import Law, Lobe, Saddle, first_crossing
+from .actions import Law, Saddle, first_crossing, lobe
 from .polygon import Polygon
 from .sea import sea_states
 
@@ -118,19 +118,19 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     for bits, nearer in zip(_BITS, _NEARER, strict=True):
         with ctx.workprec(bits):
             saddle = Saddle(Law(ball, energy), states[:, place].tolist(), saddles.sizes["point"])
-            lobes.append(Lobe(saddle, sign, nearer))
-    area = lobes[1].area
-    error = abs(lobes[1].area - lobes[0].area).upper() + area.rad()
+            lobes.append(lobe(saddle, sign, nearer))
+    (rough, _), (area, primary) = lobes
+    error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
-    lobe, region, branch = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
+    traced, region, branch = _polygons(ball, energy, saddles, place, side, distance, primary)
     polygon = Polygon(region)
     inside = polygon.holds(*path)
     left = np.mean(inside[:-1] & ~inside[1:])
     x, y = chart(ball.k, *states)
     target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), lobe, polygon.area()
+    areas = float(area), float(error), area.str(digits, radius=False), traced, polygon.area()
     counted = *_carried(ball, energy, polygon, grid), inside.mean(), left
-    crossings = [(float(one.points[-1][0]), float(one.sine())) for one in lobes[1].orbits]
+    crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
     return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
 
@@ -163,9 +163,9 @@ def _primary(ball, energy, saddles, side):
     return min(found)[1:]
 
 
-def _polygons(ball, energy, saddles, place, side, distance, lobe):
+def _polygons(ball, energy, saddles, place, side, distance, primary):
     """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
-    first, second = lobe.orbits
+    first, second = primary
     steps = 2 * second.impacts - first.impacts
     ends = first.points[-1], second.points[min(first.impacts, steps)]
     one, other = (np.array([float(a) for a in end]) for end in ends)

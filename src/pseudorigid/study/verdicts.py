@@ -71,13 +71,12 @@ def verdicts(cells=36, orbits=128):
         found = list(pool.map(lambda place: _cell(*place, orbits), drawn))
     sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
     shape = len(SETS), len(METHODS), len(LENGTHS)
-    missed, alarms, cost = (np.empty(shape) for _ in range(3))
+    missed, alarms, cost = np.empty((3, *shape))
     threshold = np.full(shape[1:], np.nan)
+    threshold[0] = 3.0
     for m, key in enumerate(METHODS.values()):
         for j, length in enumerate(LENGTHS):
-            if m == 0:
-                threshold[m, j] = 3.0
-            elif key != "safe":
+            if m and key != "safe":
                 threshold[m, j] = _best(sets[0][key][j], sets[0]["truth"])
             for i, orbit in enumerate(sets):
                 regular = orbit[key][j] < threshold[m, j] if key != "safe" else orbit[key][j]

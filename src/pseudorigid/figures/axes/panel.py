@@ -77,6 +77,7 @@ class Panel:
     """
 
     tick, gap, size = 2.5, 2.0, _SIZE  # points: a tick's length, from there to its label, and that
+    small = _BESIDE  # points: a note
     baseline = "center"  # of labels at the left
     corners = "butt"
     kept = (0.0, 1.0)  # fractions of an axis that points are moved into
@@ -130,7 +131,7 @@ class Panel:
         """Write `text` beside a point, `shift` points away."""
         across, up = self.place(x, y)
         across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha=ha, va=va, size=_BESIDE)
+        self.sheet.text(across, up, text, ha=ha, va=va, size=self.small)
 
     def _label(self, x, text):
         """Where the middle of a label below the frame is."""

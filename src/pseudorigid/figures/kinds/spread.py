@@ -42,9 +42,7 @@ def draw(scene, spread, lyapunov):
 def _lengths(sheet, frame, spread):
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
-    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1]))
-    if lengths[-1] == 10 ** (high - 1):
-        high -= 1
+    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
     across = Axis((low - 0.1, high + 0.1), tuple(range(low, high + 1)), "Length in impacts", True)
     least = float(stretches(spread, first).min())
     ticks = tuple(0.01 * (4 * i) for i in range(int(least / 0.04), 7))
