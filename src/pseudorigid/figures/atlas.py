@@ -117,10 +117,8 @@ def line(sweep, data):
     exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
     exponent = raster.linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     frames = (110, 635, 1010, 1145), (110, 135, 1010, 545)
-    panels = (
-        Panel(sheet, frames[0], across.blank(), share),
-        Panel(sheet, frames[1], across, exponent),
-    )
+    axes = (across.blank(), across), (share, exponent)
+    panels = [Panel(sheet, *each) for each in zip(frames, *axes, strict=True)]
     for panel in panels:
         raster.minor(panel)
     titles = (

@@ -26,8 +26,8 @@ def cells(panel, sweep, shades, table):
     x = _pixels(edges(along), panel.across.limits, 0, right - left)
     y = _pixels(edges(k), panel.up.limits, 0, top - bottom)
     steps = np.clip((np.nan_to_num(shades) * _STEPS).astype(np.int64), 0, _STEPS - 1)
-    colors = _bytes(palette(table))[steps]
-    colors[np.isnan(shades)] = _bytes([style.GRID])
+    colors = palette(table)[steps]
+    colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
     image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
     _paste(panel.sheet, left, bottom, image)
 
@@ -36,7 +36,7 @@ def scale(sheet, frame, largest, table):
     """The colours beside the frame, from 0 to `largest`."""
     left, right = frame[2] + 25, frame[2] + 55
     bounds = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), 0, frame[3] - frame[1])
-    column = np.repeat(_bytes(palette(table)), np.diff(bounds), axis=0)
+    column = np.repeat(palette(table), np.diff(bounds), axis=0)
     _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
         y = frame[1] + tick / largest * (frame[3] - frame[1])
@@ -61,15 +61,10 @@ def _minor(axis):
 
 
 def palette(name):
-    """_STEPS colours of one of matplotlib's tables, as #rrggbb."""
-    table = matplotlib.colormaps[name].colors
-    rows = [table[(2 * i + 1) * len(table) // (2 * _STEPS)] for i in range(_STEPS)]
-    return ["#" + "".join(f"{int(part * 255 + 0.5):02x}" for part in row) for row in rows]
-
-
-def _bytes(colors):
-    """(n, 3) red, green and blue of colours #rrggbb."""
-    return np.array([[int(c[at : at + 2], 16) for at in (1, 3, 5)] for c in colors], np.uint8)
+    """Colours of one of matplotlib's tables, (_STEPS, 3): red, green and blue, up to 255."""
+    table = np.array(matplotlib.colormaps[name].colors)
+    rows = table[(2 * np.arange(_STEPS) + 1) * len(table) // (2 * _STEPS)]
+    return (rows * 255 + 0.5).astype(np.uint8)
 
 
 def _paste(sheet, left, bottom, image):

@@ -64,8 +64,7 @@ def pinned():
 
 def pale(color):
     """Return `color` (#rrggbb) mixed with twice as much white."""
-    parts = (int(color[at : at + 2], 16) for at in (1, 3, 5))
-    return "#" + "".join(f"{(part + 2 * 255) // 3:02x}" for part in parts)
+    return "#" + bytes((part + 2 * 255) // 3 for part in bytes.fromhex(color[1:])).hex()
 
 
 def setting(scene, energy=True):
