@@ -174,29 +174,27 @@ class _Search:
 
     def _symmetric_flight(self, place, half):
         """The place next to this one from which the flight after `half` impacts is symmetric."""
+
+        def defect(at):
+            return self._half(at, half)[2]
+
         room = _NARROW
         while room < _WIDE:
-            low, high = place - room, place + room
-            first, last = self._half(low, half)[2], self._half(high, half)[2]
-            if first * last < 0.0:
-                sign = 1.0 if first > 0.0 else -1.0
-                break
+            for above, below in ((place - room, place + room), (place + room, place - room)):
+                if defect(above) > 0.0 > defect(below):
+                    return _bisect(defect, above, below)
             room *= 2.0
-        else:
-            raise ValueError(f"no symmetric flight after {half} impacts next to {place!r}")
-        return _bisect(lambda at: sign * self._half(at, half)[2], low, high)
+        raise ValueError(f"no symmetric flight after {half} impacts next to {place!r}")
 
 
-def _bisect(function, low, high):
-    """Where a function that is above 0 at `low` and below at `high` changes sign, to a double."""
-    while True:
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            return middle
+def _bisect(function, above, below):
+    """Where a function that is above 0 at one place and below at another changes, to a double."""
+    while (middle := 0.5 * (above + below)) not in (above, below):
         if function(middle) > 0.0:
-            low = middle
+            above = middle
         else:
-            high = middle
+            below = middle
+    return middle
 
 
 @jit

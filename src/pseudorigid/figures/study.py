@@ -79,8 +79,7 @@ def work(data, which, cost):
     matplotlib.figure.Figure
     """
     entries = _families(data)
-    sheet = _sheet(1050 + (math.ceil(len(entries) / 2) + 1) * 42)
-    top = sheet.high - 70
+    sheet, top = _sheet(1050 + (math.ceil(len(entries) / 2) + 1) * 42)
     across = COSTS[cost]
     error = _from_zero(ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
@@ -123,8 +122,8 @@ def edges(data):
     matplotlib.figure.Figure
     """
     methods = _methods(data)
-    sheet = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
-    top, gap = sheet.high - 70, 40
+    sheet, top = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
+    gap = 40
     wide = (RIGHT - LEFT - gap) / 2
     grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
     sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
@@ -163,8 +162,7 @@ def energy(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(1350)
-    top = sheet.high - 70
+    sheet, top = _sheet(1350)
     drift = _from_zero(ZERO, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts", every=2)
@@ -200,8 +198,7 @@ def separation(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(975)
-    top = sheet.high - 70
+    sheet, top = _sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
     up = _from_zero(ZERO, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
@@ -229,7 +226,7 @@ def figure_errors(data):
     matplotlib.figure.Figure
     """
     scenes = data.sizes["scene"]
-    sheet = _sheet(75 * (5 + scenes))
+    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values.tolist()]
@@ -271,8 +268,7 @@ def verdicts(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(1275)
-    top = sheet.high - 70
+    sheet, top = _sheet(1275)
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]
     across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
@@ -298,8 +294,9 @@ def verdicts(data):
 
 
 def _sheet(least):
-    """A sheet of at least this height in pixels, a whole number of quarter inches."""
-    return Sheet(style.COLUMN, 75 * math.ceil(least / 75))
+    """A sheet of at least this height in pixels, and the upper end of its first frame."""
+    high = 75 * math.ceil(least / 75)  # whole quarters of an inch
+    return Sheet(style.COLUMN, high), high - 70
 
 
 def _from_zero(low, high, name):
