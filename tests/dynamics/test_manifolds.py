@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid.dynamics import branch as rule
 from pseudorigid.dynamics import manifolds
 from pseudorigid.dynamics.variables import of_type
 
@@ -241,7 +242,7 @@ def test_no_jumps_below_their_onset():
 
 
 def test_weak_is_below_a_multiplier_and_the_papers_is_not(saddle, weak):
-    assert float(saddle["multiplier"]) > manifolds.WEAK > float(weak["multiplier"]) > 1
+    assert float(saddle["multiplier"]) > rule.WEAK > float(weak["multiplier"]) > 1
 
 
 def test_a_weak_branch_keeps_its_promises_without_going_to_and_fro(weak):
@@ -282,7 +283,7 @@ def test_image_by_image_and_from_the_segment_are_one_line(saddle, monkeypatch):
         how = {"side": side, "length": length, "distance": 0.005, "bend": 3.0}
         exact = stacked(trace_manifold(BALL, ENERGY, saddle, **how))
         with monkeypatch.context() as patch:
-            patch.setattr(manifolds, "WEAK", 3.0)
+            patch.setattr(rule, "WEAK", 3.0)
             one = trace_manifold(BALL, ENERGY, saddle, **how)
         assert "ended" not in one.attrs
         off = distances(stacked(one)[:, :-2], exact)  # one may be a vertex longer
@@ -303,7 +304,7 @@ def test_a_branch_ends_where_rounding_takes_over():
 
 
 def test_what_does_not_come_that_far_is_refused(weak, monkeypatch):
-    monkeypatch.setattr(manifolds, "MOST_IMAGES", 20)
+    monkeypatch.setattr(rule, "MOST_IMAGES", 20)
     with pytest.raises(ValueError, match=r"section radii long after 27 images, .* 1\.34235"):
         trace_manifold(BALL, 0.001, weak, length=0.5)
 

@@ -33,11 +33,16 @@ def commonest(image, across, up):
     return "#" + "".join(f"{part:02x}" for part in colors[counts.argmax()])
 
 
+def colours(name):
+    """Those of a scale, as #rrggbb."""
+    return ["#" + bytes(row).hex() for row in raster.palette(name)]
+
+
 def test_a_cell_has_the_colour_of_its_value():
     share = np.linspace(0, 0.99, 12).reshape(3, 4)
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
     image = render.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share, exponent=exponent)))
-    scale = raster.palette("viridis")
+    scale = colours("viridis")
     width, height = atlas.WIDE / 4, atlas.HIGH // 3
     for row in range(3):
         for column in range(4):
@@ -52,7 +57,7 @@ def test_cells_fill_whole_pixels():
     sweep = PLANE | {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
     share = np.random.default_rng(1).random((100, 160))
     image = render.pixels(atlas.plane(sweep, dataset(sweep, regular=share)))[::-1]
-    scale = raster.palette("viridis")
+    scale = colours("viridis")
     upper = LOWER + 600 + (UPPER - LOWER - 3 * (atlas.HIGH // 3))
     for row in range(100):
         for column in range(0, 160, 7):
@@ -66,7 +71,7 @@ def test_values_beyond_the_scale_have_the_colours_of_its_ends():
     share = np.full((3, 4), -0.2)
     share[1] = 1.7
     image = render.pixels(atlas.plane(PLANE, dataset(PLANE, regular=share)))
-    scale = raster.palette("viridis")
+    scale = colours("viridis")
     height = atlas.HIGH // 3
     at = int(atlas.LEFT + 0.3 * atlas.WIDE / 4), int(UPPER + 0.3 * height)
     assert commonest(image, *at) == scale[0]
@@ -75,9 +80,8 @@ def test_values_beyond_the_scale_have_the_colours_of_its_ends():
 
 def test_the_scales_are_sixty_four_colours_in_order():
     for name in ("viridis", "magma"):
-        colors = raster.palette(name)
-        assert len(set(colors)) == 64
-        light = [sum(int(c[at : at + 2], 16) for at in (1, 3, 5)) for c in colors]
+        assert len(set(colours(name))) == 64
+        light = raster.palette(name).sum(axis=1, dtype=int)
         assert light[0] < light[20] < light[40] < light[63]
 
 

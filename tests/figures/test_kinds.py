@@ -38,7 +38,7 @@ def test_what_the_surface_does_not_hide_is_drawn_and_the_sea_comes_first():
     seen = box.Box(SCENES["portrait"]).seen(*(data[name].values for name in style.NAMES))
     dots = [line for line in draw("portrait").artists if line.get_marker() == "o"]
     dots = dots[-len(data["row_size"]) :]  # before them the key's
-    sizes = [np.sum(seen[span]) for span in rows(data["row_size"].values)]
+    sizes = [np.sum(seen[span]) for span in rows(data)]
     assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
     assert [line.get_color() for line in dots] == [style.SEA, style.HUES[0], style.HUES[1]]
     assert 0 < np.sum(seen) < seen.size
@@ -141,7 +141,7 @@ def test_lines_end_in_open_dots():
     ]
     picture = box.Box(SCENES["tangle"])
     ends = 0
-    for span in rows(data["row_size"].values):
+    for span in rows(data):
         line = [data[name].values[span] for name in style.NAMES]
         gap = np.isnan(line[0])
         edge = np.flatnonzero(np.diff(np.concatenate([[1], gap, [1]])))

@@ -28,7 +28,7 @@ def draw(scene, orbits):
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
     picture = Plane(scene, ("x", "next"), ("$x$", "$x'$"))
-    for i, span in enumerate(rows(orbits["row_size"].values)):
+    for i, span in enumerate(rows(orbits)):
         hue = style.HUES[i % len(style.HUES)]
         picture.dots(x[span][:-1], x[span][1:], hue, 1.5)
     return picture.figure

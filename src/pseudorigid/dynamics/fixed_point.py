@@ -115,6 +115,23 @@ def rotation(trace):
     return _root(lambda rho: 2.0 * sincos(2.0 * math.pi * rho)[1] > trace, 0.5)
 
 
+def numbers(k, e):
+    """Of the fixed point at E/g^2 = e: its place, the trace there and its rotation number.
+
+    Parameters
+    ----------
+    k, e : float
+
+    Returns
+    -------
+    place, trace, rotation : float
+        As from the functions of these names.
+    """
+    theta = half_time(k, e)
+    found = trace(k, theta)
+    return place(k, theta), found, rotation(found)
+
+
 def resonance(k, turns, impacts):
     """The energy at which the fixed point's rotation number is a given fraction.
 

@@ -70,6 +70,37 @@ def angle(across, up):
     return turn if large > 0.0 else 0.0
 
 
+def begin(k, states, centre, expected):
+    """Orbits for `follow`, each with a tangent vector along the energy surface.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    states : (x, v, w), each of shape (n,)
+        Just before an impact, lengths in g R.
+    centre, expected : float or ndarray, shape (n,)
+        The x around which turns are counted, at y = 0, and the turn of an impact that is expected:
+        half a turn where that is NaN, since the centre is no elliptic point.
+
+    Returns
+    -------
+    ndarray, shape (KEPT, n)
+    """
+    x, v, w = states
+    orbits = np.zeros((KEPT, x.size))
+    orbits[:VECTOR], orbits[VECTOR + 1], orbits[VECTOR + 2] = (x, v, w), k * w, -v
+    orbits[CENTRE], orbits[EXPECTED] = centre, np.where(np.isnan(expected), 0.5, expected)
+    return orbits
+
+
+def weight(length):
+    """The sum of the weights of turns over a window of so many impacts."""
+    time = (np.arange(length) + 0.5) / length
+    bump = time * (1.0 - time)
+    return np.sum(bump * bump * bump)
+
+
 @jit
 def _observe(rows, n, k, round_y, head, low, states, flights, row):
     """Carry the tangent vectors over an impact, and see how far the orbits turned.

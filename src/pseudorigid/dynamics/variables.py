@@ -26,10 +26,58 @@ def variables(dims, values, names=NAMES):
     dict
         {name: (dims, array, attributes)}.
     """
-    return {
-        name: (dims, array, {"long_name": names[name], "units": "1"})
-        for name, array in zip(names, values, strict=True)
-    }
+    pairs = zip(names.items(), values, strict=True)
+    return described({name: (dims, array, meaning) for (name, meaning), array in pairs})
+
+
+def described(table):
+    """Variables of a Dataset, dimensionless numbers or words, each with what it means.
+
+    Parameters
+    ----------
+    table : dict
+        {name: (dims, values, meaning)}.
+
+    Returns
+    -------
+    dict
+        {name: (dims, array, attributes)}.
+    """
+    found = {}
+    for name, (dims, values, meaning) in table.items():
+        array = np.asarray(values)
+        words = array.dtype.kind in "OU"
+        attributes = {"long_name": meaning} | ({} if words else {"units": "1"})
+        found[name] = dims, array.astype(object) if words else array, attributes
+    return found
+
+
+def of_rows(table, rows):
+    """The same of rows of values, which are in the order of the table.
+
+    Parameters
+    ----------
+    table : dict
+        {name: (dims, meaning)}; the first of the dims counts the rows.
+    rows : sequence of tuple
+
+    Returns
+    -------
+    dict
+        {name: (dims, array, attributes)}.
+    """
+    columns = zip(table.items(), zip(*rows, strict=True), strict=True)
+    return described({name: (dims, column, text) for (name, (dims, text)), column in columns})
+
+
+def states_of(dataset):
+    """The states x, xdot, udot of a dataset as one array, a row each."""
+    return np.stack([dataset[name].values for name in ("x", "xdot", "udot")])
+
+
+def chart(k, x, xdot, udot):
+    """The points (x, y) of states in the section's chart, y = xdot - k udot: (2, ...)."""
+    return np.stack([x, xdot - k * udot])
 
 
 def orbit_dims(shape):

@@ -10,6 +10,8 @@ that nearly cancel: by balls of python-flint, whose radii enclose every rounding
 import numpy as np
 from flint import arb, ctx
 
+from ..dynamics.variables import chart
+
 _NEWTON = 30  # steps at most; each doubles the digits
 _SCANNED = 64  # parameters of an unstable segment at which a crossing is looked for
 _FIRST = 1e-6  # where that segment ends, in the plane (x, y)
@@ -147,8 +149,7 @@ class Law:
             Where the working precision does not enclose the time of flight.
         """
         k, g = self.k, self.g
-        x, v, w = state
-        dx, dv, dw = tangent
+        (x, v, w), (dx, dv, dw) = state, tangent
         jump, step = 2 * (v + w) / (1 + k), 2 * (dv + dw) / (1 + k)
         b, c = v - k * jump, w - jump
         db, dc = dv - k * step, dw - step
@@ -166,7 +167,7 @@ class Law:
     def _time(self, state, b, c):
         """The ball of the root of the gap next to the certified root of the midpoints."""
         x, g = state[0], self.g
-        tau = arb(self.ball.time_to_impact(*(float(a) for a in state)))
+        tau = arb(self.ball.time_to_impact(*map(float, state)))
         middle = x.mid(), b.mid(), c.mid()
         for _ in range(_NEWTON):
             f, df = _gap(tau, *middle, g)
@@ -270,7 +271,7 @@ class Heteroclinic:
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
-class Lobe:
+def lobe(saddle, sign, nearer):
     """The lobe between two neighbouring crossings of an unstable and a stable branch.
 
     The branch must lead to the mirror image of its saddle, so that it meets y = 0 on the way, and
@@ -285,12 +286,12 @@ class Lobe:
     nearer : int
         By so many images the orbits start nearer to the saddle than _FIRST.
 
-    Attributes
-    ----------
-    orbits : (Heteroclinic, Heteroclinic)
+    Returns
+    -------
     area : arb
         A ball around what the orbits give; their starts on the branch's tangent instead of the
         branch change it by the cube of their distance from the saddle.
+    orbits : (Heteroclinic, Heteroclinic)
 
     Raises
     ------
@@ -301,34 +302,28 @@ class Lobe:
     ----------
     MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
     """
-
-    def __init__(self, saddle, sign, nearer):
-        ratio, period = float(saddle.multiplier), saddle.period
-        one, other = (first_crossing(saddle, sign, offset) for offset in (0, period // 2))
-        if one is None or other is None:
-            raise ValueError("the branch does not meet y = 0")
-        (near, impacts), (far, after) = one, other
-        while far >= near:  # the crossing before that of the first orbit
-            far, after = far / ratio, after + period
-        while far * ratio < near:
-            far, after = far * ratio, after - period
-        shrink = saddle.multiplier**nearer
-        self.orbits = tuple(
-            Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
-            for parameter, count in ((near, impacts), (far, after))
-        )
-        self.area = self._area()
-
-    def _area(self):
-        """y dx around the lobe: along the unstable arc one way, along the stable one back."""
-        first, second = self.orbits
-        flights = 2 * min(first.impacts, second.impacts)
-        area = _under(first.points[0], second.points[0])
-        for flight in range(flights):
-            area += second.action(flight) - first.action(flight)
-        # both orbits are near the other saddle now, at the mirror images of points at the start
-        last = [orbit.points[2 * orbit.impacts - flights] for orbit in self.orbits]
-        return abs(area + _under(*last))
+    ratio, period = float(saddle.multiplier), saddle.period
+    crossings = [first_crossing(saddle, sign, offset) for offset in (0, period // 2)]
+    if None in crossings:
+        raise ValueError("the branch does not meet y = 0")
+    (near, impacts), (far, after) = crossings
+    while far >= near:  # the crossing before that of the first orbit
+        far, after = far / ratio, after + period
+    while far * ratio < near:
+        far, after = far * ratio, after - period
+    shrink = saddle.multiplier**nearer
+    first, second = (
+        Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
+        for parameter, count in ((near, impacts), (far, after))
+    )
+    # y dx around the lobe: along the unstable arc one way, along the stable one back
+    flights = 2 * min(first.impacts, second.impacts)
+    area = _under(first.points[0], second.points[0])
+    for flight in range(flights):
+        area += second.action(flight) - first.action(flight)
+    # both orbits are near the other saddle now, at the mirror images of points at the start
+    last = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
+    return abs(area + _under(*last)), (first, second)
 
 
 def _under(one, other):
@@ -361,7 +356,7 @@ def first_crossing(saddle, sign, impacts):
     states = [np.array(a) for a in ball.state_xy(x, y, float(law.energy))]
     ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
     for _ in range(_MOST_IMAGES):
-        height = states[1] - ball.k * states[2]
+        _, height = chart(ball.k, *states)
         (crossing,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
         if crossing.size:
             return float(parameter[crossing[0]]), impacts

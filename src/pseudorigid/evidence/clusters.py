@@ -13,7 +13,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import variables
+from ..dynamics.variables import chart, described, of_rows
 from ..kernel import impact as kernel
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
@@ -22,9 +22,22 @@ from .sea import sea_states
 # Of each coordinate, alike in count, for the cells of the correlation ratio: so few that each of
 # the 64 cells holds many clusters.
 _BINS = 8
-_MEASURES = {
-    "correlation": "correlation of what begins a cluster with what begins a later one",
-    "dependence": "share of the variance explained by the cell in which the earlier one began",
+_LINEAR = "correlation of what begins a cluster with what begins a later one"
+_BY_CELL = "share of the variance explained by the cell in which the earlier one began"
+_DRIFT = "largest difference of an impact's energy from the start's"
+_FROM, _TO = ", 95 % interval from", ", 95 % interval to"
+_OF_CUTS = {
+    "count": ("cut", "clusters"),
+    "cluster_impacts": ("cut", "mean number of impacts in a cluster"),
+    "cluster_time": ("cut", "mean time from a cluster's first impact to its last"),
+    "period": ("cut", "mean time from a cluster's first impact to the next one's"),
+    "period_error": ("cut", "standard error of that mean, between orbits"),
+    "correlation": (("cut", "lag", "first", "then"), _LINEAR),
+    "correlation_low": (("cut", "lag", "first", "then"), _LINEAR + _FROM),
+    "correlation_high": (("cut", "lag", "first", "then"), _LINEAR + _TO),
+    "dependence": (("cut", "lag", "then"), _BY_CELL),
+    "dependence_low": (("cut", "lag", "then"), _BY_CELL + _FROM),
+    "dependence_high": (("cut", "lag", "then"), _BY_CELL + _TO),
 }
 
 
@@ -77,63 +90,35 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     2
     """
     _, *states = sea_states(ball, energy, between, orbits)
-    out = np.empty((orbits, impacts + 1, 4))
-    for column, values in enumerate(states):
-        out[:, 0, column] = values
-    ball.map.history(*(a.copy() for a in states), ball.k, ball.g, out[:, 1:])
-    out[:, 0, 3] = math.nan
+    out = np.full((orbits, impacts + 1, 4), math.nan)
+    out[:, 0, :3] = np.transpose(states)
+    ball.map.history(*states, ball.k, ball.g, out[:, 1:])
     tau = out[:, 1:, 3]
     edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
-    data = variables("edge", [edges], {"bin_edge": "flight time"})
-    counts = np.histogram(tau, bins=edges)[0].astype(np.int64)
-    data |= variables("bin", [counts], {"flights": "flights of such a time"})
-    strain = _strain(out, ball.k)
-    names = {
-        "time": "length of the orbit in time",
-        "strain_energy": "mean in time of the strain energy",
-        "least_strain": "largest compression, as a negative strain",
-        "largest_strain": "largest stretch",
-    }
+    time, energies, least, most = _strains(out, ball.k)
     error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
-    names |= {"energy_error": "largest difference of an impact's energy from the start's"}
-    data |= variables("orbit", [*strain, error], names)
-    bits = np.random.default_rng(seed)
-    chosen = bits.integers(0, orbits, (resamples, orbits))
+    data = {
+        "bin_edge": ("edge", edges, "flight time"),
+        "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
+        "time": ("orbit", time, "length of the orbit in time"),
+        "strain_energy": ("orbit", energies, "mean in time of the strain energy"),
+        "least_strain": ("orbit", least, "largest compression, as a negative strain"),
+        "largest_strain": ("orbit", most, "largest stretch"),
+        "energy_error": ("orbit", error, _DRIFT),
+        "cut": ("cut", np.asarray(cuts, dtype=float), "cut"),
+        "lag": ("lag", np.arange(1, lags + 1), "clusters later"),
+    }
+    chosen = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
     found = [_cut(out, ball.k, cut, lags, chosen) for cut in cuts]
-    names = {
-        "count": "clusters",
-        "cluster_impacts": "mean number of impacts in a cluster",
-        "cluster_time": "mean time from a cluster's first impact to its last",
-        "period": "mean time from a cluster's first impact to the next one's",
-        "period_error": "standard error of that mean, between orbits",
-    }
-    data |= variables("cut", np.array([row[0] for row in found]).T, names)
-    ends = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
-    dims = {
-        "correlation": ("cut", "lag", "first", "then"),
-        "dependence": ("cut", "lag", "then"),
-    }
-    for which, (measure, what) in enumerate(_MEASURES.items()):
-        names = {measure + end: what + said for end, said in ends.items()}
-        values = [np.array([row[1][which][i] for row in found]) for i in range(3)]
-        data |= variables(dims[measure], values, names)
-    coordinates = {
-        "cut": ("cut", np.asarray(cuts, dtype=float), {"long_name": "cut", "units": "1"}),
-        "lag": ("lag", np.arange(1, lags + 1), {"long_name": "clusters later", "units": "1"}),
-    }
     rest = ball.energy_bounds()[0]
-    return xr.Dataset(data, coords=coordinates, attrs={"energy_at_rest": rest})
-
-
-def _strain(out, k):
-    """(time, mean strain energy, least and largest strain) of each orbit, (4, orbits)."""
-    found = np.empty((4, out.shape[0]))
-    _strains(out, k, *kernel.transfer(k), found)
-    return found
+    return xr.Dataset(described(data) | of_rows(_OF_CUTS, found), attrs={"energy_at_rest": rest})
 
 
 @jit
-def _strains(out, k, head, low, found):
+def _strains(out, k):
+    """(time, mean strain energy, least and largest strain) of each orbit, (4, orbits)."""
+    head, low = kernel.transfer(k)
+    found = np.empty((4, out.shape[0]))
     for i in range(out.shape[0]):
         time, square, least, most = 0.0, 0.0, 0.0, 0.0
         for j in range(out.shape[1] - 1):
@@ -159,35 +144,27 @@ def _strains(out, k, head, low, found):
                 before = after
         found[0, i], found[1, i] = time, 0.5 * k * square / time
         found[2, i], found[3, i] = least, most
+    return found
 
 
 def _cut(out, k, cut, lags, chosen):
-    """What one cut gives: the numbers on `cut`, and both measures as (value, low, high)."""
+    """Of one cut what _OF_CUTS says, in that order."""
     begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
     fewest = min(places.size for places in begun)
     if fewest < lags + 2:
         raise ValueError(f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters")
-    first = [
-        np.stack([row[at, 0], row[at, 1] - k * row[at, 2]])
-        for row, at in zip(out, begun, strict=True)
-    ]
-    clock = np.cumsum(out[:, 1:, 3], axis=1)
-    periods, lengths, sizes = [], [], []
-    for at, time, tau in zip(begun, clock, out[:, 1:, 3], strict=True):
-        starts = time[at - 1]
-        periods.append(starts[1:] - starts[:-1])
+    first = [chart(k, *row[at, :3].T) for row, at in zip(out, begun, strict=True)]
+    periods, lengths = [], []
+    for at, tau in zip(begun, out[:, 1:, 3], strict=True):
+        periods.append(np.diff(np.cumsum(tau)[at - 1]))
         lengths.append(periods[-1] - tau[at[1:] - 1])
-        sizes.append(at[1:] - at[:-1])
     means = np.array([row.mean() for row in periods])
     error = math.sqrt(float(np.sum((means - means.mean()) ** 2)) / (means.size - 1) / means.size)
-    numbers = (
-        sum(places.size for places in begun),
-        np.concatenate(sizes).mean(),
-        np.concatenate(lengths).mean(),
-        np.concatenate(periods).mean(),
-        error,
-    )
-    return numbers, _memory(first, lags, chosen)
+    count = float(sum(places.size for places in begun))
+    sizes = np.concatenate([np.diff(at) for at in begun])
+    times = [np.concatenate(rows).mean() for rows in (lengths, periods)]
+    correlation, dependence = _memory(first, lags, chosen)
+    return count, sizes.mean(), *times, error, *correlation, *dependence
 
 
 def _memory(first, lags, chosen):
@@ -195,15 +172,10 @@ def _memory(first, lags, chosen):
     cells = _cells(first)
     correlations, dependences = [], []
     for lag in range(1, lags + 1):
-        linear = np.array([_linear_sums(states[:, :-lag], states[:, lag:]) for states in first])
-        by_cell = np.array(
-            [
-                _cell_sums(cell[:-lag], states[:, lag:])
-                for cell, states in zip(cells, first, strict=True)
-            ]
-        )
-        correlations.append(_interval(_correlation, linear, chosen))
-        dependences.append(_interval(_dependence, by_cell, chosen))
+        linear = [_linear_sums(states[:, :-lag], states[:, lag:]) for states in first]
+        by_cell = [_cell_sums(c[:-lag], s[:, lag:]) for c, s in zip(cells, first, strict=True)]
+        correlations.append(_interval(_correlation, np.array(linear), chosen))
+        dependences.append(_interval(_dependence, np.array(by_cell), chosen))
     return [np.stack(rows, axis=1) for rows in (correlations, dependences)]
 
 

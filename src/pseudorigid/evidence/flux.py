@@ -14,8 +14,8 @@ from flint import ctx
 from ..dynamics.manifolds import trace_manifold
 from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
-from ..dynamics.variables import of_type, variables
-from .actions import Law, Lobe, Saddle, first_crossing
+from ..dynamics.variables import chart, of_rows, of_type, states_of
+from .actions import Law, Saddle, first_crossing, lobe
 from .polygon import Polygon
 from .sea import sea_states
 
@@ -23,6 +23,26 @@ SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _BEND = 5.0  # degrees, of the lines that polygons are made of
+_VARIABLES = {
+    "side": ("side", "which branch"),
+    "area": ("side", "area of a lobe, by differences of action"),
+    "area_error": ("side", "its error"),
+    "digits": ("side", "area of a lobe, in decimals"),
+    "lobe_polygon": ("side", "area of that lobe between the traced lines"),
+    "region": ("side", "area closed in"),
+    "carried_out": ("side", "area that an impact carries out, counted"),
+    "carried_in": ("side", "area that an impact carries in, counted"),
+    "sea_inside": ("side", "share of the sea's impacts that are inside"),
+    "sea_out": ("side", "share of the sea's impacts that leave"),
+    "saddle": ("side", "index of the point that the branch leaves"),
+    "target": ("side", "index of the point whose stable branch it meets"),
+    "crossing_x": (("side", "crossing"), "x where a primary orbit meets y = 0"),
+    "sine": (("side", "crossing"), "sine of the angle from the unstable branch to the stable one"),
+    "outline_x": (("side", "corner"), "x on the region's edge"),
+    "outline_y": (("side", "corner"), "y on the region's edge"),
+    "branch_x": (("side", "vertex"), "x on the unstable branch"),
+    "branch_y": (("side", "vertex"), "y on that branch"),
+}
 
 
 def flux(ball, energy, period, distance, grid, between, orbits, impacts):
@@ -81,76 +101,38 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         raise ValueError(f"period = {period} is not allowed: an even number")
     saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
     _, *states = sea_states(ball, energy, between, orbits)
-    sea = orbit(ball, states, impacts)
-    path = sea["x"].values, sea["xdot"].values - ball.k * sea["udot"].values
+    path = chart(ball.k, *states_of(orbit(ball, states, impacts)))
     found = [_side(ball, energy, saddles, side, distance, grid, path) for side in SIDES]
-    names = {
-        "area": "area of a lobe, by differences of action",
-        "area_error": "its error",
-        "lobe_polygon": "area of that lobe between the traced lines",
-        "region": "area closed in",
-        "carried_out": "area that an impact carries out, counted",
-        "carried_in": "area that an impact carries in, counted",
-        "sea_inside": "share of the sea's impacts that are inside",
-        "sea_out": "share of the sea's impacts that leave",
-    }
-    data = variables("side", np.array([row[0] for row in found]).T, names)
-    names = {
-        "crossing_x": "x where a primary orbit meets y = 0",
-        "sine": "sine of the angle from the unstable branch to the stable one",
-    }
-    crossings = np.array([row[1] for row in found]).transpose(1, 0, 2)
-    data |= variables(("side", "crossing"), crossings, names)
-    names = {"outline_x": "x on the region's edge", "outline_y": "y on the region's edge"}
-    outlines = np.stack([row[3] for row in found], axis=1)
-    data |= variables(("side", "corner"), outlines, names)
-    names = {"branch_x": "x on the unstable branch", "branch_y": "y on that branch"}
-    branches = np.stack([row[4] for row in found], axis=1)
-    data |= variables(("side", "vertex"), branches, names)
-    names = {
-        "saddle": "index of the point that the branch leaves",
-        "target": "index of the point whose stable branch it meets",
-    }
-    data |= variables("side", np.array([row[5] for row in found], dtype=np.int64).T, names)
-    texts = np.array([row[2] for row in found], dtype=object)
-    data["digits"] = ("side", texts, {"long_name": "area of a lobe, in decimals"})
-    label = np.array(SIDES, dtype=object)
-    data["side"] = ("side", label, {"long_name": "which branch"})
-    width, height = _half_axes(ball, energy)
     attributes = {
-        "section": math.pi * width * height,
+        "section": math.pi * math.prod(_half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
     }
-    return xr.Dataset(data, attrs=attributes)
+    return xr.Dataset(of_rows(_VARIABLES, found), attrs=attributes)
 
 
 def _side(ball, energy, saddles, side, distance, grid, path):
-    """(numbers, crossings, digits, region's outline, branch, saddles) of one side."""
+    """Of one side what _VARIABLES says, in that order."""
     place, sign = _primary(ball, energy, saddles, side)
-    state = [float(saddles[name].values[place]) for name in ("x", "xdot", "udot")]
+    states = states_of(saddles)
     lobes = []
     for bits, nearer in zip(_BITS, _NEARER, strict=True):
         with ctx.workprec(bits):
-            saddle = Saddle(Law(ball, energy), state, saddles.sizes["point"])
-            lobes.append(Lobe(saddle, sign, nearer))
-    area = lobes[1].area
-    error = abs(lobes[1].area - lobes[0].area).upper() + area.rad()
+            saddle = Saddle(Law(ball, energy), states[:, place].tolist(), saddles.sizes["point"])
+            lobes.append(lobe(saddle, sign, nearer))
+    (rough, _), (area, primary) = lobes
+    error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
-    lobe, region, branch = _polygons(ball, energy, saddles, place, side, distance, lobes[1])
+    traced, region, branch = _polygons(ball, energy, saddles, place, side, distance, primary)
     polygon = Polygon(region)
-    out, back = _carried(ball, energy, polygon, grid)
     inside = polygon.holds(*path)
     left = np.mean(inside[:-1] & ~inside[1:])
-    numbers = (float(area), float(error), lobe, polygon.area(), out, back, inside.mean(), left)
-    crossings = [
-        [float(one.points[-1][0]) for one in lobes[1].orbits],
-        [float(one.sine()) for one in lobes[1].orbits],
-    ]
-    text = area.str(digits, radius=False)
-    x, y = (saddles["x"].values, saddles["xdot"].values - ball.k * saddles["udot"].values)
+    x, y = chart(ball.k, *states)
     target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
-    lines = _thinned(region, _CORNERS), _thinned(branch, _VERTICES)
-    return numbers, crossings, text, *lines, (place, target)
+    areas = float(area), float(error), area.str(digits, radius=False), traced, polygon.area()
+    counted = *_carried(ball, energy, polygon, grid), inside.mean(), left
+    crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
+    lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
+    return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
 
 
 def _thinned(line, count):
@@ -160,36 +142,33 @@ def _thinned(line, count):
 
 def _primary(ball, energy, saddles, side):
     """(saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
-    points = np.stack([saddles[name].values for name in ("x", "xdot", "udot")])
-    chart = np.stack([points[0], points[1] - ball.k * points[2]])
+    points = states_of(saddles)
+    places = chart(ball.k, *points)
+    outwards = places - places.mean(axis=1)[:, None]
     weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # in the disk's own proportions
-    best = None
+    found = []
     with ctx.workprec(128):
         for place in range(points.shape[1]):
             saddle = Saddle(Law(ball, energy), points[:, place].tolist(), points.shape[1])
             along = np.array([float(saddle.ex), float(saddle.ey)])
-            outward = np.sum((chart[:, place] - chart.mean(axis=1)) * weight * along) > 0.0
+            outward = np.sum(outwards[:, place] * weight * along) > 0.0
             sign = 1 if outward == (side == "outer") else -1
             crossing = first_crossing(saddle, sign, 0)
-            if crossing is None:
-                continue
-            parameter, impacts = crossing
-            for _ in range(impacts // saddle.period):
-                parameter *= float(saddle.multiplier)
-            if best is None or parameter < best[0]:
-                best = parameter, place, sign
-    if best is None:
+            if crossing is not None:
+                parameter, impacts = crossing
+                grown = [float(saddle.multiplier)] * (impacts // saddle.period)
+                found.append((math.prod(grown, start=parameter), place, sign))
+    if not found:
         raise ValueError(f"no {side} branch meets y = 0")
-    return best[1:]
+    return min(found)[1:]
 
 
-def _polygons(ball, energy, saddles, place, side, distance, lobe):
+def _polygons(ball, energy, saddles, place, side, distance, primary):
     """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
-    first, second = lobe.orbits
+    first, second = primary
     steps = 2 * second.impacts - first.impacts
-    late = second.points[min(first.impacts, steps)]
-    one = np.array([float(a) for a in first.points[-1]])
-    other = np.array([float(a) for a in late])
+    ends = first.points[-1], second.points[min(first.impacts, steps)]
+    one, other = (np.array([float(a) for a in end]) for end in ends)
     if steps < first.impacts:
         other[1] = -other[1]
     ends = [one, other, other * np.array([1.0, -1.0])]
@@ -198,8 +177,8 @@ def _polygons(ball, energy, saddles, place, side, distance, lobe):
         traced = trace_manifold(
             ball, energy, saddles, place, side=side, length=length, distance=distance, bend=_BEND
         )
-        states = np.stack([traced[name].values for name in ("x", "xdot", "udot")])
-        line = np.stack([states[0], states[1] - ball.k * states[2]])
+        states = states_of(traced)
+        line = chart(ball.k, *states)
         at = [int(np.argmin(np.sum((line - end[:, None]) ** 2, axis=0))) for end in ends]
         gaps = [np.max(np.abs(line[:, i] - end)) for i, end in zip(at, ends, strict=True)]
         if max(at) < line.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
@@ -215,8 +194,7 @@ def _polygons(ball, energy, saddles, place, side, distance, lobe):
     back = np.stack(ball.reflect(*arc[:, ::-1]))
     loop = []
     for _ in range(saddles.sizes["point"]):
-        both = np.concatenate([arc, back[:, 1:]], axis=1)
-        loop.append(np.stack([both[0], both[1] - ball.k * both[2]]))
+        loop.append(chart(ball.k, *np.concatenate([arc, back[:, 1:]], axis=1)))
         for part in (arc, back):
             ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
     return abs(area), _closed(loop), line[:, min(at) : max(at) + 1]
@@ -224,20 +202,18 @@ def _polygons(ball, energy, saddles, place, side, distance, lobe):
 
 def _between(line, start, end, first, last):
     """The integral of y dx along a line (2, n) between points next to two of its vertices."""
-    low, high = min(start, end), max(start, end)
-    inner = line[:, low + 1 : high]
-    ends = (first, last) if start < end else (last, first)
-    part = np.concatenate([ends[0][:, None], inner, ends[1][:, None]], axis=1)
-    area = np.sum(0.5 * (part[1, 1:] + part[1, :-1]) * (part[0, 1:] - part[0, :-1]))
-    return float(area if start < end else -area)
+    if end < start:
+        return -_between(line, end, start, last, first)
+    x, y = np.column_stack([first, line[:, start + 1 : end], last])
+    return float(np.sum(0.5 * (y[1:] + y[:-1]) * (x[1:] - x[:-1])))
 
 
 def _closed(arcs):
     """Arcs (2, n) from saddle to saddle, put one after the other to a closed line."""
-    rest, loop = arcs[1:], [arcs[0]]
+    first, *rest = arcs
+    loop = [first]
     while rest:
-        end = loop[-1][:, -1]
-        gaps = [np.max(np.abs(arc[:, 0] - end)) for arc in rest]
+        gaps = [np.max(np.abs(arc[:, 0] - loop[-1][:, -1])) for arc in rest]
         loop.append(rest.pop(int(np.argmin(gaps))))
     return np.concatenate(loop, axis=1)
 
@@ -255,8 +231,6 @@ def _carried(ball, energy, polygon, grid):
     keep = x * x + y * y < 1.0
     x, y = ball.section(energy)[0] + width * x[keep], height * y[keep]
     before = polygon.holds(x, y)
-    states = [np.array(a) for a in ball.state_xy(x, y, energy)]
-    ball.map.steps(*states, ball.k, ball.g, 1, np.empty(x.size))
-    after = polygon.holds(states[0], states[1] - ball.k * states[2])
+    after = polygon.holds(*chart(ball.k, *ball.impact(*ball.state_xy(x, y, energy))[:3]))
     cell = 4.0 * width * height / (grid * grid)
     return cell * int(np.sum(before & ~after)), cell * int(np.sum(after & ~before))

@@ -11,13 +11,13 @@ import math
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import variables
-from ..kernel.arithmetic import sincos
-from ..kernel.compiled import jit
+from ..dynamics.variables import chart, described
+from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
+_HALVED = "by how much it differs from what half as many sides give"
 
 
 def jumps(ball, energy, energies, sides):
@@ -63,31 +63,28 @@ def jumps(ball, energy, energies, sides):
     """
     if sides % 4:
         raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
-    levels = [energy, *energies]
-    arcs = [_arc(ball, level, sides + 1) for level in levels]
-    names = {
-        "rim_x": "x of grazing states that leave the floor",
-        "rim_y": "y of these states",
-        "x": "x of their next impact, where the inverse jumps",
-        "y": "y of their next impact",
-    }
-    curves = np.stack(arcs, axis=1)
-    data = variables(("energy", "point"), curves, names)
+    levels = [float(energy), *map(float, energies)]
+    curves = np.stack([_arc(ball, level, sides + 1) for level in levels], axis=1)
     fine, middle, coarse = (_lengths(curves[2:, :, ::step]) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
     radii = [ball.section(level)[1] for level in levels]
-    names = {
-        "energy": "energy",
-        "radius": "the section's radius along y = 0",
-        "length": "length of the curve in (x, y)",
-        "length_error": "by how much it differs from what half as many sides give",
+    flight_x, flight_y = _symmetric_flights(ball, energy, sides)
+    curve, line = ("energy", "point"), ("half_time", "branch")
+    data = {
+        "rim_x": (curve, curves[0], "x of grazing states that leave the floor"),
+        "rim_y": (curve, curves[1], "y of these states"),
+        "x": (curve, curves[2], "x of their next impact, where the inverse jumps"),
+        "y": (curve, curves[3], "y of their next impact"),
+        "energy": ("energy", levels, "energy"),
+        "radius": ("energy", radii, "the section's radius along y = 0"),
+        "length": ("energy", length, "length of the curve in (x, y)"),
+        "length_error": ("energy", error, _HALVED),
+        "flight_x": (line, flight_x, "x on the symmetry line Fix RP"),
+        "flight_y": (line, flight_y, "y on that line"),
     }
-    numbers = (np.array(levels, dtype=float), radii, length, error)
-    data |= variables("energy", numbers, names)
-    names = {"flight_x": "x on the symmetry line Fix RP", "flight_y": "y on that line"}
-    data |= variables(("half_time", "branch"), _symmetric_flights(ball, energy, sides), names)
-    return xr.Dataset(data, attrs={"first_energy": ball.g * ball.g * (1.0 + 0.5 * ball.k)})
+    first = ball.g * ball.g * (1.0 + 0.5 * ball.k)
+    return xr.Dataset(described(data), attrs={"first_energy": first})
 
 
 def _lengths(curves):
@@ -110,8 +107,7 @@ def _arc(ball, energy, points):
     x = centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t))
     y = high * (2.0 * t / (1.0 + t * t))
     states = x, y / (1.0 + k), -y / (1.0 + k)
-    after_x, after_v, after_w, _ = ball.impact(*states)
-    return np.stack([x, y, after_x, after_v - k * after_w])
+    return np.stack([x, y, *chart(k, *ball.impact(*states)[:3])])
 
 
 def _symmetric_flights(ball, energy, points):
@@ -124,7 +120,7 @@ def _symmetric_flights(ball, energy, points):
     _, radius = ball.section(energy)
     k, g = ball.k, ball.g
     theta = radius * math.sqrt(k) / g * (np.arange(points) + 0.5) / points
-    sine, cosine = _sincos(theta)
+    sine, cosine = sincos_each(theta)
     square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
     root = np.sqrt(np.where(square >= 0.0, square, math.nan))
     found = []
@@ -138,11 +134,3 @@ def _symmetric_flights(ball, energy, points):
         first = np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta)
         found.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
     return np.array(found).transpose(1, 2, 0)
-
-
-@jit
-def _sincos(theta):
-    sine, cosine = np.empty(theta.size), np.empty(theta.size)
-    for i in range(theta.size):
-        sine[i], cosine[i] = sincos(theta[i])
-    return sine, cosine

@@ -12,7 +12,7 @@ import xarray as xr
 
 from ..dynamics.follow import angle
 from ..dynamics.orbits import orbit
-from ..dynamics.variables import variables
+from ..dynamics.variables import chart, of_rows, states_of
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
 from .winding import fixed, winding
@@ -20,6 +20,19 @@ from .winding import fixed, winding
 # A bracket of the symmetric flight begins so wide, in section radii, a thousand roundings, and
 # grows up to the other.
 _NARROW, _WIDE = 1e-13, 1e-3
+_CONVERGENT = ("noble", "convergent")
+_VARIABLES = {
+    "turns": (_CONVERGENT, "turns around the fixed point"),
+    "period": (_CONVERGENT, "impacts in which it makes them"),
+    "place": (_CONVERGENT, "the orbit's point on y = 0, in section radii"),
+    "residue": (_CONVERGENT, "Greene's residue"),
+    "closure": (_CONVERGENT, "by how much the orbit misses its start, in section radii"),
+    "rotation": ("noble", "noble rotation number"),
+    "orbit_rotation": ("noble", "rotation number of the orbit there"),
+    "orbit_exponent": ("noble", "Lyapunov exponent of the orbit there"),
+    "x": (("noble", "impact"), "position at impact, downwards"),
+    "y": (("noble", "impact"), "xdot - k udot just before impact"),
+}
 
 
 def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
@@ -66,37 +79,17 @@ def last_curve(ball, energy, nobles, convergents, between, impacts, drawn):
     """
     quotients = [[int(a) for a in noble] for noble in nobles]
     rows = [_one(ball, energy, noble, convergents, between, impacts, drawn) for noble in quotients]
-    table = np.array([row[0] for row in rows]).transpose(2, 0, 1)
-    names = {
-        "turns": "turns around the fixed point",
-        "period": "impacts in which it makes them",
-        "place": "the orbit's point on y = 0, in section radii",
-        "residue": "Greene's residue",
-        "closure": "by how much the orbit misses its start, in section radii",
-    }
-    data = variables(("noble", "convergent"), table, names)
-    names = {
-        "rotation": "noble rotation number",
-        "orbit_rotation": "rotation number of the orbit there",
-        "orbit_exponent": "Lyapunov exponent of the orbit there",
-    }
-    data |= variables("noble", np.array([row[1] for row in rows]).T, names)
-    names = {"x": "position at impact, downwards", "y": "xdot - k udot just before impact"}
-    paths = np.array([row[2] for row in rows]).transpose(1, 0, 2)
-    data |= variables(("noble", "impact"), paths, names)
-    return xr.Dataset(data, attrs={"impacts": impacts})
+    return xr.Dataset(of_rows(_VARIABLES, rows), attrs={"impacts": impacts})
 
 
 def _one(ball, energy, noble, convergents, between, impacts, drawn):
-    """Rows of the table, numbers and the drawn orbit of one noble number."""
+    """Of one noble number what _VARIABLES says, in that order."""
     search = _Search(ball, energy, between)
     found = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
     place = found[-1][2]
     (turns,), (grown,) = winding(ball, energy, np.array([place]), impacts)
-    states = ball.start(place, energy)
-    path = orbit(ball, states, drawn)
-    numbers = value(noble), turns, grown
-    return found, numbers, [path["x"].values, path["xdot"].values - ball.k * path["udot"].values]
+    path = chart(ball.k, *states_of(orbit(ball, ball.start(place, energy), drawn)))
+    return *np.array(found, dtype=float).T, value(noble), turns, grown, *path
 
 
 def fractions(noble, count):
@@ -114,18 +107,11 @@ def fractions(noble, count):
     list of (int, int)
         p, q of p/q.
     """
-    before, last = (1, 0), (noble[0], 1)
-    for quotient in noble[1:]:
-        before, last = last, _next(before, last, quotient)
-    found = [last]
-    while len(found) < count:
-        before, last = last, _next(before, last, 1)
-        found.append(last)
-    return found
-
-
-def _next(before, last, quotient):
-    return before[0] + quotient * last[0], before[1] + quotient * last[1]
+    found = [(1, 0), (noble[0], 1)]
+    for quotient in [*noble[1:], *[1] * (count - 1)]:
+        (p, q), (r, s) = found[-2:]
+        found.append((p + quotient * r, q + quotient * s))
+    return found[len(noble) :]
 
 
 def value(noble):
@@ -179,41 +165,36 @@ class _Search:
         state = self.ball.start(place, self.energy)
         jacobian = self.ball.jacobian(*state, impacts=period)
         trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
-        after = orbit(self.ball, state, period, keep="last")
-        names = ("x", "xdot", "udot")
-        gap = max(abs(float(after[name]) - a) for name, a in zip(names, state, strict=True))
-        return place, 0.25 * (2.0 - trace), gap / self.radius
+        after = states_of(orbit(self.ball, state, period, keep="last"))
+        return place, 0.25 * (2.0 - trace), np.max(np.abs(after - state)) / self.radius
 
     def _half(self, place, half):
-        k, g = self.ball.k, self.ball.g
-        state = self.ball.start(place, self.energy)
-        return _turned(*state, k, g, self.centre, self.expected, half)
+        ball, about = self.ball, (self.centre, self.expected)
+        return _turned(*ball.start(place, self.energy), ball.k, ball.g, *about, half)
 
     def _symmetric_flight(self, place, half):
         """The place next to this one from which the flight after `half` impacts is symmetric."""
+
+        def defect(at):
+            return self._half(at, half)[2]
+
         room = _NARROW
         while room < _WIDE:
-            low, high = place - room, place + room
-            first, last = self._half(low, half)[2], self._half(high, half)[2]
-            if first * last < 0.0:
-                sign = 1.0 if first > 0.0 else -1.0
-                break
+            for above, below in ((place - room, place + room), (place + room, place - room)):
+                if defect(above) > 0.0 > defect(below):
+                    return _bisect(defect, above, below)
             room *= 2.0
-        else:
-            raise ValueError(f"no symmetric flight after {half} impacts next to {place!r}")
-        return _bisect(lambda at: sign * self._half(at, half)[2], low, high)
+        raise ValueError(f"no symmetric flight after {half} impacts next to {place!r}")
 
 
-def _bisect(function, low, high):
-    """Where a function that is above 0 at `low` and below at `high` changes sign, to a double."""
-    while True:
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            return middle
+def _bisect(function, above, below):
+    """Where a function that is above 0 at one place and below at another changes, to a double."""
+    while (middle := 0.5 * (above + below)) not in (above, below):
         if function(middle) > 0.0:
-            low = middle
+            above = middle
         else:
-            high = middle
+            below = middle
+    return middle
 
 
 @jit

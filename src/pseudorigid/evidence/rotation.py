@@ -3,13 +3,18 @@
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import variables
+from ..dynamics.variables import described, variables
 from .winding import fixed, winding
 
 # ln of a tangent vector's growth over a chaotic orbit's second half, at least; over a regular one's
 # it about doubles, ln 2.
 GROWN = 6.0
 LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
+_ORBITS = {
+    "place": "start along y = 0, in section radii from the centre",
+    "rotation": "rotation number around the fixed point",
+    "exponent": "Lyapunov exponent an impact",
+}
 
 
 def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
@@ -53,34 +58,24 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     >>> found.sizes["start"]
     10
     """
-    all_energies = np.array([energy, *energies], dtype=float)
+    levels = [float(energy), *map(float, energies)]
     middle = (np.arange(starts) + 0.5) / starts
-    rows = []
-    for level in all_energies.tolist():
-        at, about = fixed(ball, level)
+    centres, orbits = [fixed(ball, level) for level in levels], []
+    for level, (at, _) in zip(levels, centres, strict=True):
         place = at + (1.0 - at) * middle
-        rows.append((place, *winding(ball, level, place, impacts), at, about))
-    place, turns, grown, at, about = (np.array(column) for column in zip(*rows, strict=True))
-    names = {
-        "place": "start along y = 0, in section radii from the centre",
-        "rotation": "rotation number around the fixed point",
-        "exponent": "Lyapunov exponent an impact",
-    }
-    data = variables(("energy", "start"), (place, turns, grown), names)
-    names = {
-        "energy": "energy",
-        "fixed_place": "the fixed point, in section radii from the centre",
-        "fixed_rotation": "rotation number of the fixed point",
-    }
-    data |= variables("energy", (all_energies, at, about), names)
-    names = {
-        "detail_place": "start along y = 0, in section radii from the centre",
-        "detail_rotation": "rotation number around the fixed point",
-        "detail_exponent": "Lyapunov exponent an impact",
-    }
+        orbits.append((place, *winding(ball, level, place, impacts)))
+    data = variables(("energy", "start"), zip(*orbits, strict=True), _ORBITS)
+    at, about = zip(*centres, strict=True)
+    data |= described(
+        {
+            "energy": ("energy", levels, "energy"),
+            "fixed_place": ("energy", at, "the fixed point, in section radii from the centre"),
+            "fixed_rotation": ("energy", about, "rotation number of the fixed point"),
+        }
+    )
     place = detail[0] + (detail[1] - detail[0]) * middle
-    found = winding(ball, energy, place, detail_impacts)
-    data |= variables("detail", (place, *found), names)
+    found = place, *winding(ball, energy, place, detail_impacts)
+    data |= variables("detail", found, {f"detail_{name}": text for name, text in _ORBITS.items()})
     return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.lyapunov import lyapunov_spectrum
-from ..dynamics.variables import variables
+from ..dynamics.variables import chart, described
 from .sea import sea_states
 
 # Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
@@ -72,61 +72,56 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
-    data = _one("exponent", ("block", "orbit", "index"), block, "mean exponent of a block")
-    data |= _one("start", ("orbit",), start, "start along y = 0, in section radii")
+    data = {
+        "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
+        "start": ("orbit", start, "start along y = 0, in section radii"),
+    }
     data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
     data |= _entered(ball, energy, states, cells, visits)
-    return xr.Dataset(data, attrs={"block_impacts": length // blocks})
-
-
-def _one(name, dims, values, long_name):
-    return variables(dims, [values], {name: long_name})
+    return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
 
 
 def _halves(number):
     """number, number/2, ... above 0, in rising order."""
-    found = []
-    while number:
-        found.append(number)
-        number //= 2
-    return np.array(found[::-1])
+    return np.array([number >> i for i in reversed(range(int(number).bit_length()))])
 
 
 def _regular(ball, energy, starts, impacts):
     lengths = _halves(impacts)
     states = ball.start(starts, energy)
     found = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
-    data = _one("length", ("length",), lengths, "number of impacts")
-    data |= _one("regular_start", ("island",), starts, "start along y = 0, in section radii")
-    dims = ("length", "island", "index")
-    return data | _one("regular_exponent", dims, np.array(found), "exponent of a regular orbit")
+    return {
+        "length": ("length", lengths, "number of impacts"),
+        "regular_start": ("island", starts, "start along y = 0, in section radii"),
+        "regular_exponent": (("length", "island", "index"), found, "exponent of a regular orbit"),
+    }
 
 
 def _entered(ball, energy, states, cells, visits):
     """Counts of cells of the chart that orbits enter, at `visits` impacts and its halves."""
     centre, radius = ball.section(energy)
     high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
-    x, v, w = (a.copy() for a in states)
-    seen = np.zeros((x.size, cells * cells), dtype=bool)
+    states = [a.copy() for a in states]
+    seen = np.zeros((states[0].size, cells * cells), dtype=bool)
     lengths, done, counts = _halves(visits), 0, []
     for length in lengths.tolist():
         while done < length:
-            out = np.empty((x.size, min(_CHUNK, length - done), 4))
-            ball.map.history(x, v, w, ball.k, ball.g, out)
+            out = np.empty((len(seen), min(_CHUNK, length - done), 4))
+            ball.map.history(*states, ball.k, ball.g, out)
             done += out.shape[1]
-            across = _cell((out[..., 0] - centre) / radius, cells)
-            up = _cell((out[..., 1] - ball.k * out[..., 2]) / high, cells)
+            x, y = chart(ball.k, *np.moveaxis(out[..., :3], -1, 0))
+            across, up = _cell((x - centre) / radius, cells), _cell(y / high, cells)
             for orbit, places in enumerate(up * cells + across):
                 seen[orbit, places] = True
         each = seen.sum(axis=1)
         counts.append((int(seen.any(axis=0).sum()), int(seen.all(axis=0).sum()), int(each.min())))
-    names = {
-        "entered_any": "cells entered by at least one orbit",
-        "entered_all": "cells entered by each orbit",
-        "entered_least": "cells entered by the orbit that enters fewest",
+    any_of, all_of, least = np.array(counts, dtype=np.int64).T
+    return {
+        "visit": ("visit", lengths, "number of impacts of each orbit"),
+        "entered_any": ("visit", any_of, "cells entered by at least one orbit"),
+        "entered_all": ("visit", all_of, "cells entered by each orbit"),
+        "entered_least": ("visit", least, "cells entered by the orbit that enters fewest"),
     }
-    data = _one("visit", ("visit",), lengths, "number of impacts of each orbit")
-    return data | variables("visit", np.array(counts, dtype=np.int64).T, names)
 
 
 def _cell(place, cells):

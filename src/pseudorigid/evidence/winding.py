@@ -1,12 +1,10 @@
 """How orbits that start on y = 0 wind round the fixed point, and how fast neighbours part."""
 
-import math
-
 import numpy as np
 
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
-from ..dynamics.follow import CENTRE, EXPECTED, KEPT, VECTOR, follow
+from ..dynamics.follow import begin, follow, weight
 
 
 def fixed(ball, energy):
@@ -26,10 +24,9 @@ def fixed(ball, energy):
         Its rotation number, NaN where it is not elliptic.
     """
     e = energy / (ball.g * ball.g)
-    theta = fixed_point.half_time(ball.k, e)
     middle, radius = Ball(ball.k, 1.0).section(e)
-    rotation = fixed_point.rotation(fixed_point.trace(ball.k, theta))
-    return (fixed_point.place(ball.k, theta) - middle) / radius, rotation
+    place, _, rotation = fixed_point.numbers(ball.k, e)
+    return (place - middle) / radius, rotation
 
 
 def winding(ball, energy, place, impacts):
@@ -61,17 +58,11 @@ def winding(ball, energy, place, impacts):
     e = energy / (ball.g * ball.g)
     middle, radius = unit.section(e)
     at, about = fixed(ball, energy)
-    orbits = np.zeros((KEPT, place.size))
-    orbits[:VECTOR] = unit.start(place, e)
-    orbits[VECTOR + 1], orbits[VECTOR + 2] = ball.k * orbits[2], -orbits[1]  # along the surface
-    orbits[CENTRE] = middle + radius * at
-    orbits[EXPECTED] = 0.5 if math.isnan(about) else about
+    orbits = begin(ball.k, unit.start(place, e), middle + radius * at, about)
     quarter = impacts // 4
     turning = np.array([(0, impacts)])
     growing = np.array([(quarter, quarter), (impacts - quarter, quarter)])
     turned, growth = np.zeros((1, place.size)), np.zeros((2, place.size))
     follow(orbits, ball.k, 0, impacts, turning, growing, turned, growth)
-    time = (np.arange(impacts) + 0.5) / impacts
-    bump = time * (1.0 - time)
     exponent = (growth[1] - growth[0]) / (quarter * (impacts - 2.0 * quarter))
-    return turned[0] / np.sum(bump * bump * bump), exponent
+    return turned[0] / weight(impacts), exponent

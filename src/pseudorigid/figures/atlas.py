@@ -1,5 +1,6 @@
 """The atlas: how much of the section is regular and how chaotic the rest, over k and E/g^2."""
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -64,9 +65,9 @@ def plane(sweep, data):
     for bottom, (title, shade, most, table) in zip((upper, lower), values, strict=True):
         frame = (LEFT, bottom, LEFT + wide, bottom + high)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
-        up = _linear(raster.edges(np.array(sweep["k"])), "$k$", 7)
+        up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
         panel = Panel(sheet, frame, across, up, grid=False)
-        raster.minor(panel, _minor(across), _minor(up))
+        raster.minor(panel)
         raster.cells(panel, sweep, shade / most, table)
         raster.scale(sheet, frame, most, table)
         sheet.text(frame[2], frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
@@ -82,24 +83,21 @@ def plane(sweep, data):
 
 def _plane_key(sheet, top):
     """What curves, circles and grey mean, a row each from the height `top` down."""
-    x, y = LEFT, top
-    _stroke(sheet, [x, x + 50], [y, y])
-    _entry(sheet, y, "rotation number of the fixed point, 1/2 to 1/10")
-    y -= 40
-    _stroke(sheet, [x, x + 50], [y, y], dashed=True)
-    _entry(sheet, y, "$E/g^2 = 1 + k/2$: above it the map jumps")
-    y -= 40
-    ring = {"mec": style.BACKDROP, "mfc": "white", "mew": 0.7}
-    sheet.draw([x + 25], [y], ls="none", marker="o", ms=5.0, **ring)
-    sheet.draw([x + 25], [y], ls="none", marker="o", ms=2.5, color=style.BLACK, mew=0)
-    _entry(sheet, y, "the paper's Figure 8 (left) and Figure 2 (right)")
-    y -= 40
-    sheet.draw([x, x + 50], [y, y], lw=6.0, color=style.GRID)
-    _entry(sheet, y, "no chaotic orbit among those of the cell")
-
-
-def _entry(sheet, y, text):
-    sheet.text(LEFT + 70, y, text, ha="left", va="center", size=_SIZE)
+    across, rows = [LEFT, LEFT + 50], [top - 40 * i for i in range(4)]
+    texts = (
+        "rotation number of the fixed point, 1/2 to 1/10",
+        "$E/g^2 = 1 + k/2$: above it the map jumps",
+        "the paper's Figure 8 (left) and Figure 2 (right)",
+        "no chaotic orbit among those of the cell",
+    )
+    for y, text in zip(rows, texts, strict=True):
+        sheet.text(LEFT + 70, y, text, ha="left", va="center", size=_SIZE)
+    _stroke(sheet, across, [rows[0]] * 2)
+    _stroke(sheet, across, [rows[1]] * 2, dashed=True)
+    dot = {"ls": "none", "marker": "o"}
+    sheet.draw([LEFT + 25], [rows[2]], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
+    sheet.draw([LEFT + 25], [rows[2]], ms=2.5, color=style.BLACK, mew=0, **dot)
+    sheet.draw(across, [rows[3]] * 2, lw=6.0, color=style.GRID)
 
 
 @style.pinned()
@@ -114,15 +112,15 @@ def line(sweep, data):
     energy = np.array(sweep["energy"]) * unit
     name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
     first, last = min(0.0, energy[0]), max(0.0, energy[-1])
-    across = _linear((first, last + (0.02 * (last - first) or 1.0)), name, 8)
-    blank = Axis(across.limits, across.ticks, labels=("",) * len(across.ticks))
-    share = _linear((0.0, 1.0), "", 5)
+    across = raster.linear(first, last + (0.02 * (last - first) or 1.0), 8, name)
+    share = raster.linear(0.0, 1.0, 5)
     exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
-    exponent = _linear((0.0, float(np.nanmax(exponents, initial=0.05)) * 1.02), "", 4)
+    exponent = raster.linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     frames = (110, 635, 1010, 1145), (110, 135, 1010, 545)
-    panels = Panel(sheet, frames[0], blank, share), Panel(sheet, frames[1], across, exponent)
+    axes = (across.blank(), across), (share, exponent)
+    panels = [Panel(sheet, *each) for each in zip(frames, *axes, strict=True)]
     for panel in panels:
-        raster.minor(panel, _minor(across), _minor(panel.up))
+        raster.minor(panel)
     titles = (
         ("Regular share of the section", "bars: 95 %"),
         ("Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles"),
@@ -180,9 +178,7 @@ def _upright(panels, at, **how):
 def _bars(panel, x, color, values, low, high):
     """A dot a cell, joined, with its bar from low to high."""
     panel.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
-    for at, *span in zip(x, low, high, strict=True):
-        if not np.isnan(span[0]):
-            panel.line([at, at], span, color=color, lw=0.7, zorder=2)
+    panel.bars(x, low, high, color=color, lw=0.7, zorder=2)
     seen = ~np.isnan(values)
     panel.dots(x[seen], values[seen], color, size=1.7)
 
@@ -233,22 +229,10 @@ def _energy_axis(values, name):
     """A logarithmic axis where the cells are spaced so, from edge to edge of the cells."""
     values = np.array(values)
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        return _linear(raster.edges(values), name)
-    edges = raster.edges(log10(values))
-    ticks = range(int(np.ceil(edges[0])), int(np.floor(edges[-1])) + 1)
-    labels = tuple(f"{10.0**tick:g}" for tick in ticks)
-    return Axis((float(edges[0]), float(edges[-1])), tuple(ticks), name, True, labels)
-
-
-def _linear(edges, name, count=5):
-    low, high = float(edges[0]), float(edges[-1])
-    return Axis((low, high), tuple(raster.ticks(low, high, count)), name)
-
-
-def _minor(axis):
-    return (
-        raster.decades(*axis.limits) if axis.decades else raster.between(axis.ticks, *axis.limits)
-    )
+        return raster.linear(*raster.edges(values)[[0, -1]], 5, name)
+    low, high = raster.edges(log10(values))[[0, -1]].tolist()
+    ticks = range(math.ceil(low), math.floor(high) + 1)
+    return Axis((low, high), ticks, name, True, [f"{10.0**tick:g}" for tick in ticks])
 
 
 def _inside(axis, value):

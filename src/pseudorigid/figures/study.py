@@ -6,7 +6,6 @@ import re
 import numpy as np
 
 from .axes.panel import Axis, Panel, decades, key, log10
-from .axes.raster import decades as decade_ticks
 from .axes.raster import minor
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
@@ -79,16 +78,14 @@ def work(data, which, cost):
     -------
     matplotlib.figure.Figure
     """
-    families = dict.fromkeys(data["family"].values.tolist())
-    sheet = _sheet(1050 + (math.ceil(len(families) / 2) + 1) * 42)
-    top = sheet.high - 70
+    entries = _families(data)
+    sheet, top = _sheet(1050 + (math.ceil(len(entries) / 2) + 1) * 42)
     across = COSTS[cost]
-    blank = Axis(across.limits, across.ticks, "", True, [""] * len(across.ticks))
     error = _from_zero(ZERO, 0, "Relative error of the flight time")
-    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), blank, error)
+    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
     share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
     lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
-    for family in families:
+    for family in dict.fromkeys(data["family"].values):
         color, marker = _style(family)
         some = data.isel(set=which, method=data["family"].values == family)
         x = some[cost].values
@@ -104,7 +101,6 @@ def work(data, which, cost):
                 upper.line([low, high], [y, y], color=color, lw=1.6)
         lower.line(x, some["wrong"].values, color=color, lw=0.9)
         lower.dots(x, some["wrong"].values, color, marker=marker)
-    entries = [(_written(family), *_style(family), False) for family in families]
     entries += [("median", style.FRAME, "", False), ("worst right root", style.FRAME, "", True)]
     key(sheet, entries, top - 960, 2)
     return sheet.figure
@@ -126,8 +122,8 @@ def edges(data):
     matplotlib.figure.Figure
     """
     methods = _methods(data)
-    sheet = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
-    top, gap = sheet.high - 70, 40
+    sheet, top = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
+    gap = 40
     wide = (RIGHT - LEFT - gap) / 2
     grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
     sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
@@ -166,8 +162,7 @@ def energy(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(1350)
-    top = sheet.high - 70
+    sheet, top = _sheet(1350)
     drift = _from_zero(ZERO, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts", every=2)
@@ -203,8 +198,7 @@ def separation(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(975)
-    top = sheet.high - 70
+    sheet, top = _sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
     up = _from_zero(ZERO, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
@@ -232,7 +226,7 @@ def figure_errors(data):
     matplotlib.figure.Figure
     """
     scenes = data.sizes["scene"]
-    sheet = _sheet(75 * (5 + scenes))
+    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values.tolist()]
@@ -241,22 +235,21 @@ def figure_errors(data):
     panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=7.0)
-    families = data["family"].values.tolist()
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
         errors = _seen(row["error"].values / float(row["limit"]), -16)
-        for family, error, missed in zip(families, errors, row["missed"].values, strict=True):
-            panel.dots(error, middle, _style(family)[0], hollow=bool(missed))
-        missed = ["" if n == 0 else " \N{WHITE CIRCLE}" for n in row["missed"].values]
-        named = list(zip(row["evaluations"].values, row["name"].values, missed, strict=True))
+        missed = row["missed"].values > 0
+        for family, error, hollow in zip(data["family"].values, errors, missed, strict=True):
+            panel.dots(error, middle, _style(family)[0], hollow=hollow)
+        circles = np.where(missed, " \N{WHITE CIRCLE}", "")
+        named = list(zip(row["evaluations"].values, row["name"].values, circles, strict=True))
         best = int(row["cheapest"])
         others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
         second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, _written(text), ha="left", va="center", size=7.0)
-    entries = [(family, *_style(family), False) for family in dict.fromkeys(families)]
-    key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
+    key(sheet, [*_families(data), ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
     return sheet.figure
 
 
@@ -275,18 +268,16 @@ def verdicts(data):
     -------
     matplotlib.figure.Figure
     """
-    sheet = _sheet(1275)
-    top = sheet.high - 70
+    sheet, top = _sheet(1275)
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]
     across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
-    blank = Axis(across.limits, ticks, "", True, [""] * len(ticks))
     up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
     orbits = data.attrs["orbits"] * data.sizes["cell"]
-    for row, axis in enumerate((blank, across)):
+    for row, axis in enumerate((across.blank(), across)):
         frame = (LEFT, top - 420 - row * 500, RIGHT, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
-        minor(panel, up=decade_ticks(*up.limits))
+        minor(panel, across=False)
         title = f"Wrong verdicts, {data['cells'].values[row]}"
         sheet.text(LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
         for i, name in enumerate(data["name"].values):
@@ -295,8 +286,7 @@ def verdicts(data):
             error = np.sqrt(wrong * (1.0 - wrong) / orbits)
             shown = np.maximum((wrong, wrong - error, wrong + error), 10.0 ** up.limits[0])
             panel.line(cost, shown[0], color=color, lw=0.9)
-            for x, low, high in zip(cost, *shown[1:], strict=True):
-                panel.line([x, x], [low, high], color=color, lw=0.6)
+            panel.bars(cost, *shown[1:], color=color, lw=0.6)
             panel.dots(cost, shown[0], color, marker=marker)
     entries = [(name, *VERDICTS[name], False) for name in data["name"].values]
     key(sheet, entries, top - 1070, 2)
@@ -304,8 +294,9 @@ def verdicts(data):
 
 
 def _sheet(least):
-    """A sheet of at least this height in pixels, a whole number of quarter inches."""
-    return Sheet(style.COLUMN, 75 * math.ceil(least / 75))
+    """A sheet of at least this height in pixels, and the upper end of its first frame."""
+    high = 75 * math.ceil(least / 75)  # whole quarters of an inch
+    return Sheet(style.COLUMN, high), high - 70
 
 
 def _from_zero(low, high, name):
@@ -320,21 +311,25 @@ def _seen(values, zero):
     return np.maximum(values, float(f"1e{zero}"))
 
 
+def _families(data):
+    """The key's entries, one a family of methods: name, colour, mark, not hollow."""
+    names = dict.fromkeys(data["family"].values)
+    return [(_written(family), *_style(family), False) for family in names]
+
+
 def _methods(data):
-    """The key's entries, one a method: name, colour, mark, not hollow."""
-    entries = []
-    for name, family in zip(data["name"].values, data["family"].values, strict=True):
-        color, marker = _style(family)
-        entries.append((_written(name), SINGLE.get(name, color), marker, False))
-    return entries
+    """The same, one a method."""
+    pairs = zip(data["name"].values, data["family"].values, strict=True)
+    return [(_written(name), *_style(family, name), False) for name, family in pairs]
 
 
 def _alike(data):
-    """The same, one entry for the scans of one tolerance: their steps cannot be told apart."""
-    entries, names = _methods(data), data["name"].values.tolist()
-    tolerances = [name.partition(", ")[2] if name.startswith("scan ") else "" for name in names]
-    for tolerance in dict.fromkeys(tolerances):
-        places = [i for i, one in enumerate(tolerances) if tolerance and one == tolerance]
+    """As `_methods`, one entry for the scans of one tolerance: their steps cannot be told apart."""
+    entries, names, scans = _methods(data), data["name"].values.tolist(), {}
+    for i, name in enumerate(names):
+        if name.startswith("scan "):
+            scans.setdefault(name.partition(", ")[2], []).append(i)
+    for tolerance, places in scans.items():
         if len(places) > 1:
             first, last = (_step(names[i]) for i in (places[0], places[-1]))
             text = _written(f"scan {first} to {last}, {tolerance}")
@@ -353,6 +348,7 @@ def _written(name):
     return re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", name).replace("<=", "\N{LESS-THAN OR EQUAL TO}")
 
 
-def _style(family):
-    """The colour and mark of a family; those of a new one until it has its own."""
-    return STYLES.get(family, (style.FRAME, "o"))
+def _style(family, name=""):
+    """The colour and mark of a family or a method; those of a new one until it has its own."""
+    color, marker = STYLES.get(family, (style.FRAME, "o"))
+    return SINGLE.get(name, color), marker

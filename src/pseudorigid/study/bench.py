@@ -8,15 +8,16 @@ import math
 import os
 import statistics
 import time
-from functools import cache, partial
+from functools import partial
 from unittest.mock import patch
 
 import numpy as np
 
-from ..dynamics import manifolds
+from ..dynamics import branch as branch_rule
 from ..dynamics.ball import Ball
-from ..dynamics.follow import KEPT, VECTOR, follow
+from ..dynamics.follow import begin, follow
 from ..dynamics.lyapunov import lyapunov_spectrum
+from ..dynamics.manifolds import trace_manifold
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import of_type
 from ..kernel.arithmetic import sincos
@@ -94,23 +95,24 @@ def run(repetitions=REPETITIONS):
     """The table as lines: what, seconds, ratio; then the machine and the versions."""
     ball = states.BALL
     chaotic = states.chaotic()
-    few = _along(chaotic, 20)
-    some = _along(chaotic, 500)
+    few, some = _along(chaotic, 20), _along(chaotic, 500)
+    many = ball.start(0.52 + 0.1 * (np.arange(LANES) / LANES), states.ENERGY)
+    room = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
     scan = own.scan_method(0.1, 1e-12)
     dop = scipy_events.ivp_method("DOP853", 1e-9)
     hey = taylor.taylor_method(1e-15, "positive")
     calls = {  # name: (what is called, how many of what the row counts it does)
         "three sincos": (partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
-        "orbit": (partial(_orbit, chaotic, IMPACTS), IMPACTS),
+        "orbit": (partial(_steps, chaotic, IMPACTS), IMPACTS),
         "scan": (partial(scan.solve, ball, *some), 500),
         "heyoka": (partial(hey.solve, ball, *some), 500),
         "DOP853": (partial(dop.solve, ball, *few), 20),
         "spectrum": (partial(lyapunov_spectrum, ball, chaotic, IMPACTS, records=1), IMPACTS),
         "pynamicalsys": (partial(toolkit.spectrum, ball, chaotic, IMPACTS), IMPACTS),
-        "ensemble": (partial(_ensemble, LANES, 200), 200 * LANES),
-        "stored": (partial(_stored, LANES, 200), 200 * LANES),
-        "vectors": (partial(_vectors, LANES, 192), 192 * LANES),
-        "spectra": (partial(lyapunov_spectrum, ball, _start(LANES), 192, records=1), 192 * LANES),
+        "ensemble": (partial(_steps, many, 200), 200 * LANES),
+        "stored": (partial(_history, many, room), 200 * LANES),
+        "vectors": (partial(_vectors, many, 192), 192 * LANES),
+        "spectra": (partial(lyapunov_spectrum, ball, many, 192, records=1), 192 * LANES),
     } | _whole()
     found = interleaved({name: call for name, (call, _) in calls.items()}, repetitions)
     each = {name: tuple(s / calls[name][1] for s in found[name]) for name in calls}
@@ -132,7 +134,7 @@ def _whole():
     rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
     saddle = of_type(symmetric_orbits(states.BALL, WEAK, 10), "hyperbolic")
-    branch = partial(manifolds.trace_manifold, states.BALL, WEAK, saddle, length=0.5)
+    branch = partial(trace_manifold, states.BALL, WEAK, saddle, length=0.5)
     ball = Ball(k=states.BALL.k, g=1.0)
 
     def each_to_the_end():
@@ -141,7 +143,7 @@ def _whole():
                 to_the_end.cell(k, e, 200, 4000)
 
     def from_the_segment():
-        with patch.object(manifolds, "WEAK", 0.0):
+        with patch.object(branch_rule, "WEAK", 0.0):
             branch()
 
     return {
@@ -161,52 +163,28 @@ def _spread(seconds):
     return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
 
 
-def _orbit(state, impacts):
-    x, v, w = (np.array([a]) for a in state)
-    states.BALL.map.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(1))
+def _steps(start, impacts):
+    ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
+    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size))
 
 
-def _ensemble(lanes, impacts):
-    x, v, w = _many(lanes)
-    states.BALL.map.steps(x, v, w, states.BALL.k, states.BALL.g, impacts, np.empty(lanes))
+def _history(start, out):
+    columns = [np.array(a, ndmin=1) for a in start]
+    states.BALL.map.history(*columns, states.BALL.k, states.BALL.g, out)
 
 
-def _stored(lanes, impacts):
-    x, v, w = _many(lanes)
-    states.BALL.map.history(x, v, w, states.BALL.k, states.BALL.g, _room(lanes, impacts))
-
-
-@cache
-def _room(lanes, impacts):
-    """Memory for a history, kept between calls: fresh pages are not the method's cost."""
-    return np.empty((lanes, impacts, 4))
-
-
-def _vectors(lanes, impacts):
+def _vectors(start, impacts):
     """An ensemble with a tangent vector each, as a sweep follows it."""
-    ball = states.BALL
-    x, v, w = (a / ball.g for a in _start(lanes))
-    orbits = np.zeros((KEPT, lanes))
-    orbits[:VECTOR], orbits[VECTOR + 1], orbits[VECTOR + 2] = (x, v, w), ball.k * w, -v
+    ball, lanes = states.BALL, start[0].size
+    orbits = begin(ball.k, [a / ball.g for a in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, lanes))
     follow(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
-
-
-def _many(lanes):
-    """Chaotic states, in arrays that may be written into."""
-    return tuple(np.array(a) for a in _start(lanes))
-
-
-@cache
-def _start(lanes):
-    return states.BALL.start(0.52 + 0.1 * (np.arange(lanes) / lanes), states.ENERGY)
 
 
 def _along(state, count):
     """The first `count` states of an orbit, as columns."""
     out = np.empty((1, count, 4))
-    columns = (np.array([float(a)]) for a in state)
-    states.BALL.map.history(*columns, states.BALL.k, states.BALL.g, out)
+    _history(state, out)
     return tuple(a.copy() for a in out[0].T[:3])
 
 

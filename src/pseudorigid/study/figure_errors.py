@@ -17,13 +17,14 @@ energy says. The mean exponent of a long orbit does not.
 
 import math
 from decimal import Decimal
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from ..dynamics.ball import Ball
 from ..dynamics.starts import start_state
-from ..dynamics.variables import of_type
+from ..dynamics.variables import of_type, states_of
 from ..figures.axes.box import Box
 from ..figures.canvas.style import DPI
 from ..figures.kinds import closeup, exponents, motion
@@ -111,11 +112,11 @@ def figure_errors(scenes, measures, artifacts):
 
 def _portrait(block):
     ball, states, impacts = _orbits(block)
-    pixel = 1.0 / Box(block).view.scale
+    pixel = _box_pixel(block)
     radius = ball.section(block["energy"])[1]
     error = []
     for method in METHODS:
-        tracks = [method.orbit(ball, *orbit)[0] for orbit in zip(states, impacts, strict=True)]
+        tracks = [method.orbit(ball, *each)[0] for each in zip(states, impacts, strict=True)]
         drifts = [energy_drift(ball, *each)[-1] for each in zip(states, tracks, strict=True)]
         error.append(max(drifts) * abs(ball.energy(*states[-1])) / (ball.k * radius) / pixel)
     return Errors(error, *_misses(ball, states, impacts), sum(impacts), "x", pixel, stroke=0.8)
@@ -126,9 +127,8 @@ def _exponents(block):
     _, pixel = _pixels(exponents.plane(block))
     means = []
     for method in METHODS:
-        orbits = zip(states, impacts, strict=True)
-        found = [_largest_exponent(ball, method, *orbit) for orbit in orbits]
-        means.append(sum(found) / len(found))
+        found = map(partial(_largest_exponent, ball, method), states, impacts)
+        means.append(sum(found) / len(states))
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
     missed, evaluations = _misses(ball, states, impacts)
@@ -138,7 +138,7 @@ def _exponents(block):
 def _motion(block, periodic):
     ball = Ball(**block["ball"])
     orbit = of_type(periodic, block["type"])
-    state = tuple(float(orbit[name].values[0]) for name in ("x", "xdot", "udot"))
+    state = tuple(states_of(orbit)[:, 0].tolist())
     impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
     truth = np.array(judge.orbit(ball, state, impacts)).T
     times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
@@ -154,20 +154,13 @@ def _motion(block, periodic):
     return Errors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
 
 
-def _tangle(block, periodic, manifolds):
-    return _branches(block, periodic, manifolds, 1.0 / Box(block).view.scale)
-
-
-def _closeup(block, periodic, manifolds):
-    return _branches(block, periodic, manifolds, _pixels(closeup.plane(block))[0])
-
-
-def _branches(block, periodic, manifolds, pixel):
+def _branches(block, periodic, manifolds):
     ball = Ball(**block["ball"])
+    pixel = _box_pixel(block) if "view" in block else _pixels(closeup.plane(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
-    columns = np.array([manifolds[name].values for name in ("x", "xdot", "udot")])
+    columns = states_of(manifolds)
     columns = columns[:, ~np.isnan(columns[0])]
     columns = columns[:, :: max(1, columns.shape[1] // BRANCH_POINTS)]
     columns[2] = np.maximum(columns[2], -columns[1])
@@ -185,10 +178,15 @@ def _branches(block, periodic, manifolds, pixel):
 MEASURES = {
     "portrait": _portrait,
     "motion": _motion,
-    "tangle": _tangle,
-    "closeup": _closeup,
+    "tangle": _branches,
+    "closeup": _branches,
     "exponents": _exponents,
 }
+
+
+def _box_pixel(block):
+    """The size of a pixel in a picture with a view."""
+    return 1.0 / Box(block).view.scale
 
 
 def _pixels(plane):

@@ -23,7 +23,8 @@ import xarray as xr
 
 from ..dynamics import fixed_point
 from ..dynamics.ensemble import threads
-from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
+from ..dynamics.follow import CENTRE, SIZE, VECTOR, begin, follow
+from ..dynamics.variables import described, of_rows
 from ..sweep.cell import even
 from ..sweep.verdict import THRESHOLD, judge, means, windows
 
@@ -70,54 +71,42 @@ def verdicts(cells=36, orbits=128):
         found = list(pool.map(lambda place: _cell(*place, orbits), drawn))
     sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
     shape = len(SETS), len(METHODS), len(LENGTHS)
-    missed, alarms, cost = (np.empty(shape) for _ in range(3))
+    missed, alarms, cost = np.empty((3, *shape))
     threshold = np.full(shape[1:], np.nan)
+    threshold[0] = 3.0
     for m, key in enumerate(METHODS.values()):
         for j, length in enumerate(LENGTHS):
-            if m == 0:
-                threshold[m, j] = 3.0
-            elif key != "safe":
+            if m and key != "safe":
                 threshold[m, j] = _best(sets[0][key][j], sets[0]["truth"])
             for i, orbit in enumerate(sets):
                 regular = orbit[key][j] < threshold[m, j] if key != "safe" else orbit[key][j]
                 missed[i, m, j] = np.mean(regular & ~orbit["truth"])
                 alarms[i, m, j] = np.mean(~regular & orbit["truth"])
                 cost[i, m, j] = np.mean(orbit["followed"][j]) if key == "safe" else length
-    dims = "set", "method", "length"
-    numbers = [[_exponents(one) for one in found[i * cells : (i + 1) * cells]] for i in range(2)]
-    numbers = np.moveaxis(np.array(numbers), -1, 0)
-    names = np.array(list(METHODS), dtype=object)
-    return xr.Dataset(
-        {
-            "wrong": _about(dims, missed + alarms, "share of wrong verdicts"),
-            "missed": _about(dims, missed, "chaotic orbits called regular, share of all"),
-            "alarms": _about(dims, alarms, "regular orbits called chaotic, share of all"),
-            "cost": _about(dims, cost, "mean number of impacts of an orbit"),
-            "threshold": _about(dims[1:], threshold, "regular is what lies below"),
-            "name": ("method", names, {"long_name": "how an orbit is judged"}),
-            "cells": ("set", np.array(SETS, dtype=object), {"long_name": "set of cells"}),
-        }
-        | {
-            name: _about(("set", "cell"), values, text)
-            for (name, text), values in zip(_CELL.items(), numbers, strict=True)
-        },
-        coords={"length": _about("length", np.array(LENGTHS), "largest number of impacts")},
-        attrs={"orbits": orbits, "impacts_of_the_truth": LONG},
-    )
+    variables = {
+        "wrong": (_EACH, missed + alarms, "share of wrong verdicts"),
+        "missed": (_EACH, missed, "chaotic orbits called regular, share of all"),
+        "alarms": (_EACH, alarms, "regular orbits called chaotic, share of all"),
+        "cost": (_EACH, cost, "mean number of impacts of an orbit"),
+        "threshold": (_EACH[1:], threshold, "regular is what lies below"),
+        "name": ("method", list(METHODS), "how an orbit is judged"),
+        "cells": ("set", SETS, "set of cells"),
+        "length": ("length", LENGTHS, "largest number of impacts"),
+    }
+    numbers = np.array([_exponents(one) for one in found]).reshape(len(SETS), cells, len(_CELL))
+    variables = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
+    return xr.Dataset(variables, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
 
 
+_EACH = ("set", "method", "length")
 _CELL = {
-    "k": "Euler inertia",
-    "energy": "energy over g^2",
-    "regular": "true share of regular orbits",
-    "exponent": "exponent of the sea from the impacts that all orbits share",
-    "exponent_error": "its standard error",
-    "exponent_long": "exponent of the sea from all impacts of the long runs",
+    "k": (("set", "cell"), "Euler inertia"),
+    "energy": (("set", "cell"), "energy over g^2"),
+    "regular": (("set", "cell"), "true share of regular orbits"),
+    "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
+    "exponent_error": (("set", "cell"), "its standard error"),
+    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts of the long runs"),
 }
-
-
-def _about(dims, values, text):
-    return dims, values, {"long_name": text, "units": "1"}
 
 
 def places(count, number):
@@ -137,12 +126,8 @@ def places(count, number):
 
 def _cell(k, e, count):
     """What each method has to say about the orbits of a cell, and the truth."""
-    theta = fixed_point.half_time(k, e)
-    rotation = fixed_point.rotation(fixed_point.trace(k, theta))
-    centre = np.full(count, fixed_point.place(k, theta))
-    expected = np.full(count, 0.5 if math.isnan(rotation) else rotation)
-    states = np.stack(even(k, e, count))
-    about = k, states, centre, expected
+    place, _, rotation = fixed_point.numbers(k, e)
+    about = k, np.stack(even(k, e, count)), np.full(count, place), np.full(count, rotation)
     found = {"k": k, "energy": e} | _watched(*about)
     found["alignment"] = _alignment(*about)
     safe = [judge(*about, length) for length in LENGTHS]
@@ -152,18 +137,11 @@ def _cell(k, e, count):
     return found
 
 
-def _orbits(k, states, centre, expected):
-    orbits = np.zeros((KEPT, centre.size))
-    orbits[:VECTOR], orbits[CENTRE], orbits[EXPECTED] = states, centre, expected
-    orbits[VECTOR + 1], orbits[VECTOR + 2] = k * orbits[2], -orbits[1]
-    return orbits
-
-
 def _watched(k, states, centre, expected):
     """Growth and how unsettled the winding number is after each of LENGTHS, and the truth."""
     turning, growing = windows((*LENGTHS, LONG))
     turning = turning[: 3 * len(LENGTHS)]
-    orbits = _orbits(k, states, centre, expected)
+    orbits = begin(k, states, centre, expected)
     turned = np.zeros((len(turning), centre.size))
     growth = np.zeros((len(growing), centre.size))
     follow(orbits, k, 0, LONG, turning, growing, turned, growth)
@@ -178,7 +156,7 @@ def _watched(k, states, centre, expected):
 
 def _alignment(k, states, centre, expected):
     """SALI of two tangent vectors of the energy surface after each of LENGTHS."""
-    one, other = (_orbits(k, states, centre, expected) for _ in range(2))
+    one, other = (begin(k, states, centre, expected) for _ in range(2))
     x, v, w = states
     length = np.sqrt(v * v + (k * w) * (k * w))
     # the second one up the slope of the kinetic energy, x with it

@@ -9,6 +9,7 @@ import time
 import numpy as np
 import xarray as xr
 
+from ..dynamics.variables import described
 from ..proofs import judge
 from . import states
 from .methods.counted import METHODS
@@ -81,17 +82,6 @@ def is_wrong(tau, truth):
     return ~(np.abs(tau - truth) <= 0.1 * np.minimum(truth, 1.0))
 
 
-def described(variables):
-    """Dataset variables from name -> (dims, values, long name)."""
-    found = {}
-    for name, (dims, values, text) in variables.items():
-        array = np.asarray(values)
-        words = array.dtype.kind == "U"
-        attributes = {"long_name": text} | ({} if words else {"units": "1"})
-        found[name] = dims, array.astype(object) if words else array, attributes
-    return found
-
-
 def dataset(methods, variables, **attrs):
     """A Dataset of such variables, with the names and families of methods on `method`."""
     named = {
@@ -110,8 +100,7 @@ def _sets(count):
 
 
 def _seconds(method, columns):
-    turns, spent = 0, 0.0
-    start = time.perf_counter()
+    turns, spent, start = 0, 0.0, time.perf_counter()
     while spent <= SPENT:
         method.solve(states.BALL, *columns)
         turns += 1

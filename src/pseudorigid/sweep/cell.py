@@ -94,21 +94,17 @@ def cells(k, energies, starts, impacts):
     -------
     list of dict
     """
-    found = []
     step = max(1, BATCH // starts)
-    for first in range(0, len(energies), step):
-        found += _batch(k, energies[first : first + step], starts, impacts)
-    return found
+    batches = (energies[first : first + step] for first in range(0, len(energies), step))
+    return [one for batch in batches for one in _batch(k, batch, starts, impacts)]
 
 
 def _batch(k, energies, starts, impacts):
-    thetas = [fixed_point.half_time(k, e) for e in energies]
-    traces = [fixed_point.trace(k, theta) for theta in thetas]
-    rotations = [fixed_point.rotation(trace) for trace in traces]
+    fixed = [fixed_point.numbers(k, e) for e in energies]
+    places, traces, rotations = zip(*fixed, strict=True)
     states = np.concatenate([even(k, e, starts) for e in energies], axis=1)
-    centre = np.repeat([fixed_point.place(k, theta) for theta in thetas], starts)
-    expected = np.repeat([0.5 if math.isnan(r) else r for r in rotations], starts)
-    verdicts = judge(k, states, centre, expected, impacts)
+    about = np.repeat(places, starts), np.repeat(rotations, starts)
+    verdicts = judge(k, states, *about, impacts)
     return [
         {"trace": trace, "rotation": rotation}
         | _numbers(verdicts[i * starts : (i + 1) * starts], rotation)

@@ -21,7 +21,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..dynamics.follow import CENTRE, EXPECTED, KEPT, SIZE, VECTOR, follow
+from ..dynamics.follow import SIZE, begin, follow, weight
 
 FIRST = 500  # impacts that all orbits have: the exponent is taken from them
 # Of growth: half of it is still above a regular orbit's 0.85. `study.verdicts` holds it against the
@@ -83,7 +83,7 @@ def judge(k, states, centre, expected, impacts):
     centre : ndarray, shape (n,)
         The x around which the turns are counted, at y = 0.
     expected : ndarray, shape (n,)
-        The turn of an impact that is expected.
+        The turn of an impact that is expected, NaN where none is.
     impacts : int
         At least 4.
 
@@ -99,10 +99,7 @@ def judge(k, states, centre, expected, impacts):
     turning, growing = windows(lengths)
     ends = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # of the impacts that all have
     growing = np.concatenate([growing, ends])
-    orbits = np.zeros((KEPT, len(centre)))
-    orbits[:VECTOR] = states
-    orbits[VECTOR + 1], orbits[VECTOR + 2] = k * orbits[2], -orbits[1]  # along the energy surface
-    orbits[CENTRE], orbits[EXPECTED] = centre, expected
+    orbits = begin(k, states, centre, expected)
     turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
     found = Verdicts(
         *(np.zeros(len(centre), bool) for _ in range(3)),
@@ -113,10 +110,9 @@ def judge(k, states, centre, expected, impacts):
     start = 0
     for level, length in enumerate(lengths):
         follow(orbits, k, start, length, turning, growing, turned, growth)
-        start = length
         turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
         (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
-        if level == 0:
+        if not start:
             found.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
         strict = grown < 0.5 * THRESHOLD
         if length < impacts:
@@ -127,11 +123,10 @@ def judge(k, states, centre, expected, impacts):
         else:
             regular, lenient = grown < THRESHOLD, grown < 2.0 * THRESHOLD
             decided = np.ones(which.size, bool)
-        found.winding[which], found.growth[which] = winding[0], grown
-        found.followed[which] = length
+        found.winding[which], found.growth[which], found.followed[which] = winding[0], grown, length
         for name, verdict in (("regular", regular), ("strict", strict), ("lenient", lenient)):
             getattr(found, name)[which[decided]] = verdict[decided]
-        which = which[~decided]
+        start, which = length, which[~decided]
         if not which.size:
             break
         orbits, turned, growth = (a[:, ~decided] for a in (orbits, turned, growth))
@@ -178,10 +173,6 @@ def means(turning, growing, turned, growth):
     growth : ndarray, shape (m, n)
         Of the mean logarithm of a tangent vector, from the second quarter to the last.
     """
-    weights = np.empty((len(turning), 1))
-    for row, (_, length) in enumerate(turning):
-        time = (np.arange(length) + 0.5) / length
-        bump = time * (1.0 - time)
-        weights[row] = np.sum(bump * bump * bump)
+    weights = np.array([[weight(length)] for _, length in turning])
     late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]
     return (turned / weights).reshape(-1, 3, turned.shape[1]), late - early

@@ -1,7 +1,7 @@
 """A frame with linear or decade axes, several of which may share a sheet."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,10 @@ class Axis:
         low, high = self.limits
         return (np.atleast_1d(np.asarray(values, dtype=float)) - low) / (high - low)
 
+    def blank(self):
+        """The axis without name and labels, for a panel that stands above another."""
+        return replace(self, name="", labels=[""] * len(self.ticks))
+
     def texts(self):
         """The ticks' labels."""
         if self.labels is not None:
@@ -73,6 +77,7 @@ class Panel:
     """
 
     tick, gap, size = 2.5, 2.0, _SIZE  # points: a tick's length, from there to its label, and that
+    small = _BESIDE  # points: a note
     baseline = "center"  # of labels at the left
     corners = "butt"
     kept = (0.0, 1.0)  # fractions of an axis that points are moved into
@@ -113,6 +118,11 @@ class Panel:
         for piece in pieces(*self.place(x, y)):
             self.sheet.draw(*piece, **how)
 
+    def bars(self, x, low, high, **how):
+        """Draw an upright line at each x, none where an end is NaN."""
+        for at, *span in zip(x, low, high, strict=True):
+            self.line([at, at], span, **how)
+
     def dots(self, x, y, color, size=3.2, hollow=False, marker="o"):
         """Draw marks of `size` points, filled or hollow."""
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
@@ -121,7 +131,7 @@ class Panel:
         """Write `text` beside a point, `shift` points away."""
         across, up = self.place(x, y)
         across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha=ha, va=va, size=_BESIDE)
+        self.sheet.text(across, up, text, ha=ha, va=va, size=self.small)
 
     def _label(self, x, text):
         """Where the middle of a label below the frame is."""

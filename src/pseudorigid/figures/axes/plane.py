@@ -30,7 +30,7 @@ class Plane(Panel):
         Whether the picture is of the scene's one energy.
     """
 
-    tick, gap, size = 3.0, 3.0, style.PLAIN
+    tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN
     baseline = "center_baseline"
     corners = "projecting"
     kept = (-np.inf, np.inf)

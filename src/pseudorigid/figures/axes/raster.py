@@ -1,11 +1,13 @@
 """Coloured cells between axes, their scale of colours, and round ticks."""
 
+from itertools import cycle
+
 import matplotlib
 import numpy as np
 
 from ..canvas import style
 from ..canvas.sheet import POINT
-from .panel import log10
+from .panel import Axis, log10
 
 _SIZE = 6.0  # points: text beside a scale
 _STEPS = 64  # colours of a scale
@@ -24,9 +26,8 @@ def cells(panel, sweep, shades, table):
     x = _pixels(edges(along), panel.across.limits, 0, right - left)
     y = _pixels(edges(k), panel.up.limits, 0, top - bottom)
     steps = np.clip((np.nan_to_num(shades) * _STEPS).astype(np.int64), 0, _STEPS - 1)
-    colors = np.where(
-        np.isnan(shades)[..., None], _bytes([style.GRID]), _bytes(palette(table))[steps]
-    )
+    colors = palette(table)[steps]
+    colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
     image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
     _paste(panel.sheet, left, bottom, image)
 
@@ -35,7 +36,7 @@ def scale(sheet, frame, largest, table):
     """The colours beside the frame, from 0 to `largest`."""
     left, right = frame[2] + 25, frame[2] + 55
     bounds = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), 0, frame[3] - frame[1])
-    column = np.repeat(_bytes(palette(table)), np.diff(bounds), axis=0)
+    column = np.repeat(palette(table), np.diff(bounds), axis=0)
     _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
         y = frame[1] + tick / largest * (frame[3] - frame[1])
@@ -44,29 +45,26 @@ def scale(sheet, frame, largest, table):
         sheet.text(right + 4 * POINT, y, text, ha="left", va="center", size=_SIZE)
 
 
-def minor(panel, across=(), up=()):
-    """Short ticks without labels, at places in the axes' own limits."""
+def minor(panel, across=True):
+    """Short ticks without labels, of the axis up, and of the other one too."""
     left, bottom, right, top = panel.frame
-    for tick in across:
-        low, high = panel.across.limits
-        x = left + (tick - low) / (high - low) * (right - left)
-        panel.sheet.draw([x, x], [bottom, bottom - _MINOR * POINT], color=style.FRAME, lw=0.5)
-    for tick in up:
-        low, high = panel.up.limits
-        y = bottom + (tick - low) / (high - low) * (top - bottom)
-        panel.sheet.draw([left, left - _MINOR * POINT], [y, y], color=style.FRAME, lw=0.5)
+    how, size = {"color": style.FRAME, "lw": 0.5}, _MINOR * POINT
+    if across:
+        for x in left + panel.across.between(_minor(panel.across)) * (right - left):
+            panel.sheet.draw([x, x], [bottom, bottom - size], **how)
+    for y in bottom + panel.up.between(_minor(panel.up)) * (top - bottom):
+        panel.sheet.draw([left, left - size], [y, y], **how)
+
+
+def _minor(axis):
+    return decades(*axis.limits) if axis.decades else between(axis.ticks, *axis.limits)
 
 
 def palette(name):
-    """_STEPS colours of one of matplotlib's tables, as #rrggbb."""
-    table = matplotlib.colormaps[name].colors
-    rows = [table[(2 * i + 1) * len(table) // (2 * _STEPS)] for i in range(_STEPS)]
-    return ["#" + "".join(f"{int(part * 255 + 0.5):02x}" for part in row) for row in rows]
-
-
-def _bytes(colors):
-    """(n, 3) red, green and blue of colours #rrggbb."""
-    return np.array([[int(c[at : at + 2], 16) for at in (1, 3, 5)] for c in colors], np.uint8)
+    """Colours of one of matplotlib's tables, (_STEPS, 3): red, green and blue, up to 255."""
+    table = np.array(matplotlib.colormaps[name].colors)
+    rows = table[(2 * np.arange(_STEPS) + 1) * len(table) // (2 * _STEPS)]
+    return (rows * 255 + 0.5).astype(np.uint8)
 
 
 def _paste(sheet, left, bottom, image):
@@ -88,13 +86,23 @@ def edges(values):
     return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
 
 
+def wider(low, high, below, above):
+    """Limits around others, wider by parts of their span."""
+    span = high - low
+    return low - below * span, high + above * span
+
+
+def linear(low, high, count, name=""):
+    """An axis with about `count` round ticks."""
+    low, high = float(low), float(high)
+    return Axis((low, high), ticks(low, high, count) if count else (), name)
+
+
 def ticks(low, high, count):
     """About `count` round numbers from low to high."""
-    step, factors = 1e-12, (2.0, 2.5, 2.0)
-    i = 0
+    step, factors = 1e-12, cycle((2.0, 2.5, 2.0))
     while (high - low) / step > count:
-        step *= factors[i % 3]
-        i += 1
+        step *= next(factors)
     first = int(np.ceil(low / step - 1e-9))
     last = int(np.floor(high / step + 1e-9))
     return [float(f"{i * step:.10g}") for i in range(first, last + 1)]

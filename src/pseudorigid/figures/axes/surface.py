@@ -63,10 +63,7 @@ class Surface:
     def outline(self, view):
         """The outermost line of the half, NaN elsewhere, as a projection shows it."""
         sine, cosine = _circle()
-        towards = [
-            across * cosine + up * sine for across, up in zip(view.right, view.up, strict=True)
-        ]
-        x, y, z = towards
+        x, y, z = (a * cosine + b * sine for a, b in zip(view.right, view.up, strict=True))
         length = np.sqrt(x * x / self.k + y * y + z * z / self.k)
         far = self.radius / length
         x, y, z = x * far / self.k, y * far, z * far / self.k

@@ -7,9 +7,9 @@ import numpy as np
 _LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
 
 
-def rows(row_size):
+def rows(dataset):
     """One slice for each row: `row_size` samples each, one row after the other (CF)."""
-    ends = [0, *np.cumsum(row_size, dtype=np.int64).tolist()]
+    ends = [0, *np.cumsum(dataset["row_size"].values, dtype=np.int64).tolist()]
     return [slice(start, end) for start, end in pairwise(ends)]
 
 

@@ -16,6 +16,7 @@ HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 # The paper's green and blue for the two kinds of manifold, the one light and yellowish, the other
 # dark, so that they too stay apart.
 STABLE, UNSTABLE = "#4fa82a", "#123fb0"
+MANIFOLDS = UNSTABLE, STABLE  # by `stable` of their datasets, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = "#7a5c3a"
@@ -63,8 +64,7 @@ def pinned():
 
 def pale(color):
     """Return `color` (#rrggbb) mixed with twice as much white."""
-    parts = (int(color[at : at + 2], 16) for at in (1, 3, 5))
-    return "#" + "".join(f"{(part + 2 * 255) // 3:02x}" for part in parts)
+    return "#" + bytes((part + 2 * 255) // 3 for part in bytes.fromhex(color[1:])).hex()
 
 
 def setting(scene, energy=True):

@@ -34,10 +34,8 @@ def draw(scene, manifolds):
     refuse_empty(scene["axes"], manifolds)
     picture = plane(scene)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
-    hues = {0: style.UNSTABLE, 1: style.STABLE}
-    for branch, span in enumerate(rows(manifolds["row_size"].values)):
-        hue = hues[int(manifolds["stable"].values[branch])]
-        picture.line(x[span], xdot[span], color=hue, lw=0.5)
+    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
+        picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
     picture.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
     picture.legend(

@@ -8,7 +8,7 @@ from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005
 _MARKS = ("o", "s", "^", "D")
-_PAIRS = (("x", 0, 0), ("y", 1, 1))
+_ENDS = ("", "_low", "_high")
 
 
 @style.pinned()
@@ -37,23 +37,18 @@ def draw(scene, clusters):
     ticks = tuple(0.1 * i for i in range(-8, 9, 2) if abs(0.1 * i) <= span + 1e-9)
     up = Axis((-span, span), ticks, "Correlation of $x$ (filled), $y$ (hollow)")
     panel = _by_lag(sheet, (_LEFT, 680, _RIGHT, 1010), clusters, up, named=False)
-    for i, (name, first, then) in enumerate(_PAIRS):
-        rows = [clusters[f"correlation{end}"].values[..., first, then] for end in _ENDS]
-        _bars(panel, clusters, rows, shift=0.04 * i, hollow=name == "y")
+    for i in range(2):
+        rows = [clusters[f"correlation{end}"].values[..., i, i] for end in _ENDS]
+        _bars(panel, clusters, rows, shift=0.04 * i, hollow=i == 1)
     panel.line([0.0, 99.0], [0.0, 0.0], color=style.BLACK, lw=0.7)
     up = Axis((0.0, 0.7), (0, 0.2, 0.4, 0.6), "Share of the variance of $y$ explained")
     panel = _by_lag(sheet, (_LEFT, 240, _RIGHT, 560), clusters, up, named=True)
     rows = [clusters[f"dependence{end}"].values[..., 1] for end in _ENDS]
     _bars(panel, clusters, rows, shift=0.0, hollow=False)
-    entries = [
-        (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4], False)
-        for i, cut in enumerate(clusters["cut"].values)
-    ]
+    names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
+    entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
     key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
-
-
-_ENDS = ("", "_low", "_high")
 
 
 def _flights(sheet, frame, clusters):
@@ -70,22 +65,18 @@ def _flights(sheet, frame, clusters):
         panel.line([cut, cut], [0.0, tall], color=style.HUES[i], lw=0.8, ls="--")
         period = f"{float(clusters['period'].values[i]):.1f}"
         panel.note(cut, (0.95 - 0.1 * i) * tall, period, shift=(2, 0))
-    text = "dashes: cuts, and the mean time between clusters"
-    corner(sheet, frame, text)
+    corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
 def _by_lag(sheet, frame, clusters, up, named):
-    lags = clusters["lag"].values
-    name = "Clusters later" if named else ""
-    labels = None if named else ("",) * lags.size
-    across = Axis((0.6, float(lags[-1]) + 0.5), tuple(lags.tolist()), name, labels=labels)
-    return Panel(sheet, frame, across, up)
+    lags = clusters["lag"].values.tolist()
+    across = Axis((0.6, lags[-1] + 0.5), lags, "Clusters later")
+    return Panel(sheet, frame, across if named else across.blank(), up)
 
 
 def _bars(panel, clusters, rows, shift, hollow):
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i in range(cuts.size):
         at = lags + 0.12 * (i - 0.5 * (cuts.size - 1)) + shift
-        for place, low, high in zip(at, rows[1][i], rows[2][i], strict=True):
-            panel.line([place, place], [low, high], color=style.HUES[i], lw=0.7)
+        panel.bars(at, rows[1][i], rows[2][i], color=style.HUES[i], lw=0.7)
         panel.dots(at, rows[0][i], style.HUES[i], hollow=hollow, marker=_MARKS[i % 4])

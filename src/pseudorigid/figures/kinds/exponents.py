@@ -64,8 +64,7 @@ def _inset(picture, largest, first, second):
     if not high - low > _LEAST:
         return None
     start, end = picture.across.limits
-    start += _FROM * (end - start)
-    across = Axis((start, end), ())
+    across = Axis((start + _FROM * (end - start), end), ())
     room = 0.2 * (high - low)
     frame = left + _FROM * (right - left), low + room, right, high - room
     return _Inset(picture.sheet, frame, across, Axis(**largest))

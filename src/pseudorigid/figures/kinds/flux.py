@@ -1,13 +1,11 @@
 """The regions that a hyperbolic orbit's branches close in, and the lobes of the sea's passage."""
 
-import math
-
 import numpy as np
 
-from ...kernel.arithmetic import sincos
-from ...kernel.compiled import jit
-from ..axes.panel import Axis, Panel, corner, key
-from ..axes.raster import ticks
+from ...dynamics.ball import Ball
+from ..axes.panel import Panel, corner, key
+from ..axes.raster import linear, wider
+from ..axes.section import NAME, Section
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
@@ -52,16 +50,9 @@ def draw(scene, flux):
 
 def _regions(sheet, frame, flux):
     k, g, energy = (float(flux.attrs[name]) for name in ("k", "g", "energy"))
-    radius = math.sqrt((2.0 * energy + g * g / k) / k)
-    half = 1.06 * radius
-    across = Axis((g / k - half, g / k + half), tuple(ticks(g / k - half, g / k + half, 5)), "$x$")
-    high = 0.54 * half
-    up = Axis((-high, high), tuple(ticks(-high, high, 5)), r"$y=\dot{x}^{-}-k\dot{u}^{-}$")
-    panel = Panel(sheet, frame, across, up, grid=False)
-    sine, cosine = np.empty(721), np.empty(721)
-    _circle(sine, cosine)
-    rim = math.sqrt(k * (1.0 + k)) * radius
-    panel.line(g / k + radius * cosine, rim * sine, color=style.BLACK, lw=0.8)
+    radius = Ball(k, g).section(energy)[1]
+    panel = Section(sheet, frame, flux.attrs, radius, 1.06, 5, ("$x$", NAME))
+    panel.rim()
     for side, hue in ((1, _OUTER), (0, _INNER)):
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
         panel.line(x, y, color=hue, lw=1.1)
@@ -73,20 +64,12 @@ def _regions(sheet, frame, flux):
         panel.dots([at], [0.0], hue)
 
 
-@jit
-def _circle(sine, cosine):
-    for i in range(sine.size):
-        sine[i], cosine[i] = sincos(2.0 * math.pi * i / (sine.size - 1))
-
-
 def _outer_lobe(sheet, frame, flux):
     x, y = flux["branch_x"].values[1], flux["branch_y"].values[1]
-    spans = []
-    for low, high in ((x.min(), x.max()), (-np.abs(y).max(), np.abs(y).max())):
-        room = 0.06 * (high - low)
-        spans.append((float(low - room), float(high + room)))
-    across = Axis(spans[0], tuple(ticks(*spans[0], 3)), "$x$")
-    panel = Panel(sheet, frame, across, Axis(spans[1], tuple(ticks(*spans[1], 5)), "$y$, outer"))
+    high = np.abs(y).max()
+    across = linear(*wider(x.min(), x.max(), 0.06, 0.06), 3, "$x$")
+    up = linear(*wider(-high, high, 0.06, 0.06), 5, "$y$, outer")
+    panel = Panel(sheet, frame, across, up)
     panel.line(x, -y, color=style.STABLE, lw=1.0)
     panel.line(x, y, color=style.UNSTABLE, lw=1.0)
 
@@ -100,8 +83,7 @@ def _inner_lobe(sheet, frame, flux):
     power = int(f"{float(np.abs(apart).max()):e}".partition("e")[2])
     apart = apart / float(f"1e{power}")
     most = 1.1 * float(np.abs(apart).max())
-    across = Axis((-half, half), tuple(ticks(-half, half, 3)), "$y$")
-    name = rf"$\Delta x$ / $10^{{{power}}}$, inner"
-    panel = Panel(sheet, frame, across, Axis((-most, most), tuple(ticks(-most, most, 5)), name))
+    up = linear(-most, most, 5, rf"$\Delta x$ / $10^{{{power}}}$, inner")
+    panel = Panel(sheet, frame, linear(-half, half, 3, "$y$"), up)
     panel.line([-half, half], [0.0, 0.0], color=style.STABLE, lw=1.0)
     panel.line(at, apart, color=style.UNSTABLE, lw=1.0)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...dynamics.variables import chart, states_of
 from ..axes.panel import Axis, Panel, corner
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -34,36 +35,25 @@ def draw(scene, manifolds, horseshoe):
     matplotlib.figure.Figure
     """
     sheet = Sheet(style.COLUMN, _HIGH)
-    axes = {
-        name: Axis(tuple(axis["limits"]), tuple(axis["ticks"]), label)
-        for (name, axis), label in zip(
-            ((name, scene["axes"][name]) for name in ("x", "y", "p", "q")),
-            ("$x$", "$y$", "$p$", "$q$"),
-            strict=True,
-        )
-    }
-    _tangle(Panel(sheet, _ABOVE, axes["x"], axes["y"]), manifolds, horseshoe)
-    _relation(Panel(sheet, _BELOW, axes["p"], axes["q"]), horseshoe)
+    x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
+    _tangle(Panel(sheet, _ABOVE, x, y), manifolds, horseshoe)
+    _relation(Panel(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
     return sheet.figure
 
 
 def _tangle(panel, manifolds, horseshoe):
-    k = horseshoe.attrs["k"]
-    x = manifolds["x"].values
-    y = manifolds["xdot"].values - k * manifolds["udot"].values
-    stable = manifolds["stable"].values
-    for branch, span in enumerate(rows(manifolds["row_size"].values)):
-        hue = style.STABLE if stable[branch] else style.UNSTABLE
-        panel.line(x[span], y[span], color=style.pale(hue), lw=0.4)
-    chain = horseshoe["chain"].values
-    saddle, middle = np.isnan(chain), chain == 0.0
-    before, after = chain < 0.0, chain > 0.0
-    x, y = horseshoe["x"].values, horseshoe["y"].values
-    panel.dots(x[before], y[before], style.BLUE, size=2.0)
-    panel.dots(x[after], y[after], style.GREEN, size=2.0)
-    panel.dots(x[saddle], y[saddle], style.VERMILION, size=3.6)
-    panel.dots(x[middle], y[middle], style.BLACK, size=3.6)
+    x, y = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
+        panel.line(x[span], y[span], color=style.pale(style.MANIFOLDS[stable]), lw=0.4)
+    x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
+    for those, hue, size in (
+        (chain < 0.0, style.BLUE, 2.0),
+        (chain > 0.0, style.GREEN, 2.0),
+        (np.isnan(chain), style.VERMILION, 3.6),
+        (chain == 0.0, style.BLACK, 3.6),
+    ):
+        panel.dots(x[those], y[those], hue, size=size)
     sizes = (("saddles", 46, style.VERMILION), ("leaving", 46, style.BLUE),
              ("middle", 42, style.BLACK), ("returning", 48, style.GREEN))  # fmt: skip
     _, _, at, top = panel.frame
@@ -78,10 +68,8 @@ def _relation(panel, horseshoe):
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
     panel.line(*square, color=style.BLACK, lw=1.0)
-    for edge in (2, 3):
-        panel.line(p[edge], q[edge], color=style.BLUE, lw=0.8)
-    for edge in (0, 1):
-        panel.line(p[edge], q[edge], color=style.BLUE, lw=2.0)
+    for edge, wide in ((2, 0.8), (3, 0.8), (0, 2.0), (1, 2.0)):
+        panel.line(p[edge], q[edge], color=style.BLUE, lw=wide)
     for up, gap, text in ((1.0, 5.5, "the middle set"), (0.0, 6.5, "image of the set before it")):
-        at = [float(a[0]) for a in panel.place(0.0, up)]
-        panel.sheet.text(at[0], at[1] + gap * POINT, text, ha="center", va="center", size=_SIZE)
+        (x,), (y,) = panel.place(0.0, up)
+        panel.sheet.text(x, y + gap * POINT, text, ha="center", va="center", size=_SIZE)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from ..axes.panel import Axis, Panel, corner, key, log10
-from ..axes.raster import ticks
+from ..axes.raster import linear, wider
+from ..axes.section import NAME
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
@@ -61,13 +62,10 @@ def _whole(low, high):
 
 def _orbits(sheet, frame, last_curve):
     x, y = last_curve["x"].values, last_curve["y"].values
-    spans = []
-    for values in (x, y):
-        low, high = float(values.min()), float(values.max())
-        room = 0.04 * (high - low)
-        spans.append((low - room, high + room))
-    across = Axis(spans[0], tuple(ticks(*spans[0], 6)), "$x$")
-    up = Axis(spans[1], tuple(ticks(*spans[1], 6)), r"$y=\dot{x}^{-}-k\dot{u}^{-}$")
+    across, up = (
+        linear(*wider(values.min(), values.max(), 0.04, 0.04), 6, name)
+        for values, name in ((x, "$x$"), (y, NAME))
+    )
     panel = Panel(sheet, frame, across, up, grid=False)
     for i in reversed(range(x.shape[0])):
         panel.dots(x[i], y[i], style.HUES[i], size=0.9)

@@ -33,7 +33,7 @@ def draw(scene, orbits):
     """
     scene = complete_box(scene, orbits)
     refuse_empty(scene["axes"], orbits)
-    spans = rows(orbits["row_size"].values)
+    spans = rows(orbits)
     sea = set(scene["sea"])
     if not sea <= set(range(len(spans))):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")

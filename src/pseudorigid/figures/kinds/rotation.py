@@ -4,11 +4,13 @@ import numpy as np
 
 from ...evidence.rotation import island, plateaus, regular
 from ..axes.panel import Axis, Panel, corner, key
-from ..axes.raster import ticks
+from ..axes.raster import linear, wider
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 135, 1005
+_STARTS = "Start on $y=0$, section radii from the centre"
+_HIGH = 0.0125  # half the height of the lowest panel
 
 
 @style.pinned()
@@ -30,38 +32,29 @@ def draw(scene, rotation):
         the main island reaches.
     """
     sheet = Sheet(style.COLUMN, 1950)
-    _turns(sheet, (_LEFT, 1565, _RIGHT, 1875), rotation)
-    corner(sheet, (_LEFT, 1565, _RIGHT, 1875), style.setting(scene))
-    _growth(sheet, (_LEFT, 1265, _RIGHT, 1465), rotation)
+    _first_energy(sheet, scene, rotation)
     _detail(sheet, (_LEFT, 715, _RIGHT, 1065), rotation)
     _energies(sheet, (_LEFT, 105, _RIGHT, 515), rotation)
     return sheet.figure
 
 
-def _turns(sheet, frame, rotation):
-    place, values = rotation["place"].values[0], rotation["rotation"].values[0]
-    good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
-    fixed = float(rotation["fixed_rotation"].values[0])
-    low, high = float(values[good].min()), max(fixed, float(values[good].max()))
-    span = high - low
-    limits = (low - 0.1 * span, high + 0.1 * span)
-    across = Axis(_across(rotation), (-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1), labels=("",) * 8)
-    panel = Panel(sheet, frame, across, Axis(limits, tuple(ticks(*limits, 5)), "Rotation number"))
-    inside = (values > limits[0]) & (values < limits[1])
-    panel.dots(place[~good & inside], values[~good & inside], style.BACKDROP, size=1.6)
-    panel.dots(place[good], values[good], style.BLUE, size=1.6)
-    panel.dots(rotation["fixed_place"].values[:1], [fixed], style.VERMILION, size=3.4)
-
-
-def _growth(sheet, frame, rotation):
-    place, values = rotation["place"].values[0], rotation["exponent"].values[0]
-    good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
-    labels = (-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1)
-    name = "Start on $y=0$, section radii from the centre"
-    across = Axis(_across(rotation), labels, name)
-    panel = Panel(sheet, frame, across, Axis((-0.02, 0.3), (0, 0.1, 0.2, 0.3), "Exponent"))
-    panel.dots(place[~good], values[~good], style.SEA, size=1.6)
-    panel.dots(place[good], values[good], style.BLUE, size=1.6)
+def _first_energy(sheet, scene, rotation):
+    place, turns, grown = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
+    good = regular(grown, rotation.attrs["impacts"])
+    at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
+    across = Axis((at - 0.03, 1.0), (-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1), _STARTS)
+    limits = wider(turns[good].min(), max(fixed, turns[good].max()), 0.1, 0.1)
+    above = _LEFT, 1565, _RIGHT, 1875
+    panel = Panel(sheet, above, across.blank(), linear(*limits, 5, "Rotation number"))
+    shown = ~good & (turns > limits[0]) & (turns < limits[1])
+    panel.dots(place[shown], turns[shown], style.BACKDROP, size=1.6)
+    panel.dots(place[good], turns[good], style.BLUE, size=1.6)
+    panel.dots([at], [fixed], style.VERMILION, size=3.4)
+    corner(sheet, above, style.setting(scene))
+    up = Axis((-0.02, 0.3), (0, 0.1, 0.2, 0.3), "Exponent")
+    panel = Panel(sheet, (_LEFT, 1265, _RIGHT, 1465), across, up)
+    panel.dots(place[~good], grown[~good], style.SEA, size=1.6)
+    panel.dots(place[good], grown[good], style.BLUE, size=1.6)
 
 
 def _detail(sheet, frame, rotation):
@@ -69,53 +62,40 @@ def _detail(sheet, frame, rotation):
         rotation[f"detail_{name}"].values for name in ("place", "rotation", "exponent")
     )
     good = regular(grown, rotation.attrs["detail_impacts"])
-    low, high = float(place[0]), float(place[-1])
-    name = "Start on $y=0$, section radii from the centre"
-    across = Axis((low, high), tuple(ticks(low, high, 4)), name)
-    least, most = float(turns[good].min()), float(turns[good].max())
-    limits = (least - 0.05 * (most - least), most + 0.1 * (most - least))
-    up = Axis(limits, tuple(ticks(*limits, 4)), "Rotation number, detail")
-    panel = Panel(sheet, frame, across, up)
+    across = linear(place[0], place[-1], 4, _STARTS)
+    limits = wider(turns[good].min(), turns[good].max(), 0.05, 0.1)
+    panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     for p, q, first, last in plateaus(place[good], turns[good]):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
-        right = first > low + 0.8 * (high - low)
-        ha, shift = ("right", (-2, 3)) if right else ("left", (4, -2))
-        va = "bottom" if right else "top"
-        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", ha=ha, va=va, shift=shift)
-
-
-def _across(rotation):
-    return float(rotation["fixed_place"].values[0]) - 0.03, 1.0
+        how = {"ha": "left", "va": "top", "shift": (4, -2)}
+        if first > place[0] + 0.8 * (place[-1] - place[0]):
+            how = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
+        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **how)
 
 
 def _energies(sheet, frame, rotation):
-    rows = np.argsort(rotation["energy"].values, kind="stable")
     curves = []
-    for row in rows.tolist():
-        size = island(rotation, row)
-        grown = rotation["exponent"].values[row, :size]
+    for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
+        grown = rotation["exponent"].values[row, : island(rotation, row)]
         keep = np.flatnonzero(regular(grown, rotation.attrs["impacts"]))
         fixed = float(rotation["fixed_place"].values[row])
         place = rotation["place"].values[row, keep] - fixed
         change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), place, change))
-    low, high = -0.0125, 0.0125
-    far = max(float(place[np.abs(change) < high].max()) for _, place, change in curves)
+    far = max(float(place[np.abs(change) < _HIGH].max()) for _, place, change in curves)
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
-    name = "Start, section radii from the fixed point"
-    up = Axis(
-        (low, high), (-0.01, -0.005, 0, 0.005, 0.01), "Rotation number, less the fixed point's"
-    )
-    panel = Panel(sheet, frame, Axis((0.0, far), tuple(ticks(0.0, far, 6)), name), up)
+    across = linear(0.0, far, 6, "Start, section radii from the fixed point")
+    name = "Rotation number, less the fixed point's"
+    up = Axis((-_HIGH, _HIGH), (-0.01, -0.005, 0, 0.005, 0.01), name)
+    panel = Panel(sheet, frame, across, up)
     entries = []
     for number, (energy, place, change) in enumerate(curves):
-        shown = np.abs(change) < high
+        shown = np.abs(change) < _HIGH
         cut = shown.size if shown.all() else int(np.argmin(shown))
         hue = style.HUES[number % len(style.HUES)]
         dashed = number >= len(style.HUES)
-        how = {"ls": "--"} if dashed else {}
-        panel.line(place[:cut], change[:cut], color=hue, lw=1.0, **how)
+        panel.line(place[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
     deep = -(-len(entries) // 2)
     key(sheet, entries, frame[1] + 18 + 39 * (deep - 1), 2, _LEFT + 20, 370, 6.5)

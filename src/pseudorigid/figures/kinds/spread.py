@@ -41,10 +41,8 @@ def draw(scene, spread, lyapunov):
 
 def _lengths(sheet, frame, spread):
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
-    lengths = [first * 2**i for i in range(blocks.bit_length()) if 2**i < blocks] + [first * blocks]
-    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1]))
-    if lengths[-1] == 10 ** (high - 1):
-        high -= 1
+    lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
+    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
     across = Axis((low - 0.1, high + 0.1), tuple(range(low, high + 1)), "Length in impacts", True)
     least = float(stretches(spread, first).min())
     ticks = tuple(0.01 * (4 * i) for i in range(int(least / 0.04), 7))
@@ -70,10 +68,9 @@ def _short_runs(sheet, frame, spread, paper_runs):
     across = Axis((low, high), (0.21, 0.22, 0.23, 0.24, 0.25), "Exponent of 200,000 impacts")
     ticks = tuple(0.04 * i for i in range(int(tall / 0.04 + 1e-9) + 1))
     panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of runs"), grid=False)
-    for count, left in zip(counts, edges[:-1], strict=True):
-        if count > 0.0:
-            outline = [left, left, left + _WIDE, left + _WIDE]
-            panel.line(outline, [0.0, count, count, 0.0], color=style.FRAME, lw=0.5)
+    for count, left in zip(counts[counts > 0.0], edges[:-1][counts > 0.0], strict=True):
+        outline = [left, left, left + _WIDE, left + _WIDE]
+        panel.line(outline, [0.0, count, count, 0.0], color=style.FRAME, lw=0.5)
     mean = float(runs.mean())
     panel.line([mean] * 2, [0.0, tall], color=style.BLACK, lw=0.9)
     panel.note(mean, tall, "mean", ha="right", va="top", shift=(-3, -4))

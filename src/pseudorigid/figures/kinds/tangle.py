@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...dynamics.variables import of_type
+from ...dynamics.variables import of_type, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
@@ -39,9 +39,8 @@ def draw(scene, orbits, manifolds, periodic):
     """
     scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], manifolds)
-    saddle = of_type(periodic, scene["type"])
-    state = [saddle[name].values for name in style.NAMES]
-    count = saddle.sizes["point"]
+    saddles = states_of(of_type(periodic, scene["type"]))
+    count = saddles.shape[1]
     entries = [
         ("stable", style.STABLE, "", False),
         ("unstable", style.UNSTABLE, "", False),
@@ -50,23 +49,22 @@ def draw(scene, orbits, manifolds, periodic):
         ("end of a line", style.UNSTABLE, "o", True),
     ]
     box = Box(scene, entries)
-    box.points(*(orbits[name].values for name in style.NAMES), style.BACKDROP, _BACKDROP)
+    box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds)
-    box.points(*state, "white", _SADDLE + 1.2)
-    box.points(*state, style.VERMILION, _SADDLE)
+    box.points(*saddles, "white", _SADDLE + 1.2)
+    box.points(*saddles, style.VERMILION, _SADDLE)
     return box.figure
 
 
 def _branches(box, manifolds):
-    spans = rows(manifolds["row_size"].values)
-    state = [manifolds[name].values for name in style.NAMES]
+    spans, state = rows(manifolds), states_of(manifolds)
     ends = []
     for stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
-            line = [values[span] for values in state]
+            line = state[:, span]
             box.line(*line, hue, width)
             gap = np.isnan(line[0])
             end = ~gap & (np.append(gap[1:], True) | np.insert(gap[:-1], 0, False))
-            ends.append((*(values[end] for values in line), hue))
+            ends.append((*line[:, end], hue))
     for end in ends:
         box.points(*end, _END, mfc="white", mew=0.6)

@@ -5,7 +5,6 @@ import numpy as np
 from ..axes.limits import complete, of_data
 from ..axes.plane import Plane
 from ..canvas import style
-from ..canvas.sheet import POINT
 
 _DOT = 3.2  # points
 
@@ -41,15 +40,8 @@ def draw(scene, twist):
     for mark in scene["marks"]:
         at = int(np.argmin(np.abs(energy - mark)))
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
-        _name(plane, energy[at], values[at], f"$E$ = {style.number(mark)}")
+        text = f"$E$ = {style.number(mark)}"
+        plane.note(energy[at], values[at], text, shift=(4, 2), va="bottom")
     plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
-    _name(plane, zero, 0.0, f"$E$ = {zero:.6f}", left=True)
+    plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
     return plane.figure
-
-
-def _name(plane, x, y, text, left=False):
-    """Write a text above a point, to its right or left."""
-    across, up = (float(a[0]) for a in plane.place(x, y))
-    across, up = across + (-10 if left else 4) * POINT, up + (-14 if left else 2) * POINT
-    ha = "right" if left else "left"
-    plane.sheet.text(across, up, text, ha=ha, va="bottom", size=style.PLAIN)

@@ -86,8 +86,7 @@ class Counted:
         """(tau, evaluations) for arrays (n,) of states; NaN where none is found."""
         tau = np.empty(x.size)
         count = np.empty(x.size, np.int64)
-        how = self.kind, self.step, self.tolerance
-        _flights(*how, x, xdot, udot, ball.k, ball.g, tau, count)
+        _flights(self.kind, self.step, self.tolerance, x, xdot, udot, ball.k, ball.g, tau, count)
         return tau, count
 
     def orbit(self, ball, state, impacts):

@@ -57,13 +57,10 @@ def _follow(x, v, w, k, centre, expected, weight, growth, winding):
 
 def cell(k, e, starts, impacts):
     """Growth and winding number (starts,) of each orbit of the cell."""
-    theta = fixed_point.half_time(k, e)
-    rotation = fixed_point.rotation(fixed_point.trace(k, theta))
+    place, _, rotation = fixed_point.numbers(k, e)
     expected = 0.5 if math.isnan(rotation) else rotation
     time = (np.arange(impacts) + 0.5) / impacts
     weight = (time * (1.0 - time)) ** 3
     growth, winding = np.empty(starts), np.empty(starts)
-    states = even(k, e, starts)
-    place = fixed_point.place(k, theta)
-    _follow(*states, k, place, expected, weight / weight.sum(), growth, winding)
+    _follow(*even(k, e, starts), k, place, expected, weight / weight.sum(), growth, winding)
     return growth, winding
