@@ -16,7 +16,7 @@ from ..records.record import SHAPE, read_record, record_path
 from . import contracts, manifest
 from .currency import MISSING, Currency
 from .difference import Comparison
-from .sums import SUMS, ContractError, read_sums
+from .sums import SUMS, ContractError, known_sums, read_sums
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -83,11 +83,7 @@ def contents(root, checked):
     for contract in contracts.committed(checked):
         if not manifest.there(root, contract):
             continue
-        try:
-            names = list(read_sums(root, contract.folder))
-        except ContractError:
-            names = []
-        names += [SUMS, manifest.MANIFEST]
+        names = [*known_sums(root, contract.folder), SUMS, manifest.MANIFEST]
         places += [f"{contract.folder}/{name}" for name in names]
         data = sorted({path for stages in contract.data.values() for path in stages.values()})
         there = [path for path in data if (root / path).is_file()]

@@ -7,7 +7,7 @@ import numpy as np
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.starts import start_state
-from pseudorigid.dynamics.variables import of_type
+from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.proofs.theorems import impacts as proofs
 
 from ..config import places
@@ -68,8 +68,7 @@ def _states(ball, block, data, sample):
     if "motion" in stages:
         yield "orbit", proofs.of_periodic(of_type(data("periodic"), block["type"]))
     if "manifolds" in stages:
-        manifolds = data("manifolds")
-        lines = np.array([manifolds[name].values for name in ("x", "xdot", "udot")])
+        lines = states_of(data("manifolds"))
         lines = lines[:, ~np.isnan(lines[0])]
         lines[2] = np.maximum(lines[2], -lines[1])
         (lines,) = _evenly((lines,), sample // 2 if "orbits" in stages else sample)
@@ -79,7 +78,7 @@ def _states(ball, block, data, sample):
         each = sample // len(starts)
         for i, start in enumerate(starts):
             track = orbit(ball, start, each)
-            after = np.array([track[name].values for name in ("x", "xdot", "udot")])
+            after = states_of(track)
             before = np.concatenate([np.array(start)[:, None], after[:, :-1]], axis=1)
             yield f"orbit {i}", (before, after, track["tau"].values)
 

@@ -10,7 +10,7 @@ from ..records.files import file_hash
 from . import contracts, manifest
 from .currency import MISSING, Currency
 from .difference import UPSTREAM, Comparison
-from .sums import SUMS, ContractError, read_sums
+from .sums import SUMS, ContractError, known_sums, read_sums
 
 NEW = "new: ./reproduce accept adds it to the contract"
 
@@ -93,10 +93,7 @@ def _verdict(root, contract, name, comparison, stale):
 
 def _by_sums(root, contract, name):
     """What is wrong with a published file where there is no manifest to ask."""
-    try:
-        wanted = read_sums(root, contract.folder).get(name)
-    except ContractError:
-        wanted = None
+    wanted = known_sums(root, contract.folder).get(name)
     digest = file_hash(root / contract.folder / name)
     if digest is None:
         return ["file: missing"]

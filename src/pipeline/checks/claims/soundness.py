@@ -15,12 +15,12 @@ import numpy as np
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
+from pseudorigid.dynamics.variables import states_of
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import cell
 
 from ...config.declared.stages import STAGES
 
-STATE = ("x", "xdot", "udot")
 NEAR = 1e-9  # of numbers that one map gives twice
 SOME = 8  # entries of a sample
 SHORT = 4096  # impacts of an orbit that is followed again
@@ -101,7 +101,7 @@ def _same(ours, given):
 
 def _orbits(dataset):
     ball, energy = _ball(dataset)
-    states = [dataset[name].values for name in STATE]
+    states = states_of(dataset)
     if _off(ball.energy(*states), energy, 1e-11):
         return "its states are not of its energy"
     after = ball.impact(*(a.copy() for a in states))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.variables import states_of
 
 # Of the section's radius: a third of a dot of Figures 2 and 8.
 VISIBLE = 1e-3
@@ -17,7 +18,7 @@ def table(one, other):
     if any(not np.array_equal(one[n], other[n], equal_nan=True) for n in ("start", "row_size")):
         return []
     radius = Ball(one.attrs["k"], one.attrs["g"]).section(one.attrs["energy"])[1]
-    states = [np.array([data[n].values for n in ("x", "xdot", "udot")]) for data in (one, other)]
+    states = [states_of(data) for data in (one, other)]
     apart = np.max(np.abs(states[0] - states[1]), axis=0) / radius
     lines, end = [], 0
     for index, size in enumerate(one["row_size"].values):

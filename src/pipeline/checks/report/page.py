@@ -19,7 +19,7 @@ from ...records.record import read_record
 from .. import contracts
 from ..claims import render as claims
 from ..currency import MISSING, Currency
-from ..sums import ContractError, read_sums
+from ..sums import known_sums
 from . import numbers
 
 # What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
@@ -192,10 +192,7 @@ class _Page:
         if variant != places.PAPER:
             return drawn
         folder = places.PUBLISHED[variant]
-        try:
-            wanted = read_sums(self.root, folder).get(f"{scene}.png")
-        except ContractError:
-            wanted = None
+        wanted = known_sums(self.root, folder).get(f"{scene}.png")
         same = {
             None: "not among the committed ones",
             file_hash(self.root / drawn): "identical to the committed one",

@@ -1,7 +1,7 @@
 """How published files stand to the committed ones and to what this tree would make."""
 
 from ...checks.currency import MISSING, Currency
-from ...checks.sums import ContractError, read_sums
+from ...checks.sums import ContractError, known_sums
 from ...records.files import file_hash
 from ...records.sources import ROOT
 from .plan import changes, why
@@ -12,11 +12,7 @@ _LISTED = {IDENTICAL: "identical to the committed one", DIFFERS: "not the commit
 
 def committed(folder, paths) -> dict[str, str]:
     """Each of the files in the folder of a contract -> whether it is the committed one."""
-    try:
-        sums = read_sums(ROOT, folder)
-    except ContractError:
-        sums = {}
-    found = {}
+    sums, found = known_sums(ROOT, folder), {}
     for path in (path for path in paths if path.startswith(f"{folder}/")):
         name, digest = path.removeprefix(f"{folder}/"), file_hash(ROOT / path)
         same = IDENTICAL if digest == sums.get(name) else DIFFERS

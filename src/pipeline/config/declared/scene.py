@@ -199,9 +199,10 @@ def each(impacts, starts) -> list[int]:
 def measured_energy(block, states) -> dict[str, str]:
     """The energy of a dataset's states, eq. (29), to twelve digits."""
     from pseudorigid.dynamics.ball import Ball
+    from pseudorigid.dynamics.variables import states_of
 
     ball = Ball(**block["ball"])
-    energy = ball.energy(*(states[name].values for name in ("x", "xdot", "udot")))
+    energy = ball.energy(*states_of(states))
     ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
     return {"energy": " to ".join(ends)}
 

@@ -5,6 +5,7 @@ import time
 import numpy as np
 
 from ...dynamics.starts import start_state
+from ...dynamics.variables import states_of
 from ..judge import impact_errors
 from .statements import Result
 
@@ -62,7 +63,7 @@ def of_orbits(ball, energy, orbits, starts):
     tau : ndarray, shape (n,)
         The flights' times (1/omega).
     """
-    state = np.array([orbits[name].values for name in ("x", "xdot", "udot")])
+    state = states_of(orbits)
     before = np.roll(state, 1, axis=1)
     sizes = orbits["row_size"].values
     first = np.cumsum(sizes) - sizes
@@ -83,7 +84,7 @@ def of_periodic(orbit):
     before, after, tau : ndarray
         As from `of_orbits`.
     """
-    state = np.array([orbit[name].values for name in ("x", "xdot", "udot")])
+    state = states_of(orbit)
     return state, np.roll(state, -1, axis=1), orbit["tau"].values
 
 

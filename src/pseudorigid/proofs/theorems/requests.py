@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+from ...dynamics.variables import states_of
 from ..checks import horseshoe, periodic
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
@@ -114,8 +115,7 @@ def _request(ball, orbit, energy):
         energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
         surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
     near = known.ball(surface)
-    state = [orbit[name].values for name in ("x", "xdot", "udot")]
-    own, given = float(near.energy(*state)[0]), float(surface.energy)
+    own, given = float(near.energy(*states_of(orbit))[0]), float(surface.energy)
     if not abs(own - given) <= 1e-6 * (abs(given) + near.g**2 / near.k):
         raise ValueError(f"the orbit's energy is {own:.6g}, not that of {surface}")
     return surface, known.chart(near, orbit), str(orbit["type"].item())
