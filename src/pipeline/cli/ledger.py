@@ -58,8 +58,12 @@ def derive(checked) -> None:
 
 
 def load(checked, name, path):
-    """A dataset of the checks, with what they read from its attributes."""
-    dataset = artifacts.load(ROOT / path)
+    """A dataset of the checks."""
+    return _with_gravity(checked, name, artifacts.load(ROOT / path))
+
+
+def _with_gravity(checked, name, dataset):
+    """A dataset of the checks with g among its attributes, where a sweep's block says it."""
     if name.startswith("atlas/"):
         sweep = checked["sweeps"][name.partition("/")[2]]
         return dataset.assign_attrs({key: sweep[key] for key in ("g",) if key in sweep})
@@ -105,7 +109,7 @@ def check(checked, number, given) -> str:
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
-    data = {name: other}
+    data = {name: _with_gravity(checked, name, other)}
     for known in claim.data:
         if known != name:
             data[known] = load(checked, known, paths(checked)[known])
