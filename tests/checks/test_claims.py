@@ -37,14 +37,18 @@ PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's tex
 def atlas(ks, energies, starts, impacts):
     rows = [cells(k, energies, starts, impacts) for k in ks]
     data = {
-        name: (("k", "energy"), np.array([[cell[name] for cell in row] for row in rows]))
-        for name in VARIABLES
+        name: (
+            ("k", "energy"),
+            np.array([[cell[name] for cell in row] for row in rows]),
+            {"long_name": words, "units": "1"},
+        )
+        for name, (words, _) in VARIABLES.items()
         if name != "chains"
     }
     config = json.dumps({"starts": starts, "impacts": impacts})
-    return xr.Dataset(
-        data, coords={"k": ks, "energy": energies}, attrs={"g": 0.04, "config": config}
-    )
+    axes = {"k": ks, "energy": energies}
+    axes = {name: (name, axis, {"long_name": name, "units": "1"}) for name, axis in axes.items()}
+    return xr.Dataset(data, coords=axes, attrs={"g": 0.04, "config": config})
 
 
 def made(stage, *inputs, ball=BALL, energy=HIGH, method=None, **fields):
@@ -429,6 +433,13 @@ def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):
     assert line.startswith(f"1  {NOT_COMPUTED}: {file} is no derivations of its ball and energy: ")
     line, file = said(34, "spread/spread", spread.drop_vars("entered_any"))
     assert line.startswith(f"34  {NOT_COMPUTED}: {file} cannot be read as spread/spread: ")
+
+
+def test_the_file_of_a_sweep_is_judged_with_the_gravity_of_its_block(datasets, tmp_path):
+    line, file = datasets["atlas/line"], tmp_path / "line.nc"
+    artifacts.save(line.drop_attrs(deep=False), file, json.loads(line.attrs["config"]))
+    words = cli_ledger.check({"sweeps": {"line": {"g": 0.04}}}, 43, str(file))
+    assert words.startswith(f"43  {HOLDS}; regular share of the section from ")
 
 
 # -- the page -------------------------------------------------------------------------------------

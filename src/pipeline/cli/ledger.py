@@ -49,8 +49,12 @@ def derive(checked) -> None:
 
 
 def load(checked, name, path):
-    """A dataset of the checks, with what they read from its attributes."""
-    dataset = artifacts.load(ROOT / path)
+    """A dataset of the checks."""
+    return _with_gravity(checked, name, artifacts.load(ROOT / path))
+
+
+def _with_gravity(checked, name, dataset):
+    """A dataset of the checks with g among its attributes, where a sweep's block says it."""
     if name.startswith("atlas/"):
         sweep = checked["sweeps"][name.partition("/")[2]]
         return dataset.assign_attrs({key: sweep[key] for key in ("g",) if key in sweep})
@@ -96,7 +100,8 @@ def check(checked, number, given) -> str:
     if wrong:
         return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
     others = [known for known in claim.data if known != name]
-    data = {known: load(checked, known, paths(checked)[known]) for known in others} | {name: other}
+    data = {known: load(checked, known, paths(checked)[known]) for known in others}
+    data[name] = _with_gravity(checked, name, other)
     try:
         verdict = claim.judge(data, proofs(claim.theorems))
     except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
