@@ -1,0 +1,124 @@
+"""Numbers that are not those of the map are noticed before a claim is judged by them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from pipeline.checks import claims
+from pipeline.checks.claims import soundness
+from pipeline.checks.claims.ledger import CORRECTED, HOLDS, NOT_COMPUTED
+from pipeline.cli import ledger as cli_ledger
+from pipeline.records import artifacts
+from pseudorigid import Ball
+
+BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001
+
+SOUND = {
+    name.rpartition("/")[2]: name
+    for name in ("derivations", "fig2/orbits", "fig4/periodic", "fig4/motion", "fig6/manifolds",
+                 "fig7/lyapunov", "spread/spread", "clusters/clusters", "rotation/rotation",
+                 "jumps/jumps", "flux/flux", "last_curve/last_curve", "atlas/line", "atlas/plane")
+}  # fmt: skip
+
+
+def with_all(dataset, change):
+    """The dataset with all its numbers, but those of its axes, changed a little."""
+    found = {name: dataset[name] for name in dataset.data_vars if dataset[name].dtype.kind == "f"}
+    return dataset.assign({n: v.copy(data=change(v.values.copy())) for n, v in found.items()})
+
+
+def test_every_stage_that_claims_rest_on_has_its_check():
+    assert {name.rpartition("/")[2] for name in claims.needed()} == set(SOUND)
+    assert set(soundness.CHECKS) < set(SOUND)
+
+
+@pytest.mark.parametrize("stage", SOUND)
+def test_our_own_datasets_are_of_their_map(datasets, stage):
+    assert soundness.fault(stage, datasets[SOUND[stage]]) is None
+
+
+@pytest.mark.parametrize("stage", SOUND)
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda v: 1.02 * v,
+        lambda v: 0.95 * v,
+        lambda v: v * (1.0 + 0.03 * np.sin(np.arange(v.size)).reshape(v.shape)),
+    ],
+    ids=["more", "less", "noise"],
+)
+def test_numbers_a_little_off_are_not_of_the_map(datasets, stage, change):
+    assert soundness.fault(stage, with_all(datasets[SOUND[stage]], change))
+
+
+@pytest.mark.parametrize("stage", ["orbits", "periodic", "manifolds", "lyapunov", "spread"])
+def test_another_ball_or_energy_is_noticed(datasets, stage):
+    dataset = datasets[SOUND[stage]]
+    for name in ("k", "g", "energy"):
+        assert soundness.fault(stage, dataset.assign_attrs({name: 1.1 * dataset.attrs[name]}))
+
+
+TENTH_LESS = {
+    "derivations": ("value",),
+    "clusters": ("correlation", "strain_energy", "period_error"),
+    "flux": ("sea_out", "carried_out", "carried_in", "area", "lobe_polygon", "branch_x"),
+    "jumps": ("length_error", "flight_x"),
+    "last_curve": ("place", "orbit_exponent"),
+    "line": ("exponent", "regular_low", "regular_high", "regular_lenient", "chain_share"),
+    "lyapunov": ("exponent",),
+    "motion": ("strain",),
+    "periodic": ("multiplier", "rotation_number", "tau"),
+    "plane": ("exponent", "exponent_error", "regular_low", "followed"),
+    "rotation": ("fixed_rotation", "detail_exponent"),
+}
+
+
+@pytest.mark.parametrize(("stage", "name"), [(s, n) for s in TENTH_LESS for n in TENTH_LESS[s]])
+def test_one_variable_a_tenth_less_is_noticed_by_name(datasets, stage, name):
+    dataset = datasets[SOUND[stage]]
+    words = soundness.fault(stage, dataset.assign({name: 0.9 * dataset[name]}))
+    assert name in words or name.removeprefix("regular_") in words
+
+
+def test_a_verdict_of_the_derivations_that_is_turned_round_is_noticed(datasets):
+    dataset = datasets["derivations"]
+    turned = dataset.assign({"printed": 1 - dataset["printed"]})
+    assert soundness.fault("derivations", turned) == "its printed[0] is 0, made again 1"
+
+
+def test_numbers_by_another_method_are_made_again_by_it(datasets):
+    dataset = datasets["as_published/fig7/lyapunov"]
+    assert soundness.fault("lyapunov", dataset) is None
+    other = dataset.assign_attrs(impacts_missed=0)
+    assert soundness.fault("lyapunov", other).startswith("its impacts_missed is 0, made again ")
+    config = json.loads(dataset.attrs["config"])
+    del config["method"]
+    assert soundness.fault("lyapunov", dataset.assign_attrs(config=json.dumps(config)))
+
+
+def test_a_dataset_of_another_stage_is_refused_in_words(datasets):
+    assert "cannot be read" in soundness.fault("spread", datasets["fig2/orbits"])
+
+
+def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):
+    def said(number, name, dataset):
+        file = tmp_path / "given.nc"
+        artifacts.save(dataset, file, {}, stage=name.rpartition("/")[2])
+        return cli_ledger.check(None, number, f"{name}={file}"), str(file)
+
+    spread = datasets["spread/spread"]
+    assert said(40, "spread/spread", spread)[0].startswith(f"40  {CORRECTED}; 0.23")
+    line, file = said(40, "spread/spread", with_all(spread, lambda v: 0.9 * v))
+    assert line.startswith(f"40  {NOT_COMPUTED}: {file} is no spread/spread of its ball and energy")
+    line, file = said(1, "derivations", spread)
+    assert line.startswith(f"1  {NOT_COMPUTED}: {file} is no derivations of its ball and energy: ")
+    line, file = said(34, "spread/spread", spread.drop_vars("entered_any"))
+    assert line.startswith(f"34  {NOT_COMPUTED}: {file} cannot be read as spread/spread: ")
+
+
+def test_the_file_of_a_sweep_is_judged_with_the_gravity_of_its_block(datasets, tmp_path):
+    line, file = datasets["atlas/line"], tmp_path / "line.nc"
+    artifacts.save(line.drop_attrs(deep=False), file, json.loads(line.attrs["config"]))
+    words = cli_ledger.check({"sweeps": {"line": {"g": 0.04}}}, 43, str(file))
+    assert words.startswith(f"43  {HOLDS}; regular share of the section from ")

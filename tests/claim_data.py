@@ -1,0 +1,106 @@
+"""All datasets that the checks of claims need, smaller than the shipped ones."""
+
+import json
+
+import numpy as np
+import xarray as xr
+
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
+from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.evidence.clusters import clusters
+from pseudorigid.evidence.flux import flux
+from pseudorigid.evidence.jumps import jumps
+from pseudorigid.evidence.last_curve import last_curve
+from pseudorigid.evidence.rotation import rotation
+from pseudorigid.evidence.spread import spread
+from pseudorigid.proofs.derivations import derivations
+from pseudorigid.sweep.cell import VARIABLES, cells
+
+BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001
+SEA = (0.55, 0.68)
+STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
+STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]
+
+
+def atlas(ks, energies, starts, impacts):
+    rows = [cells(k, energies, starts, impacts) for k in ks]
+    data = {
+        name: (
+            ("k", "energy"),
+            np.array([[cell[name] for cell in row] for row in rows]),
+            {"long_name": words, "units": "1"},
+        )
+        for name, (words, _) in VARIABLES.items()
+        if name != "chains"
+    }
+    config = json.dumps({"starts": starts, "impacts": impacts})
+    axes = {"k": ks, "energy": energies}
+    axes = {name: (name, axis, {"long_name": name, "units": "1"}) for name, axis in axes.items()}
+    return xr.Dataset(data, coords=axes, attrs={"g": 0.04, "config": config})
+
+
+def made(stage, *inputs, ball=BALL, energy=HIGH, method=None, **fields):
+    """A stage's dataset, with the attributes that its file would have."""
+    config = fields if method is None else fields | {"method": method}
+    about = {"k": ball.k, "g": ball.g, "energy": energy, "config": json.dumps(config)}
+    found = stage(ball, energy, *inputs, **fields)
+    return found.assign_attrs(about | found.attrs)
+
+
+def datasets():
+    """Name -> dataset."""
+    one, six = (made(symmetric_orbits, period=period) for period in (1, 6))
+    scan = ImpactMap((0.1, 1e-12))
+    draw = {"starts": [0.6, 0.62, 0.65], "impacts": 200_000}
+    published = made(
+        lyapunov.scene_exponents, ball=Ball(0.2, 0.04, map=scan), records=10,
+        method={"scan": 0.1, "tolerance": 1e-12}, **draw,
+    )  # fmt: skip
+    line = [0.3125, 0.625, 3.0, 6.25, 10.3125, 13.0, 16.5625, 18.75]
+    return {
+        "derivations": made(derivations),
+        "fig2/orbits": made(
+            orbits.scene_orbits, starts=STARTS_2,
+            impacts=[1500, 2500, 3000, 3500, 4000, 3000, 2500, 25000],
+        ),
+        "fig3/periodic": one,
+        "fig3/motion": made(motion.scene_motion, one, period=1, type="elliptic", duration=16),
+        "fig4/periodic": six,
+        "fig4/motion": made(motion.scene_motion, six, period=6, type="elliptic", duration=60),
+        "fig6/manifolds": made(
+            manifolds.scene_manifolds, six, period=6, type="hyperbolic",
+            resolution={"distance": 0.1, "bend": 20}, point=0, length=0.1,
+            window={"x": [-0.002862691, 0.001413489], "xdot": [-0.00109292, 0.000777909]},
+        ),
+        "fig7/lyapunov": made(lyapunov.scene_exponents, records=4, **draw),
+        "fig8/orbits": made(
+            orbits.scene_orbits, energy=LOW, starts=STARTS_8,
+            impacts=[2000, 3500, 4500, 5000, 15000, 5000],
+        ),
+        "as_published/fig7/lyapunov": published.assign_attrs(
+            impacts=scan.impacts, impacts_missed=scan.missed
+        ),
+        "atlas/line": atlas([0.2], line, 300, 3000),
+        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 60, 1500),
+        "clusters/clusters": made(
+            clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
+            seed=1,
+        ),
+        "jumps/jumps": made(jumps, energies=[0.0018], sides=200),
+        "rotation/rotation": made(
+            rotation, energies=[0.026], starts=200, impacts=6000, detail=(-0.8344, -0.8341),
+            detail_impacts=50_000,
+        ),
+        "spread/spread": made(
+            spread, between=SEA, orbits=32, length=200_000, blocks=20,
+            regular=[-0.44, 0.142183], regular_impacts=1 << 14, cells=20, visits=1 << 14,
+        ),
+        "flux/flux": made(
+            flux, period=6, distance=2e-3, grid=200, between=SEA, orbits=16, impacts=2000
+        ),
+        "last_curve/last_curve": made(
+            last_curve, nobles=[[0, 5, 1, 15], [0, 5, 1, 17]], convergents=6,
+            between=(-0.2, -0.0325639), impacts=4000, drawn=10,
+        ),
+    }  # fmt: skip
