@@ -7,7 +7,7 @@ import subprocess
 import pytest
 import slurm_node
 import yaml
-from conftest import fresh_tree
+from project import fresh_tree
 
 pytestmark = pytest.mark.slurm
 
