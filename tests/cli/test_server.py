@@ -33,7 +33,7 @@ def status(name):
 
 if __name__ == "__main__":
     good, bad, killed = sys.argv[1:]
-    server.begin()
+    server.begin(True)
     with server.serving(), ThreadPoolExecutor(8) as pool:
         print(*pool.map(status, [good, bad, killed] * 40))
     assert PythonScript.execute_script is usual
@@ -70,5 +70,5 @@ def test_where_no_server_can_be_jobs_start_as_usual(monkeypatch):
 
     before = dict(os.environ)
     monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
-    assert server.begin() is False
+    assert server.begin(True) is False
     assert dict(os.environ) == before

@@ -46,7 +46,7 @@ def test_towards_grazing(decade, g):
 
 # Seen from 1e-140 on, where squares and cubes of v + w under- and overflow: -inf (g = 1e-4,
 # x = w = 0, v = 0x1.e7c5f127bd87ep-466), tau too small at x = -g, a landing that does not end.
-@pytest.mark.parametrize("decade", [200, *slowly(140, 300)])
+@pytest.mark.parametrize("decade", [140, *slowly(200, 300)])
 def test_the_last_decades_of_grazing(decade):
     """At x = -g itself, where squares of v + w decide, tau counts as right to 1e-40."""
     for g in (1e-4, 1.0):

@@ -175,6 +175,7 @@ def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
         assert result.stdout.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_damaged_findings_drawings_and_data_are_made_again(done):
     folder = done.path / "results" / "low"
     files = folder / "absent.json", folder / "figures" / "fig7.png", folder / "lyapunov_fig7.nc"

@@ -107,17 +107,18 @@ def make(currency, wanted, arguments) -> int:
     if not (outdated or options):
         return 0
     again = [path for path, why in outdated.items() if why != MISSING]
-    return _run([*paths, *map(record_path, paths)], again, arguments)
+    computes = any(path.endswith(".nc") for path in outdated)
+    return _run([*paths, *map(record_path, paths)], again, computes, arguments)
 
 
-def _run(targets, forced, arguments) -> int:
+def _run(targets, forced, computes, arguments) -> int:
     """Run snakemake in this process to its end; its exit status."""
     from . import server
 
     makes = not (arguments and only_says(arguments))
     if not makes:
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # of `| head`, which has seen enough
-    served = server.serving if makes and server.begin() else nullcontext
+    served = server.serving if makes and server.begin(computes) else nullcontext
     from snakemake.cli import main as snakemake
 
     from ..telling import steps

@@ -9,11 +9,7 @@ for _name in (
     "pipeline.records.artifacts",
     "pipeline.records.drawings",
     "pipeline.records.record",
-    "pseudorigid.dynamics.ensemble",
     "pseudorigid.figures.axes.box",
 ):
     with suppress(Exception):
         import_module(_name)
-with suppress(Exception):
-    # What numba loads at the first call of anything.
-    import_module("numba").njit(lambda: 0)()

@@ -18,14 +18,18 @@ THREADS = [f"{name}_NUM_THREADS" for name in ("OMP", "GOTO", "OPENBLAS", "MKL", 
 THREADS.append("VECLIB_MAXIMUM_THREADS")
 
 
-def begin() -> bool:
-    """Start the server, which loads while this process goes on; whether that can be done."""
+def begin(computes: bool) -> bool:
+    """Start the server, which loads while this process goes on; whether that can be done.
+
+    Where nothing is computed, only drawn, it does without what takes longest to load.
+    """
     before = dict(os.environ)
     os.environ.update(dict.fromkeys(THREADS, "1"))
     # Inherited: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        JOBS.set_forkserver_preload([f"{__package__}.loaded"])
+        modules = ["loaded", *(["compiled"] if computes else [])]
+        JOBS.set_forkserver_preload([f"{__package__}.{name}" for name in modules])
         forkserver.ensure_running()
     except OSError:  # of a temporary folder whose name is too long for a socket
         return False
