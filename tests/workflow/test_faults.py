@@ -26,32 +26,24 @@ def test_damaged_results_are_made_again_and_not_published(done):
     drawing.write_bytes(drawing.read_bytes()[:300])
     dataset.write_bytes(whole[:5000])
     record.write_text("{")
+    edited = paper / "motion_fig3.nc"
+    then = edited.stat()
+    with netCDF4.Dataset(edited, "a") as file:  # a number changed by hand
+        file["strain"][:] = 0.5 * file["strain"][:]
+    os.utime(edited, ns=(then.st_atime_ns, then.st_mtime_ns))
     said = done.run("-n").stdout
     assert drawing.stat().st_size == 300  # what only says something changes nothing
     result = done.run()
     assert result.returncode == 0
     last_line(result)
     for text in (said, result.stdout):
-        for file in ("figures/fig3.png", "periodic_fig4.nc"):
+        for file in ("figures/fig3.png", "periodic_fig4.nc", "motion_fig3.nc"):
             line = f"reproduce: results/paper/{file}: changed after it was made: made again"
             assert line in text
         assert "orbits_fig2.nc: its record results/paper/provenance/orbits_fig2.nc.json" in text
     assert contents(done) == before
     assert drawing.read_bytes() == before["fig3.png"]
     assert dataset.read_bytes() == whole
-
-
-def test_a_number_changed_by_hand_is_not_drawn(done):
-    before = contents(done)
-    path = done.path / "results" / "paper" / "motion_fig3.nc"
-    then = path.stat()
-    with netCDF4.Dataset(path, "a") as file:
-        file["strain"][:] = 0.5 * file["strain"][:]
-    os.utime(path, ns=(then.st_atime_ns, then.st_mtime_ns))
-    result = done.run("paper_figures/fig3.png")
-    assert result.returncode == 0
-    assert "results/paper/motion_fig3.nc: changed after it was made: made again" in result.stdout
-    assert contents(done) == before
 
 
 def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):

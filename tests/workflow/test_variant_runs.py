@@ -133,9 +133,6 @@ def test_a_figure_that_can_no_longer_exist_is_removed(done):
     assert result.returncode == 0, result.stdout
     assert "cannot exist: no elliptic orbit of period 5" in result.stdout
     assert figures_of(done, "doubled") == {"fig3.png", "fig7.png"}
-    edit(done, "doubled", VARIANTS["doubled"])
-    assert done.run("variant", "doubled").returncode == 0
-    assert "fig4.png" in figures_of(done, "doubled")
 
 
 def test_what_is_shared_is_not_computed_again(done):
