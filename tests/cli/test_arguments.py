@@ -43,6 +43,25 @@ def test_each_word_tells_its_arguments(capsys, word):
     assert ("goes to snakemake" in " ".join(out.split())) == about.passes
 
 
+OLD = [f"python3.{minor}" for minor in range(6, 11)]
+ASK = "from pipeline.cli.arguments import main; import sys; sys.exit(main(sys.argv[1:]))"
+
+
+@pytest.mark.parametrize("name", OLD)
+def test_a_python_too_old_for_the_rest_answers_too(name):
+    def ask(*words):
+        command = [name, "-B", "-c", ASK, *words]
+        where = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+        return subprocess.run(command, env=where, capture_output=True, text=True, check=False)
+
+    if not shutil.which(name) or ask("--version").stderr.startswith("pyenv:"):
+        pytest.skip(f"no {name} here")
+    assert ask("--help").stdout.count("\n") < 40
+    assert ask("fig33").stderr == "reproduce: no word or figure fig33: did you mean fig3?\n"
+    going = ask("sweep", "plane", "-n")
+    assert (going.returncode, going.stderr) == (arguments.GO_ON, "")
+
+
 @pytest.mark.parametrize("word", arguments.WORDS)
 def test_each_word_has_its_module(word):
     name = arguments.WORDS[word].module or word

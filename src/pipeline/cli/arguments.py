@@ -1,13 +1,12 @@
 """The words of ./reproduce and their arguments: what --help prints, and what is refused.
 
-It needs nothing but a Python of any age: before anything is installed `reproduce` asks it too.
+It needs nothing but Python 3.6 or newer: before anything is installed `reproduce` asks it too.
 """
 
 import argparse
 import difflib
 import re
 import sys
-from functools import cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -136,12 +135,14 @@ class Given(argparse.Namespace):
     These are for snakemake or pytest.
     """
 
-    @cached_property
+    @property
     def checked(self):
         """The checked config.yaml."""
-        from ..config import load  # not before packages are there
+        if "config" not in self:
+            from ..config import load  # not before packages are there
 
-        return load(ROOT / "config.yaml")
+            self.config = load(ROOT / "config.yaml")
+        return self.config
 
 
 class _Parser(argparse.ArgumentParser):
@@ -226,7 +227,7 @@ def _split(word, arguments):
         return arguments, []
     # Flag -> how many arguments it takes.
     takes = {name: int("action" not in how) for name, how in word.arguments if name[0] == "-"}
-    takes |= {"-h": 0, "--help": 0}
+    takes.update({"-h": 0, "--help": 0})
     own, rest = [], list(arguments)
     while rest and not rest[0].startswith("-"):
         own.append(rest.pop(0))
