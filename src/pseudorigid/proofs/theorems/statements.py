@@ -130,7 +130,7 @@ class Theorem:
         except FileNotFoundError:
             reason = "there is no such certificate"
         except NotProvedError as error:
-            reason = " ".join(str(error).split())
+            reason = " ".join(str(error).split()) or "no reason is given"
         seconds = time.perf_counter() - begin
         return Result(self.name, self.statement, self.certificate, reason, digits, margins, seconds)
 
