@@ -6,8 +6,6 @@ processor's, so that other work on the machine shows less.
 
 import math
 import os
-import statistics
-import time
 from functools import partial
 from unittest.mock import patch
 
@@ -27,6 +25,7 @@ from . import states
 from .machine import machine
 from .methods import counted as own
 from .methods import scipy_events, taylor, to_the_end, toolkit
+from .timing import interleaved
 from .verdicts import places
 
 REPETITIONS = 9
@@ -71,24 +70,6 @@ def _three_sincos(t, count):
         t = 1.5 + 0.5 * (sine * cosine)
         total += t
     return total
-
-
-def timed(call):
-    """Seconds of the processor that a call takes."""
-    start = time.process_time()
-    call()
-    return time.process_time() - start
-
-
-def interleaved(calls, repetitions=REPETITIONS):
-    """(median, lowest, highest) of seconds for each named call, all once before any again."""
-    for call in calls.values():
-        call()  # compiles, and warms the caches
-    seconds = {name: [] for name in calls}
-    for _ in range(repetitions):
-        for name, call in calls.items():
-            seconds[name].append(timed(call))
-    return {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
 
 
 def run(repetitions=REPETITIONS):

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from ...records.sources import ROOT
@@ -28,7 +29,7 @@ def run(given) -> int:
 
 def _runs(folder):
     """Seconds of whole runs in a copy of this folder, in turn, as lines."""
-    from pseudorigid.study.bench import interleaved
+    from pseudorigid.study.timing import interleaved
 
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
@@ -50,7 +51,7 @@ def _runs(folder):
         "nothing to do": lambda: run(ours),
         "nothing to do, snakemake alone": lambda: run(bare),
     }
-    found = interleaved(calls, REPETITIONS)
+    found = interleaved(calls, REPETITIONS, time.perf_counter)
     usual = found["the same, a Python for each job"][0]
     yield f"{'whole runs':34}{'s':>24}  {'ratio':>9}"
     for name, (middle, low, high) in found.items():
