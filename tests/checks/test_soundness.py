@@ -4,13 +4,17 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
+from claim_data import made
 
 from pipeline.checks import claims
 from pipeline.checks.claims import soundness
 from pipeline.checks.claims.ledger import CORRECTED, HOLDS, NOT_COMPUTED
 from pipeline.cli import ledger as cli_ledger
 from pipeline.records import artifacts
-from pseudorigid import Ball
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics import motion
+from pseudorigid.dynamics.ensemble import ImpactMap
 
 BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001
 
@@ -97,6 +101,45 @@ def test_numbers_by_another_method_are_made_again_by_it(datasets):
     assert soundness.fault("lyapunov", dataset.assign_attrs(config=json.dumps(config)))
 
 
+def test_what_a_method_does_not_decide_is_made_without_it():
+    scan = {"scan": 0.1, "tolerance": 1e-12}
+    ball = Ball(0.2, 0.04, map=ImpactMap((0.1, 1e-12)))
+    one = symmetric_orbits(BALL, HIGH, 1)
+    fields = {"period": 1, "type": "elliptic", "duration": 16}
+    found = made(motion.scene_motion, one, ball=ball, method=scan, **fields)
+    found = found.assign_attrs(impacts=ball.map.impacts, impacts_missed=ball.map.missed)
+    assert soundness.fault("motion", found) is None
+
+
+def test_what_a_stage_does_not_make_is_not_believed(datasets):
+    exact = datasets["fig7/lyapunov"].assign_attrs(impacts=600_000, impacts_missed=0)
+    words = "it has impacts, impacts_missed, which its stage does not make"
+    assert soundness.fault("lyapunov", exact) == words
+    more = datasets["fig3/motion"].assign(other=datasets["fig3/motion"]["t"])
+    assert soundness.fault("motion", more) == "it has other, which its stage does not make"
+
+
+def test_a_share_outside_its_interval_is_noticed_beside_one_that_is_no_number(datasets):
+    share = datasets["atlas/plane"]["regular"]
+    places = (share["k"] == share["k"][1]) & (share["energy"] == share["energy"][0])
+    for wrong in (np.nan, 5.0):
+        plane = datasets["atlas/plane"].assign(regular=share.where(~places, wrong))
+        assert soundness.fault("plane", plane).startswith("a share is not between ")
+
+
+def test_a_number_without_dimensions_is_compared_too(monkeypatch):
+    ours, given = (xr.Dataset({"zero": value}, attrs={"config": "{}"}) for value in (1.0, 2.0))
+    monkeypatch.setattr(soundness, "_made", lambda *_: ours)
+    given = given.assign_attrs(k=0.2, g=0.04, energy=HIGH)
+    assert soundness.fault("twist", given) == "its zero[] is 2.0, made again 1.0"
+
+
+@pytest.mark.parametrize("config", ["[]", "null", '"x"', "{"])
+def test_a_config_that_is_no_mapping_is_one_line(datasets, config):
+    dataset = datasets["fig3/motion"].assign_attrs(config=config)
+    assert soundness.fault("motion", dataset).startswith("it cannot be read as one (")
+
+
 def test_a_dataset_of_another_stage_is_refused_in_words(datasets):
     assert "cannot be read" in soundness.fault("spread", datasets["fig2/orbits"])
 
@@ -120,5 +163,7 @@ def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):
 def test_the_file_of_a_sweep_is_judged_with_the_gravity_of_its_block(datasets, tmp_path):
     line, file = datasets["atlas/line"], tmp_path / "line.nc"
     artifacts.save(line.drop_attrs(deep=False), file, json.loads(line.attrs["config"]))
+    for sweeps in ({}, {"line": {}}):
+        assert cli_ledger.check({"sweeps": sweeps}, 43, str(file)).startswith("43  ")
     words = cli_ledger.check({"sweeps": {"line": {"g": 0.04}}}, 43, str(file))
     assert words.startswith(f"43  {HOLDS}; regular share of the section from ")

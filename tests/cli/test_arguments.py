@@ -98,6 +98,8 @@ WRONG = {
     "compare paper douled fig2": "reproduce: no variant douled: did you mean doubled?",
     "sweep plan": "reproduce: no sweep plan: did you mean plane?",
     "accept fig3": "reproduce accept: no argument fig3",
+    "sweep --version": "reproduce sweep: no argument --version",
+    "list a=b": "reproduce list: no argument a=b",
     "verify --strikt": "reproduce verify: no argument --strikt: did you mean --strict?",
     "prove horsshoe-outer": "reproduce: no theorem horsshoe-outer: did you mean horseshoe-outer?",
     "prove --impact": "reproduce prove: no argument --impact: did you mean --impacts?",

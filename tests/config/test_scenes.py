@@ -77,6 +77,22 @@ def test_all_mistakes_of_a_file_are_told_at_once():
     ]
 
 
+def test_values_of_the_right_type_hide_no_mistake_between_fields():
+    document = good()
+    document["scenes"]["a_portrait"] |= {"formats": ["svg"], "energy": 9, "impacts": [1] * 9}
+    assert [line.split(": ")[0] for line in complaints(document)] == [
+        "scenes.a_portrait.formats",
+        "scenes.a_portrait.energy",
+        "scenes.a_portrait.impacts",
+    ]
+
+
+def test_a_key_that_is_no_text_is_unknown():
+    document = good()
+    document["scenes"]["a_portrait"][3] = 4
+    assert complaint(document).startswith("scenes.a_portrait[3]: unknown key: allowed here: ")
+
+
 @pytest.mark.parametrize(
     ("path", "value", "parts"),
     [

@@ -102,6 +102,7 @@ def test_a_variant_s_own_axes_stay():
         ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.005"]),
         ("v", {"scale": 0}, ["variants.v.scale: 0", "every length"]),
         ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
+        ("v", {"scenes": {"figg2": None}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
         ("v", {"scenes": {"fig2": 3}}, ["variants.v.scenes.fig2: 3", "a mapping"]),
         ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
         ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),

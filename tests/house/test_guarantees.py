@@ -18,4 +18,5 @@ def test_each_row_names_tests_that_exist():
         for file, test in named:
             text = (TESTS / file).read_text(encoding="utf-8")
             assert f"\ndef {test}(" in text if test else "\ndef test_" in text, (file, test)
-            assert "slow:" not in tests.partition(file)[0] or "mark.slow" in text, file
+            slow = "mark.slow" in text or "slowly(" in text
+            assert "slow:" not in tests.partition(file)[0] or slow, file

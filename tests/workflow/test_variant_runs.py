@@ -135,6 +135,16 @@ def test_a_figure_that_can_no_longer_exist_is_removed(done):
     assert figures_of(done, "doubled") == {"fig3.png", "fig7.png"}
 
 
+@pytest.mark.slow
+def test_a_figure_that_can_exist_again_is_drawn_again(done):
+    edit(done, "doubled", {"scale": 2, "scenes": {"fig4": {"period": 5}}})
+    assert done.run("variant", "doubled").returncode == 0
+    assert "fig4.png" not in figures_of(done, "doubled")
+    edit(done, "doubled", VARIANTS["doubled"])
+    assert done.run("variant", "doubled").returncode == 0
+    assert "fig4.png" in figures_of(done, "doubled")
+
+
 def test_what_is_shared_is_not_computed_again(done):
     edit(done, "more", {"scenes": {"fig7": {"impacts": 50}}})
     before = {p: p.stat().st_mtime_ns for p in (done.path / "results" / "paper").glob("*.nc")}

@@ -204,7 +204,9 @@ def explained(parser, message):
     unknown = message.partition("unrecognized arguments: ")[2]
     if not unknown:
         return message
-    first = unknown.split()[0].partition("=")[0]
+    first = unknown.split()[0]
+    if first.startswith("-"):
+        first = first.partition("=")[0]
     known = [name for action in parser._actions for name in action.option_strings]
     return f"no argument {first}{hint(first, known)}"
 
@@ -227,7 +229,7 @@ def _split(word, arguments):
         return arguments, []
     # Flag -> how many arguments it takes.
     takes = {name: int("action" not in how) for name, how in word.arguments if name[0] == "-"}
-    takes.update({"-h": 0, "--help": 0})
+    takes.update({"-h": 0, "--help": 0, "--version": 0})
     own, rest = [], list(arguments)
     while rest and not rest[0].startswith("-"):
         own.append(rest.pop(0))

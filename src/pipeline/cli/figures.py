@@ -168,8 +168,8 @@ def _missed_impacts(variants, variant, scenes):
     for scene, block in variants[variant].items():
         method, stages = block.get("method", {}), places.stages(block)
         if scene in scenes and "exact" in method:
-            how = "orbits of their exact starts"
-            how = how if "orbits" in stages else "no stage with an exact method"
+            exact = "orbits of their exact starts"
+            how = exact if "orbits" in stages else "no stage with an exact method"
             yield f"{scene}: {how}; other stages as in doubles"
         elif scene in scenes and method:
             from ..records.artifacts import load  # takes a while

@@ -22,11 +22,11 @@ class MisuseError(UsageError):
 
 
 @contextmanager
-def one_line(about=""):
-    """A ValueError, which is written for the user, as the end of the run; `about` stands before."""
+def one_line(about="", kind=ValueError):
+    """An error that is written for the user as the end of the run; `about` stands before."""
     try:
         yield
-    except ValueError as error:
+    except kind as error:
         raise UsageError(about + str(error).replace(f"{ROOT}/", "")) from None
 
 

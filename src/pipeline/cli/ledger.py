@@ -56,7 +56,7 @@ def load(checked, name, path):
 def _with_gravity(checked, name, dataset):
     """A dataset of the checks with g among its attributes, where a sweep's block says it."""
     if name.startswith("atlas/"):
-        sweep = checked["sweeps"][name.partition("/")[2]]
+        sweep = checked["sweeps"].get(name.partition("/")[2], {})
         return dataset.assign_attrs({key: sweep[key] for key in ("g",) if key in sweep})
     return dataset
 

@@ -56,7 +56,8 @@ def trace_manifold(
     distance : float
         Largest side of the polyline, in section radii, or within a window in units of its size.
     bend : float
-        Largest bend from side to side, in degrees, where a side is longer than FINEST * distance.
+        Largest bend from side to side, in degrees, where a side is longer than a
+        thousandth of the distance (FINEST in `tracing`).
     window : (x_low, x_high, xdot_low, xdot_high), optional
         In R and R omega: only what passes through it is kept.
 
@@ -72,7 +73,7 @@ def trace_manifold(
     ------
     ValueError
         An orbit that is not hyperbolic or not of this energy, an argument out of range, or a branch
-        of more than MOST_VERTICES points or MOST_IMAGES images.
+        of more points or images than `tracing.MOST_VERTICES` or `branch.MOST_IMAGES` allow.
 
     Examples
     --------

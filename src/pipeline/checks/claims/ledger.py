@@ -119,10 +119,10 @@ def claim(number, place, kind, *data, theorems=()):
 
     def add(check):
         said = " ".join((check.__doc__ or "").split())
-        words = said.strip("“”")
-        if not words:
-            raise ValueError(f"claim {number} has no words")
-        quoted = words != said
+        quoted = said.startswith("“") and said.endswith("”")
+        words = said[1:-1] if quoted else said
+        if not words or number in CLAIMS:
+            raise ValueError(f"claim {number} has no words, or is there twice")
         CLAIMS[number] = Claim(number, place, words, quoted, kind, data, tuple(theorems), check)
         return check
 

@@ -23,6 +23,8 @@ from ...config.declared.stages import STAGES
 
 NEAR = 1e-9  # of numbers that one map gives twice
 SOME = 8  # entries of a sample
+# What a file has besides what its stage returns.
+SAVED = {"k", "g", "energy", "stage", "config", "Conventions"}
 SHORT = 4096  # impacts of an orbit that is followed again
 
 
@@ -41,7 +43,7 @@ def fault(stage, dataset):
     """
     try:
         return CHECKS[stage](dataset) if stage in CHECKS else _again(stage, dataset)
-    except (KeyError, IndexError, TypeError, ValueError, ZeroDivisionError) as error:
+    except (ArithmeticError, LookupError, MemoryError, TypeError, ValueError) as error:
         return f"it cannot be read as one ({error})"
 
 
@@ -60,6 +62,9 @@ def _off(found, given, near=NEAR):
 def _again(stage, dataset):
     """What differs from the dataset that its stage makes of its config, in words, or None."""
     found = _made(stage, *_ball(dataset), dataset.attrs["config"])
+    more = dataset.attrs.keys() - found.attrs.keys() - SAVED
+    if more := more | set(dataset.variables) - set(found.variables):
+        return f"it has {', '.join(sorted(map(str, more)))}, which its stage does not make"
     for name, value in found.attrs.items():
         if not np.all(_same(value, dataset.attrs[name])):
             return f"its {name} is {dataset.attrs[name]}, made again {value}"
@@ -67,9 +72,9 @@ def _again(stage, dataset):
         given = dataset.variables[name]
         if given.shape != ours.shape:
             return f"its {name} has another shape, made again"
-        other = np.argwhere(~_same(ours.values, given.values))
-        if other.size:
-            at = tuple(other[0].tolist())
+        other = ~_same(ours.values, given.values)
+        if other.any():
+            at = tuple(np.argwhere(other)[0].tolist())
             return f"its {name}{list(at)} is {given.values[at]}, made again {ours.values[at]}"
     return None
 
@@ -80,7 +85,9 @@ def _made(stage, ball, energy, config):
     if stage == "derivations":
         return derivations(ball, energy)
     block, row = json.loads(config), STAGES[stage]
-    method = block.get("method", {})
+    if not isinstance(block, dict):
+        raise ValueError("its config is no mapping")
+    method = block.get("method", {}) if row.follows else {}
     how = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
     inputs = [_made(name, ball, energy, config) for name in row.inputs]
     fields = {name: block[name] for name in row.fields if name in block}
@@ -135,8 +142,9 @@ def _spread(dataset):
 def _sweep(dataset):
     given = json.loads(dataset.attrs["config"])
     for low, high in (("low", "high"), ("strict", "lenient")):
-        ends = (dataset[f"regular_{low}"], dataset["regular"], dataset[f"regular_{high}"])
-        if np.diff([0.0 * ends[0], *ends, 1.0 + 0.0 * ends[0]], axis=0).min() < -NEAR:
+        names = (f"regular_{low}", "regular", f"regular_{high}")
+        a, b, c = (dataset[name].values for name in names)
+        if not np.all((a >= -NEAR) & (b >= a - NEAR) & (c >= b - NEAR) & (c <= 1.0 + NEAR)):
             return f"a share is not between its {low} and its {high} one, or not between 0 and 1"
     k, energy = dataset["k"].values, dataset["energy"].values
     rows, columns = ({0, axis.size // 2, axis.size - 1} for axis in (k, energy))

@@ -4,6 +4,7 @@ from collections import Counter
 
 from ...checks.currency import Currency
 from ...config import expected, places
+from ...records.artifacts import ArtifactError
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import MisuseError, interruptible, locked, one_line
@@ -20,7 +21,7 @@ def run(given) -> int:
 
     if given.check is not None:
         name, mark, file = given.data.rpartition("=")
-        with one_line():
+        with one_line(kind=ArtifactError):
             print(ledger.check(checked, given.check, f"{name}{mark}{given.start / file}"))
         return 0
     with locked():

@@ -21,10 +21,9 @@ def run(given) -> int:
         currency = Currency(ROOT, expected.of_all(given.checked))
         status = running.make(currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
-            files = {
-                parts.published(chart) if data in parts.FIXED else drawn: drawn
-                for chart, (data, *_) in parts.CHARTS.items()
-                for drawn in [parts.drawn(chart)]
-            }
+            files = {}
+            for chart, (data, *_) in parts.CHARTS.items():
+                drawn = parts.drawn(chart)
+                files[parts.published(chart) if data in parts.FIXED else drawn] = drawn
             figures.made(parts.FOLDER, files)
     return status

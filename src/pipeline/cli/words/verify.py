@@ -17,7 +17,7 @@ def run(given) -> int:
     if against is not None and not against.is_dir():
         from ...checks import archive
 
-        with one_line("verify: "):
+        with one_line("verify: ", archive.ArchiveError):
             return archive.verify(ROOT, given.checked, against)
     from ...checks.verify import verify
 

@@ -10,27 +10,39 @@ from pydantic.fields import FieldInfo
 from ..declared.fields import TAGS, Block
 from .words import dotted, meant, refusal
 
+_UNKNOWN = ("extra_forbidden", "invalid_key")  # keys that there are not, the second no text
+_OF_VALUES = {"predicate_failed", "multiple_of"}  # findings about values of the right type
+
 
 def mistakes(model, given, place) -> list[str]:
     """A line for each mistake in `given`, which stands at `place`; the topmost first.
 
     `model` is a Block, or any other type with descriptions.
     """
-    try:
-        TypeAdapter(model).validate_python(given)
-    except ValidationError as error:
-        found = error.errors(include_url=False, include_context=False)
-    else:
-        return []
+    found = _errors(model, given)
     # A misspelt key leaves the right one missing: say the former first.
-    rank = {"extra_forbidden": 0, "missing": 1}
+    rank = dict.fromkeys(_UNKNOWN, 0) | {"missing": 1}
     found.sort(key=lambda e: (len(e["loc"]), rank.get(e["type"], 2)))
-    misspelt = {e["loc"][:-1] for e in found if e["type"] == "extra_forbidden"}
+    misspelt = {e["loc"][:-1] for e in found if e["type"] in _UNKNOWN}
     return [
         _line(model, error, place)
         for error in found
         if not (error["type"] == "missing" and error["loc"][:-1] in misspelt)
     ]
+
+
+def readable(model, given) -> bool:
+    """Whether all has its type, so that what is wrong between fields can be told too."""
+    return {error["type"] for error in _errors(model, given)} <= _OF_VALUES
+
+
+def _errors(model, given):
+    """What pydantic finds."""
+    try:
+        TypeAdapter(model).validate_python(given)
+    except ValidationError as error:
+        return error.errors(include_url=False, include_context=False)
+    return []
 
 
 def complete(model: type[Block], given: dict) -> dict:
@@ -46,7 +58,7 @@ def complete(model: type[Block], given: dict) -> dict:
 def _line(model, error, place) -> str:
     loc = error["loc"]
     where = (*place, *(part for part in loc if part not in TAGS))
-    if error["type"] == "extra_forbidden":
+    if error["type"] in _UNKNOWN:
         known = list(allowed_at(model, loc[:-1])[0].model_fields)
         (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"

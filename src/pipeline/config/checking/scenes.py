@@ -1,7 +1,7 @@
 """One scene: complete, or what is wrong with it."""
 
 from ..declared.kinds import KINDS
-from .mistakes import complete, mistakes
+from .mistakes import complete, mistakes, readable
 from .words import dotted, refusal
 
 
@@ -21,10 +21,10 @@ def checked(given, ball, place, said=None):
         return None, [refusal((*place, "picture"), given["picture"], what)]
     said = ({} if "ball" in given else {"ball": ("ball",)}) | (said or {})
     lines = mistakes(kind, given, place)
-    if lines or ball is None:
+    if ball is None or (lines and not readable(kind, given)):
         return None, lines
     block = complete(kind, {"ball": ball} | given)
-    lines = [
+    lines += [
         refusal((*said.get(where[0], (*place, where[0])), *where[1:]), value, allowed)
         for where, value, allowed in kind.faults(block)
     ]

@@ -71,6 +71,8 @@ def _derived(block, variant, change):
 def _change_mistakes(scenes, scene, change, place):
     if scene not in scenes:
         return [f"{dotted(place)}: {unknown('scene', scene, list(scenes))}"]
+    if not isinstance(change, dict):
+        return [refusal(place, change, "a mapping with fields of the scene")]
     picture = scenes[scene]["picture"]
     if change.get("picture", picture) != picture:
         what = f"{picture}, which a variant does not change"

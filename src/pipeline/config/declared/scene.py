@@ -56,7 +56,7 @@ class Scene(fields.Block):
 
     @classmethod
     def faults(cls, block: dict) -> Iterator[Fault]:
-        """What is wrong with a complete block whose fields are well each by itself."""
+        """What is wrong with a complete block whose fields have their types."""
         ball = block["ball"]
         if not ball["g"] < ball["k"]:
             yield ("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"
@@ -66,7 +66,7 @@ class Scene(fields.Block):
             low, high = drawn["limits"]
             what = f"numbers within the limits {drawn['limits']}"
             for tick in drawn["ticks"]:
-                if not low <= tick <= high:
+                if low < high and not low <= tick <= high:
                     yield ("axes", axis, "ticks"), tick, what
 
 

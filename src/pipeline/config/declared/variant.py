@@ -28,9 +28,7 @@ class Variant(Block):
     ) = None
     """another unit of length: g times scale, energies times its square"""
     scenes: Annotated[
-        dict[
-            str, Annotated[dict[str, Any], Field(description="a mapping with fields of the scene")]
-        ],
+        dict[str, Any],
         Field(description="a mapping from names of scenes to the fields that differ"),
     ] = None
     """further fields of single scenes; mappings merge, lists are replaced"""
