@@ -50,7 +50,7 @@ def progress(sweeps, currency, targets):
             if path in outdated:
                 cells = stop - start
                 blocks[path] = cells, cells * sweep["starts"] * sweep["impacts"]
-    if line := shortage(blocks, total):
+    if blocks and (line := shortage(blocks, total)):
         raise UsageError(line)
     return told(blocks, total)
 
