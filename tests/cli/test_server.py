@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 from pipeline.cli.running import server
 
 PROGRAM = """
@@ -72,3 +74,32 @@ def test_where_no_server_can_be_jobs_start_as_usual(monkeypatch):
     monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
     assert server.begin(True) is False
     assert dict(os.environ) == before
+
+
+LOADED = """
+import sys
+from pipeline.cli.running import server
+
+if __name__ == "__main__":
+    server.begin(sys.argv[2] == "computes")
+    done, answer = server.JOBS.Pipe(duplex=False)
+    job = server.JOBS.Process(target=server.run, args=(sys.argv[1], answer))
+    job.start()
+    job.join()
+"""
+
+
+@pytest.mark.parametrize("what", ["draws", "computes"])
+def test_what_compiles_is_loaded_where_something_is_computed(tmp_path, what):
+    (tmp_path / "main.py").write_text(LOADED)
+    (tmp_path / "job.py").write_text(
+        "import sys; print('numba' in sys.modules, 'xarray' in sys.modules)"
+    )
+    result = subprocess.run(
+        [sys.executable, tmp_path / "main.py", tmp_path / "job.py", what],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+    )
+    assert result.stdout.split() == [str(what == "computes"), "True"], result.stderr

@@ -9,6 +9,7 @@ import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from pipeline.checks.currency import Currency
+from pipeline.cli.folder import UsageError, one_line
 from pipeline.cli.telling import plan, states, steps
 from pipeline.cli.telling.names import step
 from pipeline.config.expected import Expected
@@ -189,3 +190,10 @@ def test_the_log_is_remembered(handler, tmp_path):
     path = tmp_path / ".snakemake/log/x.snakemake.log"
     handler.emit(event(None, 1.0, msg=f"Complete log(s): {path}"))
     assert handler.log == ".snakemake/log/x.snakemake.log"
+
+
+def test_only_what_is_written_for_the_user_is_one_line():
+    with pytest.raises(UsageError, match=r"^archive: no archive$"), one_line("archive: ", OSError):
+        raise OSError("no archive")
+    with pytest.raises(KeyError), one_line("archive: ", OSError):
+        raise KeyError("a bug")

@@ -1,5 +1,6 @@
 """What proves nothing: altered, foreign and unreadable certificates, other balls, wrong bounds."""
 
+import dataclasses
 import re
 from fractions import Fraction
 
@@ -85,6 +86,14 @@ def test_unreadable_certificates_are_refused(name):
     without = text.replace("k = ", "kk = ")
     for broken in ("", text[: len(text) // 2], without, another, re.sub(r"\d+", "x", text)):
         refused(name, broken)
+
+
+def test_what_is_refused_without_a_reason_is_not_proved():
+    def refuse(text, **bounds):
+        raise NotProvedError
+
+    result = dataclasses.replace(THEOREMS["fixed-point"], checker=refuse).check("")
+    assert (result.verdict, result.reason) == ("not proved", "no reason is given")
 
 
 def test_a_missing_certificate_is_refused(monkeypatch):

@@ -16,6 +16,7 @@ from project import ROOT, fresh_tree, of_scenes
 
 from pipeline.cli.folder import MisuseError, UsageError
 from pipeline.cli.telling import sweeping
+from pipeline.config import places
 from pipeline.records.artifacts import load
 from pseudorigid.sweep import cell
 
@@ -28,6 +29,17 @@ def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
     assert sweeping.shortage(dict.fromkeys(range(300)), 1000) is None
     line = sweeping.shortage(dict.fromkeys(range(300)), 10_000)
     assert line == "the disk is full: about 34 MB are needed here, 30 are free"
+
+
+def test_nothing_to_make_needs_no_space(monkeypatch):
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=0))
+    outdated = {}
+    currency = SimpleNamespace(expected={}, outdated=lambda _: outdated)
+    with sweeping.progress({"plane": SMALL}, currency, []):
+        pass
+    outdated |= dict.fromkeys(places.block_files("plane", SMALL), "missing")
+    with pytest.raises(UsageError, match="the disk is full"):
+        sweeping.progress({"plane": SMALL}, currency, [])
 
 
 def test_all_sweeps_are_meant_where_none_is_named():
