@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
-from ..records.files import file_hash, replacing
+from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from .sums import SUMS, ContractError, text_of
@@ -105,12 +105,10 @@ def sums(manifest):
 
 def write(root, folder, manifest):
     """Write both files of the contract."""
-    with replacing(root / folder / MANIFEST) as part:
-        text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
-        part.write_text(text + "\n", encoding="utf-8")
-    with replacing(root / folder / SUMS) as part:
-        lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
-        part.write_text("".join(lines), encoding="utf-8")
+    text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
+    write_whole(root / folder / MANIFEST, f"{text}\n")
+    lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
+    write_whole(root / folder / SUMS, "".join(lines))
 
 
 def _checksum(manifest):

@@ -6,7 +6,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, png
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
-from ...records.files import replacing
+from ...records.files import write_whole
 from ...records.pictures import pixels as read
 
 _HEAD = 75  # pixels
@@ -22,8 +22,7 @@ def side_by_side(drawings, names, path):
     for image, name in zip(images, names, strict=True):
         below = np.full((high - image.shape[0], image.shape[1], 3), 255, dtype=np.uint8)
         parts.append(np.concatenate([_head(name, image.shape[1]), image, below]))
-    with replacing(path) as part:
-        part.write_bytes(png(np.concatenate(parts, axis=1), style.DPI))
+    write_whole(path, png(np.concatenate(parts, axis=1), style.DPI))
 
 
 @style.pinned()
