@@ -46,7 +46,10 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
         ({"energy": RANGE | {"count": 1}}, ["sweeps.a.energy.count: 1", "from 2"]),
         ({"energy": RANGE | {"count": 0}}, ["sweeps.a.energy.count: 0", "from 2"]),
         ({"energy": RANGE | {"to": 0.1}}, ["sweeps.a.energy.to: 0.1", "above from = 0.1"]),
-        ({"energy": RANGE | {"spacing": "lg"}}, ["sweeps.a.energy.spacing: 'lg'", "even or log"]),
+        (
+            {"energy": RANGE | {"spacing": "lg"}},
+            ["sweeps.a.energy.spacing: 'lg'", "one of even, log"],
+        ),
         (
             {"energy": {"from": 0, "to": 1, "count": 3, "spacing": "log"}},
             ["sweeps.a.energy.from: 0", "> 0"],

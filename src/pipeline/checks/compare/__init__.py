@@ -9,7 +9,7 @@ from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
 
 
-def compare(root, variants, names, absent, scenes):
+def compare(root, variants, names, absent, scenes, everything):
     """Print what differs between two variants and save their figures side by side.
 
     Parameters
@@ -24,6 +24,8 @@ def compare(root, variants, names, absent, scenes):
         For each of the two, scene -> why its figure cannot exist.
     scenes : list of str
         Those of their scenes that are looked at.
+    everything : bool
+        Whether each variable and each orbit that differs has a line; else each stage has.
     """
     serves = places.served(variants)
 
@@ -43,8 +45,7 @@ def compare(root, variants, names, absent, scenes):
         if not any(missing):
             for stage in places.stages(blocks[0]):
                 if stage != "periodic":
-                    lines = norms.table(*data(scene, stage), names)
-                    lines += orbits.table(*data(scene, stage)) if stage == "orbits" else []
+                    lines = _of_stage(stage, data(scene, stage), names, everything)
                     for i, line in enumerate(lines):
                         print(f"  {'' if i else stage:10}  {line}")
         image = root / picture_path(names, scene)
@@ -69,6 +70,14 @@ def compare(root, variants, names, absent, scenes):
 def picture_path(names, scene):
     """Where two figures are saved side by side, from the root."""
     return f"results/compare/{names[0]}..{names[1]}/{scene}.png"
+
+
+def _of_stage(stage, pair, names, everything):
+    """Lines about how the two datasets of a stage differ."""
+    lines = norms.table(*pair, names) if everything else [norms.summary(*pair, names)]
+    if stage == "orbits":
+        lines += orbits.table(*pair) if everything else orbits.summary(*pair)
+    return lines
 
 
 def _differences(one, other):
