@@ -4,7 +4,7 @@ Nothing is computed here: both must have their results.
 """
 
 from ...config import places
-from ...records.artifacts import load
+from ...records.artifacts import canonical_json, load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
 
@@ -58,7 +58,7 @@ def compare(root, variants, names, absent, scenes, everything):
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
-    _periodic(pairs, serves, names, data)
+    _periodic(pairs, names, data)
     for scene, blocks in pairs.items():
         if "lyapunov" in places.stages(blocks[0]):
             said = "mean over its orbits ± their standard deviation"
@@ -90,13 +90,13 @@ def _differences(one, other):
     return lines or ["the same config"]
 
 
-def _periodic(pairs, serves, names, data):
-    """Print what became of the periodic orbits, once for each pair of artifacts."""
+def _periodic(pairs, names, data):
+    """Print what became of the periodic orbits, once for all scenes with the same ones."""
     groups = {}
     for scene, blocks in pairs.items():
         if "periodic" in places.stages(blocks[0]):
-            files = tuple(serves[name, scene, "periodic"] for name in names)
-            groups.setdefault(files, []).append(scene)
+            orbits_of = canonical_json([places.stages(block)["periodic"] for block in blocks])
+            groups.setdefault(orbits_of, []).append(scene)
     if groups:
         far = f"an orbit further than {cycles.REACH:g} away counts as another"
         print(f"\nPeriodic orbits, and how far in section radii ({far})")

@@ -26,11 +26,11 @@ def summary(one, other, names):
         return "the same data"
     line = f"{len(rows)} of {len({*one.variables, *other.variables})} variables differ"
     sizes = {row[0]: relative for row, relative in rows if relative is not None}
-    if sizes:
-        most = max(sizes, key=sizes.get)
+    if real := [name for name in sizes if one.variables[name].dtype.kind == "f"]:
+        most = max(real, key=sizes.get)
         line += f", {most} the most: by {sizes[most]:.3g} of its norm"
-    shapes = len(rows) - len(sizes)
-    return line + (f"; {shapes} cannot be subtracted (--all shows why)" if shapes else "")
+    others = len(rows) - len(sizes)
+    return line + (f"; {others} of other lengths or in one only" if others else "")
 
 
 def _rows(one, other, names):
