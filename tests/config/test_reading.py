@@ -33,6 +33,7 @@ def test_something_else_than_a_config_is_refused(document):
         (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
         (b"ball: {[1, 2]: 3}", "line 1, column 8: not valid YAML: found unhashable key"),
         (b"? [a]\n: 3\n? [a]\n: 4", "found unhashable key"),
+        (b"#" * 500_001, "config.yaml: has 500001 bytes: expected at most 500000"),
         (b"[" * 3000, "config.yaml: nested too deeply"),
         (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
         (b"ball: !!bool x", "not valid YAML"),

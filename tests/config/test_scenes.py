@@ -189,7 +189,7 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_portrait.impacts", [6_000_000, 6_000_000], ["at most 10000000 impacts"]),
         ("scenes.a_portrait.impacts", ["1e3", 1], ["impacts[0]: '1e3'", "write 1000"]),
         ("scenes.a_portrait.sea", [2], ["sea: 2", "from 0 to 1"]),
-        ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "elevation < 90"]),
+        ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "from 0.1 to 89.9"]),
         ("scenes.a_tangle.branches", {}, ["branches: {}"]),
         ("scenes.a_tangle.branches", {"upper": {"length": 1}}, ["branches.upper: unknown"]),
         ("scenes.a_tangle.branches.outer.length", 0, ["outer.length: 0", "positive"]),
