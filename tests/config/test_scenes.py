@@ -237,3 +237,11 @@ def test_what_is_said_to_be_written_instead_is_taken(path, value, advice):
     assert line.partition("; this is text to YAML, write ")[2] == advice
     if advice:
         config.check(changed(path, yaml.safe_load(advice)))
+
+
+def test_a_bound_is_printed_with_all_its_digits():
+    document = good()
+    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.01}, "energy": 0.15}
+    assert "a number below k/2 - g = 0.14, " in complaint(document)
+    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.0100000003}}
+    assert "a number below k/2 - g = 0.1399999997, " in complaint(document)

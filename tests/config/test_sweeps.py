@@ -84,3 +84,9 @@ def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, words):
 
 def test_sweeps_may_be_left_out():
     assert config.check(good())["sweeps"] == {}
+
+
+def test_a_sweep_named_like_a_block_of_another_is_refused():
+    given = good() | {"sweeps": {"s": SMALL, "s_0000": SMALL, "t_0000": SMALL}}
+    line = "sweeps: 's_0000' is not allowed: expected a name that no block of the sweep s has"
+    assert complaint(given) == line

@@ -109,7 +109,7 @@ case "$*" in
 *sys.version_info\\[:2]*) echo 3 11 ;;
 '-m venv '*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python"; echo "command = $*" >"$3/pyvenv.cfg" ;;
 *'-m pip '*) [ ! -e "$SLOW" ] || { touch "$SLOW.begun"; exec sleep 60; } ;;
-*'-m pipeline'*) echo handed over ;;
+*'-m pipeline'*) echo "handed over$PYTHONWARNINGS" ;;
 esac
 """
 
@@ -125,7 +125,9 @@ class SetUp:
         path = f"{folder / 'bin'}:{os.environ['PATH']}"
         self.how = {
             "args": [str(tree.path / "reproduce")],
-            "env": os.environ | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)},
+            "env": os.environ
+            | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)}
+            | {"PYTHONWARNINGS": "error"},  # must not reach what runs
             "text": True,
         }
         self.folder = folder

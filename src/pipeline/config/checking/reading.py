@@ -7,7 +7,6 @@ import yaml
 from .document import check
 from .words import ConfigError
 
-
 # Bytes of a config: what is larger is a slip, and would take long to parse. (The faster parser of
 # libyaml is not used: it crashes where text is nested deeply.)
 LARGEST = 500_000
