@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from project import ROOT
 
 from pipeline.cli import running
 from pipeline.cli.folder import MisuseError
@@ -32,6 +33,21 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
         check=False,
     )
     assert (bare.returncode, bare.stderr) == (1, lines)
+    assert not (tree.path / "results").exists()
+
+
+def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
+    """As when a job of a cluster finds another checkout's packages first."""
+    result = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--cores", "1"],
+        cwd=tree.path,
+        env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    line = f"reproduce: this is {tree.path}, but the code of {ROOT} runs: use ./reproduce here\n"
+    assert (result.returncode, result.stderr) == (1, line)
     assert not (tree.path / "results").exists()
 
 
