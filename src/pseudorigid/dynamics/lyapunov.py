@@ -12,7 +12,7 @@ import xarray as xr
 
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
-from ..kernel.impact import transfer
+from ..kernel.impact import step_with_flight, tangent, transfer
 from ..kernel.lanes import FEW
 from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
 from .ball import whole_number
@@ -211,29 +211,67 @@ def _spectrum(x, v, w, k, g, at, out, how):
 
 
 @jit
+def _orthonormal(a, b, c):
+    """Gram and Schmidt's method on three vectors: the three lengths, then the three directions."""
+    p, a0, a1, a2 = _unit(*a)
+    q, b0, b1, b2 = _unit(*_without(a0, a1, a2, *b))
+    r, c0, c1, c2 = _unit(*_without(b0, b1, b2, *_without(a0, a1, a2, *c)))
+    return p, q, r, (a0, a1, a2), (b0, b1, b2), (c0, c1, c2)
+
+
+@jit
+def _one(x, v, w, k, g, at, out, how):
+    """Write the exponents of one orbit after each of `at` impacts to out (m, 3).
+
+    The frame stays in the processor's registers, which is faster for few orbits than `_group`.
+    """
+    head, low = transfer(k)
+    a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    p = q = r = 1.0
+    sums = np.zeros(3)
+    missed, done = 0, 0
+    for m in range(at.size):
+        while done < at[m]:
+            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
+                x, v, w, k, g, head, low, how
+            )
+            missed += late
+            a = tangent(*a, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            b = tangent(*b, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            c = tangent(*c, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            one, two, three, a, b, c = _orthonormal(a, b, c)
+            p, q, r = p * one, q * two, r * three
+            done += 1
+            if done == at[m] or not (_held(p) & _held(q) & _held(r)):
+                sums[0], sums[1], sums[2] = sums[0] + log(p), sums[1] + log(q), sums[2] + log(r)
+                p = q = r = 1.0
+        for j in range(3):
+            out[m, j] = sums[j] / done
+    return missed
+
+
+@jit
 def _group(x, v, w, k, g, at, out, how):
+    """Write the exponents of at most GROUP orbits after each of `at` impacts to out (n, m, 3)."""
     n = x.size
+    missed, done = 0, 0
+    if n < FEW:
+        for i in range(n):
+            missed += _one(x[i], v[i], w[i], k, g, at, out[i], how)
+        return missed
     head, low = transfer(k)
     states, flights = room()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
     for i in range(n):
         frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
         frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
-    missed, done = 0, 0
     for m in range(at.size):
         while done < at[m]:
             impacts = min(STRETCH, at[m] - done)
             missed += stretch(x, v, w, k, g, impacts, states, flights, how)
-            if n < FEW:  # one after the other
-                for i in range(n):
-                    for row in range(0, impacts * GROUP, GROUP):
-                        one = frames[i:], 1, k, g, head, low, states[i:], flights[i:], row
-                        if _advance(*one):
-                            _collect(total, frames, i)
-            else:
-                for row in range(0, impacts * GROUP, GROUP):
-                    if _advance(frames, n, k, g, head, low, states, flights, row):
-                        _collect_far(total, frames, n)
+            for row in range(0, impacts * GROUP, GROUP):
+                if _advance(frames, n, k, g, head, low, states, flights, row):
+                    _collect_far(total, frames, n)
             done += impacts
         for i in range(n):
             _collect(total, frames, i)
