@@ -2,12 +2,14 @@
 
 import tomllib
 from dataclasses import dataclass, field
-from decimal import Decimal
 from fractions import Fraction
+from math import inf
 
 from flint import arb
 
 from ..enclosure.surface import Surface, ball_of, exact
+
+LARGEST = 10**9  # no number of a certificate is larger
 
 
 class NotProvedError(Exception):
@@ -23,7 +25,7 @@ class Finding:
     digits : dict of str to arb
         Enclosures.
     margins : dict of str to float
-        By how much inequalities hold.
+        By how much inequalities hold: positive and finite.
     parts : dict
         What later steps use.
     """
@@ -31,6 +33,11 @@ class Finding:
     digits: dict = field(default_factory=dict)
     margins: dict = field(default_factory=dict)
     parts: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        for name, margin in self.margins.items():
+            if not 0 < margin < inf:
+                raise NotProvedError(f"the margin {name} is {margin:g}, not positive and finite")
 
 
 class Certificate:
@@ -51,7 +58,7 @@ class Certificate:
 
     def __init__(self, text, kind):
         try:
-            self._fields = tomllib.loads(text, parse_float=Decimal)
+            self._fields = tomllib.loads(text, parse_float=str)
         except (tomllib.TOMLDecodeError, ValueError, ArithmeticError) as error:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
@@ -104,9 +111,12 @@ class Certificate:
     @staticmethod
     def _exact(name, value):
         try:
-            return exact(name, value)
+            number = exact(name, value)
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
+        if abs(number) > LARGEST:
+            raise NotProvedError(f"the certificate's {name} = {str(value)[:40]} is too large")
+        return number
 
 
 def box(centre, radius):

@@ -161,8 +161,8 @@ def _relations(surface, edges, chain):
 def _crossing(middle, slope):
     """The angle between the two manifolds in M_0, one the mirror image of the other at y = 0."""
     x, y = (u + slope * s for u, s in zip(middle.u, middle.s, strict=True))
-    half = (abs(y) / abs(x)).atan()
-    return 2 * half if half < arb.pi() / 4 else arb.pi() - 2 * half
+    half = arb.atan2(abs(y), abs(x))
+    return (2 * half).min(arb.pi() - 2 * half)  # the acute one, also if half may be pi/4
 
 
 def _meets_margins(certificate, edges, measured):
@@ -170,6 +170,8 @@ def _meets_margins(certificate, edges, measured):
     if len(stated) != len(edges):
         raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
     for (source, target), found, least in zip(edges, measured, stated, strict=True):
+        if min(least) < 0:
+            raise NotProvedError(f"a margin of the certificate is {float(min(least)):g}, below 0")
         if not all(arb(f) >= ball_of(m) for f, m in zip(found, least, strict=True)):
             raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
 
