@@ -6,8 +6,10 @@ is followed by an orbit of P (Zgliczynski and Gidea 2004), by the cone condition
 by only one, and the set of these orbits is compact, invariant and uniformly hyperbolic
 (Kokubu, Wilczak and Zgliczynski 2007; Zgliczynski 2009).
 
-M_0 is disjoint from all other sets. So a path is known from the times at which its orbit visits
-M_0, and P on the invariant set is conjugate to the shift on paths. From M_0 back to M_0 a path
+M_0 is disjoint from all other sets. So a path that visits M_0 is known from the times at which its
+orbit does. The n paths that never visit it stay in the S; their orbits are the saddles' own,
+started at each of its points, which are distinct since the period is the prime one. So P on the
+invariant set is conjugate to the shift on paths. From M_0 back to M_0 a path
 takes L + m n impacts, m = 0, 1, ..., with L the length of the loop through the chain; so the
 topological entropy is ln x, x^-n + x^-L = 1, and the shift is mixing if n and L have no common
 divisor. The path that is in the S for all times but one passage of the chain is an orbit in the

@@ -15,8 +15,8 @@ from flint import arb, ctx
 from .jets import Jet
 
 MARCH_BITS = 64  # one word of the processor: a march needs no more unless it nearly touches
-# Of a parabola's root, which is rounded to nearest: far more than any rounding, so that the value
-# there is below zero, as is then checked or, for the first step with s = 0 = g + x, follows.
+# Of a parabola's root, which is rounded to nearest: the rest is far more than its rounding, so that
+# the check in balls succeeds that the parabola is below zero there.
 _SHY = 1.0 - 1e-6
 # Steps that know f'', then steps that know f''' too: near grazing the first kind crawls. It comes
 # first because certificates state margins of what it encloses.
@@ -252,7 +252,7 @@ def _first_step(x, c, s, g, jerk):
         t = arb(_SHY) * (4 * c / jerk).lower()
         if not (c > 0 and t > 0):
             raise UndecidedError("the ball may rest on the floor")
-        return t.mid()
+        return t.lower()
     if not (s > 0 or (s == 0 and bend < 0)):
         raise UndecidedError("the impact may be grazing: xdot + udot may be zero")
     half, third = bend.upper() / 2, jerk / 6
