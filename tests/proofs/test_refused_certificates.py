@@ -353,6 +353,17 @@ def test_a_number_out_of_bounds_is_one_line(name, number):
     refused(name, re.sub("radius = .*", f"radius = {number}", THEOREMS[name].text()))
 
 
+@pytest.mark.parametrize("name", THEOREMS)
+def test_a_ball_or_energy_of_too_many_digits_is_one_line(name):
+    text = THEOREMS[name].text()
+    for field in ("k", "g", "energy", "energy_up_to", "energy_below"):
+        for number in ("1e-999", "1e999", "1e-9999", "1e9999"):
+            other = re.sub(rf'^{field} = ".*"$', f'{field} = "{number}"', text, flags=re.MULTILINE)
+            if other != text:
+                reason = refused(name, other)
+                assert "digits" in reason or "not an exact number" in reason
+
+
 def leading_digits(text, fields):
     """(field, number, certificate) of every leading digit in these fields that is changed."""
     place, field = 0, None

@@ -9,7 +9,7 @@ from flint import arb
 
 from ..enclosure.surface import Surface, ball_of, exact
 
-LARGEST = 10**9  # no number of a certificate is larger
+DIGITS = 100  # of the numerator and the denominator of a certificate's number, at most
 
 
 class NotProvedError(Exception):
@@ -75,7 +75,7 @@ class Certificate:
         """The Surface the certificate is for, which must be of the ball with this k and g."""
         self.ball(k, g)
         try:
-            return Surface(k, g, self._take("energy", str))
+            return Surface(k, g, self._exact("energy", self._take("energy", str)))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
@@ -114,8 +114,8 @@ class Certificate:
             number = exact(name, value)
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
-        if abs(number) > LARGEST:
-            raise NotProvedError(f"the certificate's {name} = {str(value)[:40]} is too large")
+        if max(abs(number.numerator), number.denominator) >= 10**DIGITS:
+            raise NotProvedError(f"the certificate's {name} has more than {DIGITS} digits")
         return number
 
 
