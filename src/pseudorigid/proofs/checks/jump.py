@@ -111,7 +111,7 @@ def check(text, surface, *, radius, length):
 
 
 def check_smooth(text, k, g, energy):
-    """Prove that no flight touches the floor below an energy.
+    """Prove that no flight touches the floor below an energy: P is a diffeomorphism there.
 
     Parameters
     ----------
