@@ -37,9 +37,12 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Returns
     -------
     xarray.Dataset
-        exponent, dims (impact, ..., index), largest first, nats an impact; its last entry the final
-        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`,
-        of more `orbit_0`, ... NaN from a grazing impact on, where the map has no derivative.
+        exponent, dims (impact, ..., index), nats an impact; its last entry is the final value.
+        `index` counts the vectors of the frame, in the order in which they are orthogonalized. The
+        values tend to falling order, but those of a finite orbit need not be in it: the largest
+        exponent is `exponent.max("index")`. `impact` holds the number of impacts. A state of one
+        dimension has the dim `orbit`, of more `orbit_0`, ... NaN from a grazing impact on, where
+        the map has no derivative.
 
     Raises
     ------
@@ -74,7 +77,7 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     exponent = (
         ("impact", *dims, "index"),
         np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
-        {"long_name": "Lyapunov exponent an impact", "units": "1"},
+        {"long_name": "Lyapunov exponent an impact, of each vector of the frame", "units": "1"},
     )
     attributes = {"long_name": "number of impacts", "units": "1"}
     return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})

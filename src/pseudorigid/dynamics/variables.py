@@ -119,7 +119,7 @@ def of_type(orbits, kind, period=None):
 
 
 def final_exponents(lyapunov):
-    """The exponents of each orbit at its last record.
+    """The exponents of each orbit at its last record, sorted by value.
 
     Parameters
     ----------
@@ -129,9 +129,9 @@ def final_exponents(lyapunov):
     Returns
     -------
     ndarray, shape (orbit, index)
-        Nats an impact.
+        Nats an impact, the largest of each orbit first.
     """
     exponent = lyapunov["exponent"].values
     there = ~np.isnan(exponent[:, :, 0])
     last = exponent.shape[0] - 1 - np.argmax(there[::-1], axis=0)
-    return exponent[last, np.arange(exponent.shape[1])]
+    return np.sort(exponent[last, np.arange(exponent.shape[1])], axis=1)[:, ::-1]

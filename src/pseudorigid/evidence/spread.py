@@ -44,7 +44,7 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     -------
     xarray.Dataset
         exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
-        impact, largest first. regular_exponent (length, island, index): over the first `length`
+        impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over the first `length`
         impacts. entered_any, entered_all (visit): cells entered by at least one of the orbits, by
         each of them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
         (island), and the attribute block_impacts, the impacts of a block.
@@ -130,7 +130,7 @@ def _cell(place, cells):
 
 
 def stretches(dataset, length):
-    """Largest exponents over all stretches of `length` impacts of the sea's orbits.
+    """The largest exponent of each stretch of `length` impacts of the sea's orbits.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def stretches(dataset, length):
     ndarray, shape (stretches,)
         Nats an impact.
     """
-    block = dataset["exponent"].values[:, :, 0]
+    block = dataset["exponent"].values
     count = length // int(dataset.attrs["block_impacts"])
     whole = block[: block.shape[0] // count * count]
-    return whole.reshape(-1, count, block.shape[1]).mean(axis=1).ravel()
+    return whole.reshape(-1, count, *block.shape[1:]).mean(axis=1).max(axis=-1).ravel()

@@ -9,7 +9,7 @@ What counts as error depends on the kind of picture, which names its measure:
               the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of
               an impact: across a branch errors shrink by 1/m each impact, along it they do not
               show
-    exponents the change of the largest exponent, averaged over the orbits
+    exponents the change of a tangent vector's exponent, averaged over the orbits
 
 A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the
 energy says. The mean exponent of a long orbit does not.
@@ -127,7 +127,7 @@ def _exponents(block):
     _, pixel = _pixels(exponents.plane(block))
     means = []
     for method in METHODS:
-        found = map(partial(_largest_exponent, ball, method), states, impacts)
+        found = map(partial(_vector_exponent, ball, method), states, impacts)
         means.append(sum(found) / len(states))
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
@@ -231,8 +231,8 @@ def _next_states(ball, columns, tau):
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
 
 
-def _largest_exponent(ball, method, state, impacts):
-    """The largest exponent along the method's own orbit, by one tangent vector."""
+def _vector_exponent(ball, method, state, impacts):
+    """The exponent of one tangent vector, which tends to the largest, on the method's orbit."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = np.column_stack((state, track[:3, :-1]))
     return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts

@@ -32,9 +32,9 @@ class Exponents(OfRecords):
         from pseudorigid.dynamics.variables import final_exponents
 
         last = final_exponents(lyapunov)
-        largest, all_three = np.sort(last[:, 0]), np.round(last, 4) + 0.0
+        largest, all_three = np.sort(last[:, 0]), last
         spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
-        rows = [", ".join(f"{value:.4f}" for value in row) for row in (largest, *all_three)]
+        rows = [", ".join(f"{round(value, 4) + 0.0:.4f}" for value in row) for row in (largest, *all_three)]
         return {
             "largest exponent": rows[0],
             "their mean": f"{np.mean(largest):.4f}{spread}",
