@@ -15,8 +15,8 @@ from ..kernel.compiled import jit
 from ..kernel.impact import transfer
 from ..kernel.lanes import FEW
 from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
-from .ball import whole_number
 from .ensemble import shared
+from .reading import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import orbit_dims
 
@@ -27,8 +27,8 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Parameters
     ----------
     ball : Ball
-    state : (x, xdot, udot)
-        Just before an impact, scalars or arrays that broadcast.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, as for `orbit`.
     impacts : int
         How many impacts, at least 1.
     records : int
@@ -63,11 +63,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     """
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
-    state = ball.on_section(*state)
+    state = ball.on_section(*state_of(state))
     shape = state[0].shape
     dims = orbit_dims(shape)
-    at = (np.arange(1, records + 1) * impacts) // records
-    out = np.empty((state[0].size, records, 3))
+    try:
+        at = (np.arange(1, records + 1) * impacts) // records
+        out = np.empty((state[0].size, records, 3))
+    except (MemoryError, ValueError):
+        raise not_allowed("records", records, "fewer: memory is short") from None
 
     def some(x, v, w, out):
         return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)

@@ -13,7 +13,7 @@ import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
-from .ball import whole_number
+from .reading import number, whole_number
 from .variables import NAMES, variables
 
 # Cells into which a symmetry line is divided; each sign change between neighbours is followed. Of
@@ -73,7 +73,7 @@ def symmetric_orbits(ball, energy, period):
     >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
     ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """
-    period = whole_number("period", period)
+    period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
     seen, orbits, found = _Points(SAME * radius), 0, []
     for line in _lines(ball, energy, period):

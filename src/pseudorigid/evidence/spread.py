@@ -44,10 +44,10 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     -------
     xarray.Dataset
         exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
-        impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over the first `length`
-        impacts. entered_any, entered_all (visit): cells entered by at least one of the orbits, by
-        each of them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
-        (island), and the attribute block_impacts, the impacts of a block.
+        impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over
+        the first `length` impacts. entered_any, entered_all (visit): cells entered by at least one
+        of the orbits, by each of them; entered_least: by the orbit that enters fewest. start
+        (orbit), regular_start (island), and the attribute block_impacts, the impacts of a block.
 
     Raises
     ------

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ...dynamics.ball import whole_number
+from ...dynamics.reading import whole_number
 from ...dynamics.variables import variables
 from ..enclosure.surface import Surface
 from . import keeping
