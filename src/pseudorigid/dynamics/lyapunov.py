@@ -18,7 +18,7 @@ from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
 from .ensemble import shared
 from .reading import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
-from .variables import orbit_dims
+from .variables import attributes_of, orbit_dims
 
 
 def lyapunov_spectrum(ball, state, impacts, records=400):
@@ -80,14 +80,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     exponent = (
         ("impact", *dims, "index"),
         np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
-        {"long_name": "Lyapunov exponent an impact, of each vector of the frame", "units": "1"},
+        attributes_of("Lyapunov exponent an impact, of each vector of the frame"),
     )
-    attributes = {"long_name": "number of impacts", "units": "1"}
+    attributes = attributes_of("number of impacts")
     return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})
 
 
 def scene_exponents(ball, energy, starts, impacts, records):
-    """`lyapunov_spectrum` of a scene.
+    """Lyapunov exponents of the orbits of a scene, and how they converge.
 
     Parameters
     ----------

@@ -5,7 +5,7 @@ import xarray as xr
 
 from .reading import not_allowed, one_of, state_of, whole_number
 from .starts import start_state, start_variables
-from .variables import orbit_dims, variables
+from .variables import attributes_of, orbit_dims, variables
 
 
 def orbit(ball, state, impacts, keep="all"):
@@ -53,7 +53,7 @@ def orbit(ball, state, impacts, keep="all"):
         tau = np.empty(columns[0].size)
         ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
         values = [a.reshape(shape) for a in (*columns, tau)]
-        return xr.Dataset(variables(dims, values), coords={"impact": impacts})
+        return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
     try:
         out = np.empty((columns[0].size, impacts, 4))
     except (MemoryError, ValueError):
@@ -61,8 +61,13 @@ def orbit(ball, state, impacts, keep="all"):
     ball.map.history(*columns, ball.k, ball.g, out)
     values = [a.reshape(impacts, *shape) for a in out.T]
     return xr.Dataset(
-        variables(("impact", *dims), values), coords={"impact": np.arange(1, impacts + 1)}
+        variables(("impact", *dims), values),
+        coords={"impact": _impact("impact", np.arange(1, impacts + 1))},
     )
+
+
+def _impact(dims, values):
+    return dims, values, attributes_of("number of impacts")
 
 
 def scene_orbits(ball, energy, starts, impacts):
@@ -131,6 +136,6 @@ def ragged_orbits(pieces, starts, states, impacts):
     data["row_size"] = (
         "orbit",
         np.asarray(impacts, dtype=np.int64),
-        {"long_name": "number of impacts", "units": "1", "sample_dimension": "point"},
+        attributes_of("number of impacts") | {"sample_dimension": "point"},
     )
     return xr.Dataset(data)

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.lyapunov import lyapunov_spectrum
-from ..dynamics.variables import chart, described
+from ..dynamics.variables import RADIUS, chart, described
 from .sea import sea_states
 
 # Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
@@ -74,7 +74,7 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
-        "start": ("orbit", start, "start along y = 0, in section radii"),
+        "start": ("orbit", start, "start along y = 0, in section radii", RADIUS),
     }
     data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
     data |= _entered(ball, energy, states, cells, visits)
@@ -92,7 +92,7 @@ def _regular(ball, energy, starts, impacts):
     found = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
     return {
         "length": ("length", lengths, "number of impacts"),
-        "regular_start": ("island", starts, "start along y = 0, in section radii"),
+        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), found, "exponent of a regular orbit"),
     }
 

@@ -38,6 +38,7 @@ from .work import dataset, is_wrong, proved_times
 
 # The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
 METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
+_AXIS = "unit of the axis"  # a scale: of a position R, of a time 1/omega, of an exponent 1
 # The scatter between orbits of an exponent after 2e5 impacts, whatever the method: an error
 # below that of their mean does not show.
 SCATTER = 0.004
@@ -96,14 +97,19 @@ def figure_errors(scenes, measures, artifacts):
     each = ("scene", "method")
     variables = {
         "scene": ("scene", list(scenes), "scene"),
-        "error": (each, error, "error of the picture in pixels"),
+        "error": (each, error, "error of the picture in pixels", "pixel"),
         "missed": (each, missed, "impacts flown past"),
         "evaluations": (each, evaluations, "evaluations an impact"),
         "impacts": ("scene", impacts, "impacts computed for the comparison"),
-        "pixel": ("scene", pixel, "a pixel in units of the axis"),
-        "line": ("scene", stroke * DPI / 72 * pixel, "width of a line or dot in units of the axis"),
-        "digit": ("scene", digit, "last digit of the axis' labels"),
-        "limit": ("scene", limit, "error that the picture can hide, in pixels"),
+        "pixel": ("scene", pixel, "a pixel in units of the axis", _AXIS),
+        "line": (
+            "scene",
+            stroke * DPI / 72 * pixel,
+            "width of a line or dot in units of the axis",
+            _AXIS,
+        ),
+        "digit": ("scene", digit, "last digit of the axis' labels", _AXIS),
+        "limit": ("scene", limit, "error that the picture can hide, in pixels", "pixel"),
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
         "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
     }
