@@ -15,10 +15,10 @@ from ..kernel.compiled import jit
 from ..kernel.impact import step_with_flight, tangent, transfer
 from ..kernel.lanes import FEW
 from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
-from .ball import whole_number
 from .ensemble import shared
+from .reading import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
-from .variables import orbit_dims
+from .variables import attributes_of, orbit_dims
 
 
 def lyapunov_spectrum(ball, state, impacts, records=400):
@@ -27,8 +27,8 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Parameters
     ----------
     ball : Ball
-    state : (x, xdot, udot)
-        Just before an impact, scalars or arrays that broadcast.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, as for `orbit`.
     impacts : int
         How many impacts, at least 1.
     records : int
@@ -37,9 +37,12 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Returns
     -------
     xarray.Dataset
-        exponent, dims (impact, ..., index), largest first, nats an impact; its last entry the final
-        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`,
-        of more `orbit_0`, ... NaN from a grazing impact on, where the map has no derivative.
+        exponent, dims (impact, ..., index), nats an impact; its last entry is the final value.
+        `index` counts the vectors of the frame, in the order in which they are orthogonalized. The
+        values tend to falling order, but those of a finite orbit need not be in it: the largest
+        exponent is `exponent.max("index")`. `impact` holds the number of impacts. A state of one
+        dimension has the dim `orbit`, of more `orbit_0`, ... NaN from a grazing impact on, where
+        the map has no derivative.
 
     Raises
     ------
@@ -60,11 +63,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     """
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
-    state = ball.on_section(*state)
+    state = ball.on_section(*state_of(state))
     shape = state[0].shape
     dims = orbit_dims(shape)
-    at = (np.arange(1, records + 1) * impacts) // records
-    out = np.empty((state[0].size, records, 3))
+    try:
+        at = (np.arange(1, records + 1) * impacts) // records
+        out = np.empty((state[0].size, records, 3))
+    except (MemoryError, ValueError):
+        raise not_allowed("records", records, "fewer: memory is short") from None
 
     def some(x, v, w, out):
         return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)
@@ -74,14 +80,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     exponent = (
         ("impact", *dims, "index"),
         np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
-        {"long_name": "Lyapunov exponent an impact", "units": "1"},
+        attributes_of("Lyapunov exponent an impact, of each vector of the frame"),
     )
-    attributes = {"long_name": "number of impacts", "units": "1"}
+    attributes = attributes_of("number of impacts")
     return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})
 
 
 def scene_exponents(ball, energy, starts, impacts, records):
-    """`lyapunov_spectrum` of a scene.
+    """Lyapunov exponents of the orbits of a scene, and how they converge.
 
     Parameters
     ----------

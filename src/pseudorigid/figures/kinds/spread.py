@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...dynamics.variables import final_exponents
 from ...evidence.spread import stretches
 from ..axes.panel import Axis, Panel, corner, log10
 from ..canvas import style
@@ -34,7 +35,7 @@ def draw(scene, spread, lyapunov):
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _lengths(sheet, (_LEFT, 1075, _RIGHT, 1425), spread)
-    _short_runs(sheet, (_LEFT, 605, _RIGHT, 905), spread, lyapunov["exponent"].values[-1, :, 0])
+    _short_runs(sheet, (_LEFT, 605, _RIGHT, 905), spread, final_exponents(lyapunov)[:, 0])
     _regular(sheet, (_LEFT, 105, _RIGHT, 435), spread)
     return sheet.figure
 
@@ -87,8 +88,9 @@ def _regular(sheet, frame, spread):
     across = Axis((1.0, high), tuple(range(1, high + 1)), "Length in impacts", True)
     up = Axis((-5.0, 0.0), (-5, -4, -3, -2, -1, 0), "Largest exponent in the islands", True)
     panel = Panel(sheet, frame, across, up)
+    largest = values.max(axis=-1)
     for island in range(spread.sizes["island"]):
-        one = np.where(values[:, island, 0] > 0.0, values[:, island, 0], np.nan)
+        one = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
         panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
     corner(sheet, frame, "dashes: $\\ln\\,n/n$")

@@ -7,7 +7,7 @@ from .statements import HIGH, G, K
 
 
 def scene_horseshoe(ball, energy, connection):
-    """`horseshoe_data` of the paper's orbit by one of its connections.
+    """The sets of a proved horseshoe on the hyperbolic period-six orbit.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def scene_horseshoe(ball, energy, connection):
 
 
 def scene_twist(ball, energy, energies):
-    """`twist_data` at some energies.
+    """Proved twists of the elliptic fixed point at some energies.
 
     Parameters
     ----------
