@@ -175,6 +175,20 @@ def test_the_section_takes_energies():
         BALL.start(0.5, [0.5, -5.0])
 
 
+@pytest.mark.filterwarnings("error")
+def test_numbers_too_large_to_compute_with_and_the_rim_warn_of_nothing():
+    for size in (1e200, 1e308):
+        assert BALL.energy(size, size, size) == np.inf
+        for call in (BALL.reflect, BALL.impact, BALL.inverse_impact, BALL.jacobian):
+            call(size, size, size)
+        for call in (BALL.state, BALL.state_xy):
+            with pytest.raises(ValueError, match=r"^no state with this x, "):
+                call(size, size, 1.0)
+    with pytest.raises(ValueError, match=r"^energy = 1e\+308 is not allowed: finite"):
+        BALL.section(1e308)
+    assert np.isnan(BALL.chart_jacobian(0.1, -0.1, 0.1)).all()
+
+
 def test_words_are_these_words():
     start = BALL.start(0.5, 0.5)
     for keep in ("some", None, ["all"], np.array(["all", "last"])):

@@ -69,6 +69,9 @@ def save(dataset, path, config, **attributes):
     attributes |= {"config": canonical_json(config)} | ABOUT
     dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
     _check(dataset, path)
+    for name, variable in dataset.variables.items():  # files made before scales can still be read
+        if not _is_text(variable) and not variable.attrs.get("scale"):
+            raise ArtifactError(f"{path}: variable {name} has no scale")
     with replacing(path) as part:
         _write(dataset, part)
 
@@ -224,8 +227,6 @@ def _check(dataset, path):
             raise ArtifactError(f"{path}: variable {name} has no long_name")
         if not text and units != "1":
             raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
-        if not text and not variable.attrs.get("scale"):
-            raise ArtifactError(f"{path}: variable {name} has no scale")
 
 
 def _write(dataset, path):

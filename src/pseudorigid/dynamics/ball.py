@@ -203,6 +203,7 @@ class Ball:
         udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
         return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def reflect(self, x, xdot, udot):
         """The reversor R, (x, y) -> (x, -y): velocities after the impact, eq. (25), reversed.
 
@@ -288,6 +289,7 @@ class Ball:
         self.map.jacobians(*columns, self.k, self.g, impacts, out)
         return out.reshape(*shape, 3, 3)
 
+    @np.errstate(all="ignore")
     def chart_jacobian(self, x, xdot, udot, impacts=1):
         """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy.
 
