@@ -9,7 +9,7 @@ _INSIDE = 1.0 - 2.0**-40  # of the squared radius: closer to the rim, rounding m
 def section_states(ball, energy, orbits):
     """States spread uniformly over the section's area, islands and sea alike.
 
-    They are the points of the sequence R2 in the disk that the section is in (x, y = xdot - k udot),
+    They are the points of the sequence R2 in the section's disk, (x, y = xdot - k udot),
     where the map keeps area: no randomness, and more evenly spread than random points.
 
     Parameters

@@ -35,7 +35,8 @@ def clustered(found):
     error = float(found["period_error"].values.max())
     value = f"few flights of {edge[valley]:.1f}; impacts in a cluster and time between them, "
     value += f"cut at {'; '.join(pairs)}"
-    return decided(deep, value, f"{error:.1g} of the times", "more_figures/claims/clusters.png")
+    remark = f"standard error of the times at most {error:.1g}"
+    return decided(deep, value, remark, "more_figures/claims/clusters.png")
 
 
 @claim(33, "4.1", "Q", "clusters/clusters")
@@ -55,10 +56,10 @@ def uncorrelated(found):
             said[measure] = ", ".join(f"{number:.3f}" for number in value)
             widest = max(widest, float((high - value).max()), float((value - low).max()))
         parts.append(
-            f"where a cluster begins explains {said['dependence']} of the variance of the next "
-            f"one's {name}; its {name} has the correlation {said['correlation']} with that"
+            f"the share {said['dependence']} of the variance of the next cluster's first {name}, "
+            f"which correlates with this one's first {name} by {said['correlation']}"
         )
-    value = f"{'; '.join(parts)}, cut at {cuts}"
+    value = f"cut at {cuts}, where a cluster begins explains {'; and '.join(parts)}"
     error = f"95 % intervals within {widest:.3f}"
     return Verdict(word, value, error, "more_figures/claims/clusters.png")
 
@@ -163,7 +164,7 @@ def long_run(found):
     likely = 0.025 < above < 0.975
     word = HOLDS if abs(mean - PRINTED) < 2 * error else CORRECTED if likely else FALSE
     value = f"they converge to {mean:.5f}; {100 * above:.0f} % of runs of 200,000 impacts exceed "
-    value += f"{PRINTED}, which is one such draw"
+    value += f"{PRINTED}, a value as such runs have it"
     return Verdict(word, value, f"{error:.5f}", "more_figures/claims/spread.png")
 
 
@@ -254,11 +255,11 @@ def discontinuous(found):
         f"{count} times at E = {energy:g}" for count, energy in zip(switches, ENERGIES, strict=True)
     )
     value = f"along y = 0 regular and chaotic starts change places {said}"
-    starts = f"{good.size} starts each, not a limit"
+    starts = f"counted on {good.size} starts each"
     return decided(min(switches) >= 3, value, starts, "more_figures/claims/rotation.png")
 
 
-@claim(46, "1", "Q", "atlas/plane")
+@claim(46, "abstract, 1", "Q", "atlas/plane")
 def mixture(plane):
     """“A numerical study of this map at various energy levels reveals that an energy surface
     typically consists of periodic, quasi-periodic and chaotic trajectories”"""
@@ -269,6 +270,7 @@ def mixture(plane):
     value = f"in {100 * mixed:.0f} % of {low.size:,} pairs of k and E/g^2 regular and chaotic "
     value += f"orbits are seen: the 95 % interval of the regular share lies between {MARGIN:g} and "
     value += f"{1 - MARGIN:g} ({100 * bare:.0f} % exclude just 0 and 1)"
+    value += "; each has a fixed point" if np.isfinite(plane["trace"].values).all() else ""
     error = "0.4 % of the verdicts on orbits are wrong"
     return decided(mixed > 0.5, value, error, "more_figures/atlas/plane.png, docs/atlas.md")
 

@@ -41,7 +41,7 @@ def diffeomorphism(algebra, jumps, proved):
         value += f"{_second_length(jumps)}; {_steepness(jumps)}; a diffeomorphism ({said}) below "
         value += f"E = g^2 (1 + k/2) = {threshold:g}"
         evidence = "more_figures/claims/jumps.png, results/claims/jumps_jumps.nc"
-        return decided(False, value, f"{error:.0e}", evidence)
+        return decided(False, value, f"{error:.0e} of the length", evidence)
     return decided(True, f"no jump at E = {energy:g}", "", "more_figures/claims/jumps.png")
 
 
@@ -51,12 +51,11 @@ def _steepness(jumps):
     touched, missed = (jumps[f"derivative_{side}"].values for side in ("touched", "missed"))
     rows = [int(np.argmin(np.abs(h - at))) for at in SHOWN]
     power = np.log(touched[rows[-1]] / touched[rows[-2]]) / np.log(h[rows[-1]] / h[rows[-2]])
-    values = ", ".join(f"{touched[row]:.2g}" for row in rows)
-    value = (
-        f"where the flight just meets the floor the largest derivative is {values} at distances "
-    )
-    value += f"{', '.join(f'{h[row]:.0e}' for row in rows)} from it, like h^{power:.3f}; "
-    return value + f"where it just misses the floor, {missed[rows[-1]]:.2g}"
+    values = ", ".join(f"{touched[row]:.3g}" for row in rows)
+    value = "beside its middle, where the flight just meets the floor, the largest derivative is "
+    value += f"{values} at distances h = {', '.join(f'{h[row]:g}' for row in rows)}, like "
+    value += f"h^{power:.3f}; where it just misses the floor, {missed[rows[-1]]:.3g}"
+    return value
 
 
 def _second_length(jumps):
@@ -120,7 +119,7 @@ def bisection(lyapunov):
     least = _least_contact_speed(lyapunov, method, impacts)
     value = f"(22) holds, the contact speed is at least {least:.1e}; (21) does not: {missed} of "
     value += f"{impacts:,} impacts of Figure 7 are missed by steps of {method['scan']:g} and "
-    value += "bisection, and the ball is below the floor until the next"
+    value += "bisection, and the ball dips below the floor between two steps"
     remark = "our reading: the paper names neither step nor tolerance"
     holds = missed == 0 and least >= 0.0
     return decided(holds, value, remark, "./reproduce variant as_published")
@@ -138,7 +137,8 @@ def _least_contact_speed(lyapunov, method, impacts):
 
 @claim(20, "Figure 2", "FN", "fig2/orbits")
 def figure_2(orbits):
-    """“corresponding to 8 initial conditions and approximately 45,000 points”"""
+    """“Regular and chaotic trajectories of the map for E = 0.01, k = 0.2, and g = 0.04
+    corresponding to 8 initial conditions and approximately 45,000 points”"""
     return _portrait(orbits, 8, 45_000, "fig2.png")
 
 
@@ -184,7 +184,7 @@ def flow(algebra):
 
 @claim(47, "(36)-(38)", "T", "derivations")
 def one_form(algebra):
-    """“is well-defined at impact”"""
+    """the one-form (38) is well-defined at impact, as (25) shows"""
     return derived(algebra, "one_form", value="the same before the impact and after it")
 
 
@@ -222,9 +222,9 @@ def third_exponent(algebra, found):
     middle = float(np.abs(found["exponent"].values[:, :, 1].mean(axis=0)).max())
     impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
     kept = formula(algebra, "conserved_energy", "jump_conditions")[0]
-    value = "the third direction leads from one energy to another; the map keeps the energy there "
-    value += f"too, so that what is across grows by nothing on average: |l2| up to {middle:.0e} "
-    value += f"after {impacts:,} impacts"
+    value = "the third direction leads from one energy to another; the map keeps each energy, so a "
+    value += "tangent vector's part across neither grows nor shrinks on average: |l2| up to "
+    value += f"{middle:.0e} after {impacts:,} impacts"
     return decided(kept and middle < 100.0 / impacts, value, "falls like 1/n", DERIVED)
 
 

@@ -11,8 +11,8 @@ PROVED, UNDECIDED = "proved", "undecided"
 VERDICTS = {
     FALSE: "A case at the paper's own numbers, computed or proved, contradicts the statement as it "
     "stands.",
-    CORRECTED: "As it stands the statement is wrong in a part, or says more than was shown; what is "
-    "true of it stands under *our value*. Needs the same evidence as *proved* or *holds* for that.",
+    CORRECTED: "As it stands the statement is wrong in a part, or says more than was shown. What "
+    "of it is true stands under *our value*, on the same evidence as *proved* or *holds* need.",
     UNDECIDED: "Nothing here settles it, and the row says why: part of it was not or cannot be "
     "computed, or a theorem's proof was not accepted.",
     PROVED: "It follows from theorems whose hypotheses were checked in ball arithmetic "
@@ -162,7 +162,7 @@ def formula(dataset, *names):
 
 
 def derived(dataset, *names, value, remark="exact", proved=True):
-    """The Verdict on formulas that computer algebra settles: for all values, or (not `proved`) some."""
+    """The Verdict on formulas that computer algebra settles; not `proved` where by some values."""
     holds, mended = formula(dataset, *names)
     if mended and not holds:
         return Verdict(CORRECTED, value, remark, DERIVED)

@@ -49,7 +49,7 @@ def strain_energy(sea, found):
     mean = float(share.mean())
     exponent = float(stretches(found, int(found.attrs["block_impacts"])).mean())
     value = f"of strain and kinetic energy together {mean:.4f} is strain energy, their means in "
-    value += f"time over the sea; a rigid ball repeats its flight, this one has exponent "
+    value += "time over the sea; a rigid ball repeats its flight, this one has exponent "
     value += f"{exponent:.2f}"
     large = mean - 3 * error > APPRECIABLE and exponent > 0.0
     return decided(large, value, f"{error:.0e}", "more_figures/claims/clusters.png")
@@ -59,7 +59,7 @@ def strain_energy(sea, found):
 def inertia(algebra):
     """“The extreme values k = 0 and k = 1 correspond, respectively, to the mass being concentrated
     at the center r = 0 and the exterior boundary r = R”"""
-    value = f"k = 0 and k = {number_of(algebra, 'shell'):.4f}, a third"
+    value = f"k = 0 and k = 1/3: a shell has {number_of(algebra, 'shell'):.4f}"
     remark = "exact: (4) lacks a factor of a third"
     return derived(algebra, "euler_tensor", "shell", value=value, remark=remark)
 
@@ -98,8 +98,8 @@ def infinitesimal(sea):
 def contact_speed(algebra):
     """“continuity of x and u in time necessitates that the pre-impact velocity of the material
     point of contact be positive”"""
-    remark = "a grazing impact has none"
-    return derived(algebra, "contact_speed", value="xdot + udot >= 0", remark=remark)
+    value = "it is not negative: at a grazing impact it is zero"
+    return derived(algebra, "contact_speed", value=value)
 
 
 @claim(7, "(9)", "E", "derivations")
@@ -162,5 +162,5 @@ def redistributed(algebra):
 @claim(72, "(7)", "P")
 def floor():
     """“ensures that the sphere does not penetrate the rigid foundation”"""
-    value = "the lowest point of the stretched ball is x + R u below that of the undeformed one"
-    return Verdict(HOLDS, value, "by hand, for u > -1", "docs/method.md")
+    value = "the stretched ball's lowest point is x + R (1 + u) below O, and the floor is R below O"
+    return Verdict(HOLDS, value, "by hand, for u > -1", "eq. (7)")

@@ -7,7 +7,7 @@ import numpy as np
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.evidence.rotation import plateaus, regular
 
-from .ledger import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED, Verdict, claim, decided
+from .ledger import CORRECTED, HOLDS, PROVED, UNDECIDED, Verdict, claim, decided
 
 HORSESHOES = ("horseshoe-inner", "horseshoe-outer")
 SIXES = ("six-elliptic", "six-hyperbolic", "six-inverse")
@@ -50,7 +50,7 @@ def in_between(orbits, proved):
     value = f"the points of both orbits {'' if alternate else 'do not '}alternate around their "
     value += "middle"
     value += "; closed curves around the elliptic ones are proved" if proved("twist-six") else ""
-    return decided(alternate, value, "seen along the orbits", "paper_figures/fig2.png, fig5.png")
+    return decided(alternate, value, "by their places", "paper_figures/fig2.png, fig5.png")
 
 
 def _named(found):
@@ -261,7 +261,7 @@ def smale_birkhoff(jumps, proved):
     if not proved(*HORSESHOES):
         value, word = "neither are its hypotheses checked nor is a horseshoe proved", UNDECIDED
     elif length > 0.0:
-        value = f"the set exists, proved (row 30); but not by that theorem as it stands: it is "
+        value = "the set exists, proved (row 30); but not by that theorem as it stands: it is "
         value += f"about diffeomorphisms, and at E = {energy:g} the map jumps (row 14)"
         word = CORRECTED
     else:
@@ -293,7 +293,6 @@ def source_of_chaos(found, proved):
     holds = crossed and inside == 0.0 < share
     said = "proved to make chaos" if proved(*HORSESHOES) else "seen"
     value = f"crossings {said}; the sea passes the outer branches at {share:.5f} of its impacts; "
-    value += f"through the inner ones {impacts:,} impacts let expect "
-    value += f"{impacts * share * inner / outer:.1g} passages, by their lobes' areas, and none is "
-    value += "seen"
+    value += f"through the inner ones {impacts * share * inner / outer:.1g} passages are expected "
+    value += f"in {impacts:,} impacts, by the areas of the lobes, and none is seen"
     return decided(holds, value, "of a finite run", "more_figures/claims/flux.png")
