@@ -6,8 +6,8 @@ _PLASTIC = 1.324717957244746  # the real root of p^3 = p + 1, to the nearest dou
 _INSIDE = 1.0 - 2.0**-40  # of the squared radius: closer to the rim, rounding may leave the disk
 
 
-def section_states(ball, energy, orbits):
-    """States spread uniformly over the section's area, islands and sea alike.
+def section_points(ball, energy, orbits):
+    """Points spread uniformly over the section's area, islands and sea alike.
 
     They are the points of the sequence R2 in the section's disk, (x, y = xdot - k udot),
     where the map keeps area: no randomness, and more evenly spread than random points.
@@ -18,12 +18,12 @@ def section_states(ball, energy, orbits):
     energy : float
         In m omega^2 R^2.
     orbits : int
-        How many states.
+        How many points.
 
     Returns
     -------
-    x, xdot, udot : ndarray, shape (orbits,)
-        The states just before an impact.
+    x, y : ndarray, shape (orbits,)
+        The points; `ball.state_xy` makes states of them.
 
     References
     ----------
@@ -37,7 +37,7 @@ def section_states(ball, energy, orbits):
     (inside,) = np.nonzero(across * across + up * up < _INSIDE)
     across, up = across[inside[:orbits]], up[inside[:orbits]]
     high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
-    return ball.state_xy(centre + radius * across, high * up, energy)
+    return centre + radius * across, high * up
 
 
 def sea_states(ball, energy, between, orbits):

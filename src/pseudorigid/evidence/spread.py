@@ -11,7 +11,7 @@ import xarray as xr
 from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.variables import chart, described
 from ..kernel.arithmetic import log
-from .sea import section_states
+from .sea import section_points
 
 # Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
 _CHUNK = 4000
@@ -68,7 +68,8 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     """
     if length % blocks:
         raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
-    states = section_states(ball, energy, orbits)
+    x, y = section_points(ball, energy, orbits)
+    states = ball.state_xy(x, y, energy)
     so_far = lyapunov_spectrum(ball, states, length, blocks)["exponent"].values
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
@@ -76,7 +77,6 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     chaotic = _chaotic(so_far[-1, :, 0], length)
     if not chaotic.any():
         raise ValueError(f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic")
-    x, y = chart(ball.k, *states)
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
         "start_x": ("orbit", x, "x of the start"),
