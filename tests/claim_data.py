@@ -87,7 +87,7 @@ def datasets():
             impacts=scan.impacts, impacts_missed=scan.missed
         ),
         "atlas/line": atlas([0.2], line, 300, 3000),
-        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 60, 1500),
+        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 240, 1500),
         "clusters/clusters": made(
             clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,

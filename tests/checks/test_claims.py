@@ -223,7 +223,7 @@ WRONG = {
     56: changed("rotation/rotation", rotation=lambda v: v + 1e-3 * np.sin(np.arange(v.shape[1]))),
     59: broken("modes"),
     60: changed("fig5/manifolds", **dict.fromkeys(("x", "xdot", "udot"), small_straight)),
-    61: changed("spread/spread", exponent=np.abs),
+    61: changed("spread/spread", exponent=lambda v: v + 0.1),
     62: changed("spread/spread", entered_least=lambda v: v // 2),
     63: changed("jumps/jumps", length=np.zeros_like),
     64: broken("flow"),
@@ -246,7 +246,8 @@ def test_a_wrong_dataset_changes_the_verdict(datasets, number):
     proofs = dict.fromkeys(claims.theorems(), PROVED)
     right = claim.judge(datasets, proofs)
     wrong = claim.judge(datasets | WRONG[number](datasets), proofs)
-    assert wrong.verdict != right.verdict, (right, wrong)
+    undecided = right.verdict == wrong.verdict == UNDECIDED  # for another reason
+    assert wrong.value != right.value if undecided else wrong.verdict != right.verdict
 
 
 @pytest.mark.parametrize("number", [n for n, claim in claims.CLAIMS.items() if claim.theorems])

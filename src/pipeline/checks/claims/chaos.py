@@ -164,7 +164,7 @@ def long_run(found):
     likely = 0.025 < above < 0.975
     word = HOLDS if abs(mean - PRINTED) < 2 * error else CORRECTED if likely else FALSE
     value = f"they converge to {mean:.5f}; {100 * above:.0f} % of runs of 200,000 impacts exceed "
-    value += f"{PRINTED}, a value as such runs have it"
+    value += f"{PRINTED}: a run of that length is a single draw"
     return Verdict(word, value, f"{error:.5f}", "more_figures/claims/spread.png")
 
 

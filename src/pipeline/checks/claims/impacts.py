@@ -41,7 +41,7 @@ def diffeomorphism(algebra, jumps, proved):
         value += f"{_second_length(jumps)}; {_steepness(jumps)}; a diffeomorphism ({said}) below "
         value += f"E = g^2 (1 + k/2) = {threshold:g}"
         evidence = "more_figures/claims/jumps.png, results/claims/jumps_jumps.nc"
-        return decided(False, value, f"{error:.0e} of the length", evidence)
+        return decided(False, value, f"{error:.0e} in the length", evidence)
     return decided(True, f"no jump at E = {energy:g}", "", "more_figures/claims/jumps.png")
 
 
