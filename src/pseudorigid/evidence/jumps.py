@@ -49,7 +49,7 @@ def jumps(ball, energy, energies, sides):
         to end. On distance, from the middle of the curve at the first energy along its normal:
         derivative_touched, derivative_missed, the largest singular value of the map's Jacobian in
         (x, y), on the side where the flight meets the floor that it all but misses on the other;
-        NaN where there is no curve. Attribute first_energy: from where on there are such curves,
+        NaN where there is no curve, and outside the section. Attribute first_energy: from where on there are such curves,
         g^2 (1 + k/2).
 
     Raises
@@ -135,10 +135,16 @@ def _derivatives(ball, energy, curve):
     across = dy / length, dx / length
     found = []
     for sign in (1.0, -1.0):
-        points = [(x + sign * h * across[0], y + sign * h * across[1]) for h in _DISTANCES]
-        states = [ball.state_xy(*point, energy) for point in points]
-        norms = [_largest_singular_value(ball.chart_jacobian(*state)) for state in states]
-        found.append((ball.time_to_impact(*states[-1]), norms))
+        norms, tau = [], math.inf
+        for h in _DISTANCES:
+            try:
+                state = ball.state_xy(x + sign * h * across[0], y + sign * h * across[1], energy)
+            except ValueError:  # outside the section
+                norms.append(math.nan)
+                continue
+            norms.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            tau = ball.time_to_impact(*state)
+        found.append((tau, norms))
     return np.array([norms for _, norms in sorted(found)])
 
 
