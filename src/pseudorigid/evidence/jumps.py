@@ -49,8 +49,8 @@ def jumps(ball, energy, energies, sides):
         to end. On distance, from the middle of the curve at the first energy along its normal:
         derivative_touched, derivative_missed, the largest singular value of the map's Jacobian in
         (x, y), on the side where the flight meets the floor that it all but misses on the other;
-        NaN where there is no curve, and outside the section. Attribute first_energy: from where on there are such curves,
-        g^2 (1 + k/2).
+        NaN where there is no curve, and outside the section. Attribute first_energy: from where on
+        there are such curves, g^2 (1 + k/2).
 
     Raises
     ------
