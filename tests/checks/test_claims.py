@@ -381,6 +381,9 @@ def test_rises_are_counted_by_the_share_and_its_intervals():
     assert chaos._rises(share, share - 0.4, share + 0.4) == [(2, 4)]
     assert chaos._rises(share, share - 3.0, share + 3.0) == []
     assert chaos._rises(share, share - 0.1, share + 0.1) == [(2, 4), (7, 8)]
+    # wider intervals elsewhere move neither a minimum nor a maximum
+    share, more = np.array([9.0, 4.0, 4.2, 8.1, 8.0, 1.0]), np.array([0.1, 0.9, 0.1, 0.9, 0.1, 0.1])
+    assert chaos._rises(share, share - more, share + more) == [(1, 3)]
 
 
 def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():
