@@ -34,7 +34,7 @@ def modes(algebra):
     impact. Of these, the two deviatoric modes have identical eigenvalues due to material and
     geometric symmetries”"""
     value = f"{number_of(algebra, 'modes'):g} modes: the volumetric one and one deviatoric one, "
-    value += "whatever Poisson's ratio; three is the number of strains without shear. The "
+    value += "at each Poisson's ratio above 0; three is the number of strains without shear. The "
     value += "eigenvalues are as stated"
     return derived(algebra, "modes", value=value)
 
