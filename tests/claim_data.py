@@ -69,6 +69,11 @@ def datasets():
         "fig3/motion": made(motion.scene_motion, one, period=1, type="elliptic", duration=16),
         "fig4/periodic": six,
         "fig4/motion": made(motion.scene_motion, six, period=6, type="elliptic", duration=60),
+        "fig5/manifolds": made(
+            manifolds.scene_manifolds, six, period=6, type="hyperbolic",
+            resolution={"distance": 0.02, "bend": 20},
+            branches={"outer": {"length": 2.8}, "inner": {"length": 1}},
+        ),
         "fig6/manifolds": made(
             manifolds.scene_manifolds, six, period=6, type="hyperbolic",
             resolution={"distance": 0.1, "bend": 20}, point=0, length=0.1,
@@ -83,18 +88,18 @@ def datasets():
             impacts=scan.impacts, impacts_missed=scan.missed
         ),
         "atlas/line": atlas([0.2], line, 300, 3000),
-        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 60, 1500),
+        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 240, 1500),
         "clusters/clusters": made(
             clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,
         ),
         "jumps/jumps": made(jumps, energies=[0.0018], sides=200),
         "rotation/rotation": made(
-            rotation, energies=[0.026], starts=200, impacts=6000, detail=(-0.8344, -0.8341),
+            rotation, energies=[0.001, 0.026], starts=200, impacts=6000, detail=(-0.8344, -0.8341),
             detail_impacts=50_000,
         ),
         "spread/spread": made(
-            spread, between=SEA, orbits=32, length=200_000, blocks=20,
+            spread, orbits=32, length=200_000, blocks=20,
             regular=[-0.44, 0.142183], regular_impacts=1 << 14, cells=20, visits=1 << 14,
         ),
         "flux/flux": made(

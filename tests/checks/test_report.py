@@ -15,6 +15,7 @@ from project import ROOT, Tree, fresh_tree, shipped, small
 from pipeline import config
 from pipeline.checks import contracts
 from pipeline.checks.claims import render as claims
+from pipeline.checks.claims.ledger import CORRECTED, FALSE
 from pipeline.checks.report import numbers, page
 from pipeline.config import places
 from pipeline.config.declared.kinds import KINDS
@@ -130,19 +131,19 @@ def test_each_figure_has_its_caption_and_numbers(text):
 
 def test_corrections_first_and_the_whole_table(text):
     rows = claims.read((ROOT / "CLAIMS.md").read_text(encoding="utf-8"))
-    wrong = [row for row in rows if row["verdict"] in (claims.FALSE, claims.CORRECTED)]
-    assert len(rows) == 58 and 0 < len(wrong) < 58
+    wrong = [row for row in rows if row["verdict"] in (FALSE, CORRECTED)]
+    assert len(rows) == len(claims.CLAIMS) and 0 < len(wrong) < len(claims.CLAIMS)
     above, _, whole = text.partition('id="claims"')
     assert {f'href="#claim-{row["number"]}"' for row in wrong} == set(
         re.findall(r'href="#claim-\d+"', above)
     )
-    assert len(re.findall(r'<tr role="row" id="claim-\d+">', whole)) == 58
+    assert len(re.findall(r'<tr role="row" id="claim-\d+">', whole)) == len(claims.CLAIMS)
 
 
 def test_claims_are_read_as_they_are_written():
     text = (ROOT / "CLAIMS.md").read_text(encoding="utf-8")
     rows = {row["number"]: row for row in claims.read(text)}
-    assert len(rows) == 58 and "|l1 + l3|, |l2|" in rows["41"]["value"]
+    assert len(rows) == len(claims.CLAIMS) and "|l1 + l3|, |l2|" in rows["41"]["value"]
     assert all(str(number) in rows for number in claims.CLAIMS)
     for broken in ("", "# Other\n\n| a | b |\n", text.replace("| 14 | 3 |", "| 14 |")):
         with pytest.raises(ValueError, match="not a table of claims"):

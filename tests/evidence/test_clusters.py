@@ -58,19 +58,22 @@ def test_flight_times_are_all_counted(clustering):
 
 def test_strain_energy_by_quadrature(clustering):
     head = BALL.start(SEA[0] + (SEA[1] - SEA[0]) * 0.5 / 24, ENERGY)
-    state, energy, time, low, high = head, 0.0, 0.0, 0.0, 0.0
+    state, energy, kinetic, time, low, high = head, 0.0, 0.0, 0.0, 0.0, 0.0
     for _ in range(1500):
         x, v, w = state
         jump = 2.0 * (v + w) / 1.2
-        c = w - jump
+        b, c = v - 0.2 * jump, w - jump
         *state, tau = BALL.impact(*state)
         t = np.linspace(0.0, tau, 4001)
         u = c * np.sin(t) - x * np.cos(t)
         energy += 0.1 * scipy.integrate.simpson(u * u, x=t)
+        rates = (b + 0.04 * t) ** 2 / 2 + 0.1 * (c * np.cos(t) + x * np.sin(t)) ** 2
+        kinetic += scipy.integrate.simpson(rates, x=t)
         time += tau
         low, high = min(low, u.min()), max(high, u.max())
     assert float(clustering["time"].values[0]) == pytest.approx(time, rel=1e-12)
     assert float(clustering["strain_energy"].values[0]) == pytest.approx(energy / time, rel=1e-9)
+    assert float(clustering["kinetic_energy"].values[0]) == pytest.approx(kinetic / time, rel=1e-9)
     assert float(clustering["least_strain"].values[0]) == pytest.approx(low, abs=1e-6)
     assert float(clustering["largest_strain"].values[0]) == pytest.approx(high, abs=1e-6)
     assert np.all(clustering["energy_error"].values < 1e-14)

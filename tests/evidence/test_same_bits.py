@@ -20,7 +20,7 @@ from pseudorigid import Ball
 from pseudorigid.evidence import clusters, flux, jumps, last_curve, rotation, spread
 ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
 for found in (
-    spread.spread(ball, 0.01, sea, 13, 2000, 4, [-0.44], 256, 8, 256),
+    spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),
     clusters.clusters(ball, 0.01, sea, 13, 400, [4.0, 6.0], 2, 20, 1),
     rotation.rotation(ball, 0.01, [0.026], 15, 600, (-0.8344, -0.8341), 600),
     jumps.jumps(ball, 0.01, [0.0018], 60),

@@ -45,7 +45,7 @@ def data():
     found = {
         "spread": (
             spread_kind,
-            spread.spread(BALL, ENERGY, SEA, 13, 400_000, 8, [-0.44, 0.142], 4096, 8, 64),
+            spread.spread(BALL, ENERGY, 13, 400_000, 8, [-0.44, 0.142], 4096, 8, 64),
             seven,
         ),
         "clusters": (

@@ -19,6 +19,7 @@ BALL = Ball(0.2, 0.04)
 # What the paper prints that does not hold; each has a correction that does.
 MISPRINTED = {
     "euler_tensor",  # (4): a third is missing
+    "modes",  # section 2.1: two are excited, not three
     "shell",  # (5): a shell has k = 1/3
     "impulsive_forces",  # (9): a delta
     "scaled_impulse",  # (24): m omega R
@@ -38,7 +39,7 @@ def found():
 
 def test_every_misprint_is_found_and_nothing_else(found):
     names = found["formula"].values.tolist()
-    assert len(names) == len(set(names)) == 24
+    assert len(names) == len(set(names)) == 26
     for name, printed, corrected in zip(
         names, found["printed"].values, found["corrected"].values, strict=True
     ):
@@ -53,9 +54,23 @@ def test_numbers_that_come_with_formulas(found):
     }
     assert value["euler_tensor"] == 0.2  # a solid sphere
     assert value["shell"] == pytest.approx(1 / 3, rel=1e-15)
+    assert value["modes"] == 2.0
     assert value["softness"] == 5.0  # Young's modulus is 5 rho g R
     assert value["bound"] == pytest.approx(BALL.energy_bounds()[1], abs=1e-16)
     assert value["smooth"] == pytest.approx(0.00176, rel=1e-14)
+
+
+@pytest.mark.parametrize(("poisson", "excited"), [(0.3, 2), (0.1, 2), (0.0, 1)])
+def test_modes_that_an_axial_force_excites_by_eigenvectors(poisson, excited):
+    """In numbers: how many eigenspaces of the stiffness the force has a part in."""
+    lame, shear = poisson / ((1 + poisson) * (1 - 2 * poisson)), 0.5 / (1 + poisson)
+    stiffness = 2 * shear * np.eye(6)
+    stiffness[:3, :3] += lame
+    values, vectors = np.linalg.eigh(stiffness)
+    parts = {}
+    for value, vector in zip(np.round(values, 9).tolist(), vectors.T, strict=True):
+        parts[value] = parts.get(value, 0.0) + vector[2] ** 2
+    assert sum(part > 1e-12 for part in parts.values()) == excited
 
 
 # -- a derivation can fail ------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from .folder import MisuseError
 from .telling import states
 
 
-def make(checked, variant, options, named=None, others=(), brief=False) -> int:
+def make(checked, variant, options, named=None, others=(), brief=False, before=None) -> int:
     """Make the figures of a variant, or some of its files, and say what became of them.
 
     A figure whose periodic orbit does not exist is left out, and the rest is made.
@@ -36,6 +36,8 @@ def make(checked, variant, options, named=None, others=(), brief=False) -> int:
         Further results to make.
     brief : bool
         Whether files that were current already are left out of the table.
+    before : dict, optional
+        Drawing -> its `identity` when the command began, where it may have been made since.
 
     Returns
     -------
@@ -51,7 +53,7 @@ def make(checked, variant, options, named=None, others=(), brief=False) -> int:
         results = expected.of_all(checked)
     # File, as published -> its drawing.
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
-    before = {drawing: identity(drawing) for drawing in made.values()}
+    before = before or {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
     says = running.only_says(options)
     absent = known_absent(variant) if says else _find_absent(variants, variant, currency)

@@ -6,7 +6,7 @@ from pseudorigid.dynamics.ball import Ball
 
 from ..checks import claims
 from ..checks.claims import soundness
-from ..checks.claims.ledger import NOT_COMPUTED
+from ..checks.claims.ledger import UNDECIDED
 from ..checks.claims.render import render
 from ..checks.currency import Currency
 from ..config import places
@@ -99,12 +99,12 @@ def check(checked, number, given) -> str:
         raise MisuseError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
     wrong = soundness.fault(name.rpartition("/")[2], other)
     if wrong:
-        return f"{number}  {NOT_COMPUTED}: {file} is no {name} of its ball and energy: {wrong}"
+        return f"{number}  {UNDECIDED}: {file} is no {name} of its ball and energy: {wrong}"
     others = [known for known in claim.data if known != name]
     data = {known: load(checked, known, paths(checked)[known]) for known in others}
     data[name] = _with_gravity(checked, name, other)
     try:
         verdict = claim.judge(data, proofs(claim.theorems))
     except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
-        return f"{number}  {NOT_COMPUTED}: {file} cannot be read as {name}: {error.args[0]}"
+        return f"{number}  {UNDECIDED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"

@@ -68,9 +68,9 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
         period, from one cluster's first impact to the next one's, their means over all orbits,
         with period_error between orbits. On (cut, lag, first, then): correlation; on (cut, lag,
         then): dependence, with _low and _high, the ends of 95 % intervals. On orbit: time, its
-        length, and strain_energy, the mean in time of k u^2/2; largest_strain and least_strain,
-        max and min of u; energy_error, of all impacts the largest. Attribute energy_at_rest,
-        -g^2/(2k).
+        length; strain_energy and kinetic_energy, the means in time of k u^2/2 and of
+        (xdot^2 + k udot^2)/2; largest_strain and least_strain, max and min of u; energy_error, of
+        all impacts the largest.
 
     Raises
     ------
@@ -95,13 +95,19 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     ball.map.history(*states, ball.k, ball.g, out[:, 1:])
     tau = out[:, 1:, 3]
     edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
-    time, energies, least, most = _strains(out, ball.k)
+    time, depth, energies, least, most = _strains(out, ball.k, ball.g)
     error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
     data = {
         "bin_edge": ("edge", edges, "flight time", TIME),
         "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
         "time": ("orbit", time, "length of the orbit in time", TIME),
         "strain_energy": ("orbit", energies, "mean in time of the strain energy", ENERGY),
+        "kinetic_energy": (
+            "orbit",
+            (energy + ball.g * depth) - energies,
+            "mean in time of the kinetic energy, of the centre's motion and of the strain's",
+            ENERGY,
+        ),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
         "largest_strain": ("orbit", most, "largest stretch"),
         "energy_error": ("orbit", error, _DRIFT, ENERGY),
@@ -110,25 +116,25 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     }
     chosen = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
     found = [_cut(out, ball.k, cut, lags, chosen) for cut in cuts]
-    rest = ball.energy_bounds()[0]
-    return xr.Dataset(described(data) | of_rows(_OF_CUTS, found), attrs={"energy_at_rest": rest})
+    return xr.Dataset(described(data) | of_rows(_OF_CUTS, found))
 
 
 @jit
-def _strains(out, k):
-    """(time, mean strain energy, least and largest strain) of each orbit, (4, orbits)."""
+def _strains(out, k, g):
+    """(time, mean x, mean strain energy, least and largest strain) of each orbit, (5, orbits)."""
     head, low = kernel.transfer(k)
-    found = np.empty((4, out.shape[0]))
+    found = np.empty((5, out.shape[0]))
     for i in range(out.shape[0]):
-        time, square, least, most = 0.0, 0.0, 0.0, 0.0
+        time, depth, square, least, most = 0.0, 0.0, 0.0, 0.0, 0.0
         for j in range(out.shape[1] - 1):
             x, tau = out[i, j, 0], out[i, j + 1, 3]
-            _, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, head, low)
+            b, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, head, low)
             sine, cosine = sincos(tau)
             both = sine * cosine
             # u = c sin t - x cos t
             square += 0.5 * (x * x * (tau + both) + c * c * (tau - both)) - x * c * sine * sine
             time += tau
+            depth += tau * (x + tau * (0.5 * b + tau * g / 6.0))
             # u' changes sign once at most in a part shorter than pi, at an end of u's range
             size = math.sqrt(x * x + c * c)
             parts = int(tau / 3.0) + 1
@@ -142,8 +148,8 @@ def _strains(out, k):
                 elif before < 0.0 < after:
                     least = min(least, -size)
                 before = after
-        found[0, i], found[1, i] = time, 0.5 * k * square / time
-        found[2, i], found[3, i] = least, most
+        found[0, i], found[1, i], found[2, i] = time, depth / time, 0.5 * k * square / time
+        found[3, i], found[4, i] = least, most
     return found
 
 

@@ -18,6 +18,8 @@ from ..kernel.law import rebound, transfer
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
+_DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve, of the derivatives
+_LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
 _HALVED = "by how much it differs from what half as many sides give"
 
 
@@ -45,7 +47,11 @@ def jumps(ball, energy, energies, sides):
         side of it the next impact is near (rim_x, -rim_y), on the other near the image of that,
         the point with the same index counted from the end. flight_x, flight_y (half_time, branch):
         the symmetry line Fix RP of flights symmetric in time, NaN where a flight is not the first
-        to end. Attribute first_energy: from where on there are such curves, g^2 (1 + k/2).
+        to end. On distance, from the middle of the curve at the first energy along its normal:
+        derivative_touched, derivative_missed, the largest singular value of the map's Jacobian in
+        (x, y), on the side where the flight meets the floor that it all but misses on the other;
+        NaN where there is no curve, and outside the section. Attribute first_energy: from where on
+        there are such curves, g^2 (1 + k/2).
 
     Raises
     ------
@@ -71,6 +77,7 @@ def jumps(ball, energy, energies, sides):
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
     radii = [ball.section(level)[1] for level in levels]
     flight_x, flight_y = _symmetric_flights(ball, energy, sides)
+    touched, missed = _derivatives(ball, energy, curves[2:, 0])
     curve, line = ("energy", "point"), ("half_time", "branch")
     data = {
         "rim_x": (curve, curves[0], "x of grazing states that leave the floor", LENGTH),
@@ -83,6 +90,9 @@ def jumps(ball, energy, energies, sides):
         "length_error": ("energy", error, _HALVED, _PLANE),
         "flight_x": (line, flight_x, "x on the symmetry line Fix RP", LENGTH),
         "flight_y": (line, flight_y, "y on that line", SPEED),
+        "distance": ("distance", _DISTANCES, "distance from the curve in (x, y)", _PLANE),
+        "derivative_touched": ("distance", touched, f"{_LARGEST} meets the floor"),
+        "derivative_missed": ("distance", missed, f"{_LARGEST} just misses the floor"),
     }
     first = ball.g * ball.g * (1.0 + 0.5 * ball.k)
     return xr.Dataset(described(data), attrs={"first_energy": first})
@@ -109,6 +119,40 @@ def _arc(ball, energy, points):
     y = high * (2.0 * t / (1.0 + t * t))
     states = x, y / (1.0 + k), -y / (1.0 + k)
     return np.stack([x, y, *chart(k, *ball.impact(*states)[:3])])
+
+
+def _derivatives(ball, energy, curve):
+    """Largest derivatives beside the middle of the curve (2, n) where the inverse jumps: (2, m).
+
+    In rows: where the flight meets the floor, and where it just misses it.
+    """
+    middle = curve.shape[1] // 2
+    if math.isnan(curve[0, middle]):
+        return np.full((2, len(_DISTANCES)), math.nan)
+    # the map itself jumps on the mirror image
+    place, (dx, dy) = curve[:, middle], curve[:, middle + 1] - curve[:, middle - 1]
+    x, y = float(place[0]), -float(place[1])
+    length = math.sqrt(dx * dx + dy * dy)
+    across = dy / length, dx / length
+    found = []
+    for sign in (1.0, -1.0):
+        norms, tau = [], math.inf
+        for h in _DISTANCES:
+            try:
+                state = ball.state_xy(x + sign * h * across[0], y + sign * h * across[1], energy)
+            except ValueError:  # outside the section
+                norms.append(math.nan)
+                continue
+            norms.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            tau = ball.time_to_impact(*state)
+        found.append((tau, norms))
+    return np.array([norms for _, norms in sorted(found)])
+
+
+def _largest_singular_value(matrix):
+    (a, b), (c, d) = matrix
+    square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
+    return math.sqrt(square + math.sqrt(max(square * square - det * det, 0.0)))
 
 
 def _symmetric_flights(ball, energy, points):

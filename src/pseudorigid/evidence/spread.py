@@ -1,33 +1,33 @@
 """How the Lyapunov exponents of many orbits spread, and how the spread shrinks with their length.
 
-The exponents of long orbits of the sea are kept as means over blocks; means over longer stretches
-follow from them. So one run gives the long-run value, its error, and the distribution of the short
-runs that it is made of.
+Orbits start uniformly over the whole section; the exponents decide which of them are chaotic. They
+are kept as means over blocks; means over longer stretches follow from them. So one run gives the
+long-run value, its error, and the distribution of the short runs that it is made of.
 """
 
 import numpy as np
 import xarray as xr
 
 from ..dynamics.lyapunov import lyapunov_spectrum
-from ..dynamics.variables import RADIUS, chart, described
-from .sea import sea_states
+from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
+from ..kernel.arithmetic import log
+from .sea import section_points
 
 # Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
 _CHUNK = 4000
 
 
-def spread(ball, energy, between, orbits, length, blocks, regular, regular_impacts, cells, visits):
-    """Exponents of many orbits, block by block, and what part of the sea each of them enters.
+def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
+    """Exponents of many orbits, block by block, and what part of the sea each chaotic one enters.
 
     Parameters
     ----------
     ball : Ball
     energy : float
         In m omega^2 R^2.
-    between : (float, float)
-        The orbits start evenly over this part of y = 0, in section radii from the centre.
     orbits, length : int
-        How many orbits, and how many impacts each has.
+        How many orbits, and how many impacts each has. They start uniformly over the section, in
+        islands as well as in the sea.
     blocks : int
         Into how many equal blocks an orbit is divided.
     regular : sequence of float
@@ -37,8 +37,8 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     cells : int
         The section's bounding rectangle has cells x cells cells.
     visits : int
-        Impacts of each orbit of which the cells they are in are kept; counts at this number and
-        its halves.
+        Impacts of each chaotic orbit of which the cells they are in are kept; counts at this
+        number and its halves.
 
     Returns
     -------
@@ -46,13 +46,14 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
         exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
         impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over
         the first `length` impacts. entered_any, entered_all (visit): cells entered by at least one
-        of the orbits, by each of them; entered_least: by the orbit that enters fewest. start
-        (orbit), regular_start (island), and the attribute block_impacts, the impacts of a block.
+        of the chaotic orbits, by each of them; entered_least: by the one that enters fewest.
+        start_x, start_y (orbit), where y = xdot - k udot; regular_start (island); and the attribute
+        block_impacts, the impacts of a block.
 
     Raises
     ------
     ValueError
-        A length that is no multiple of blocks, or a start beyond the section.
+        A length that is no multiple of blocks, no chaotic orbit, or a start beyond the section.
 
     References
     ----------
@@ -61,24 +62,59 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> found = spread(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 2, 8, 4, [0.1], 4, 4, 4)
-    >>> found["exponent"].dims
-    ('block', 'orbit', 'index')
+    >>> found = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
+    >>> in_sea(found)
+    array([ True,  True,  True,  True, False])
     """
     if length % blocks:
         raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
-    start, *states = sea_states(ball, energy, between, orbits)
+    x, y = section_points(ball, energy, orbits)
+    states = ball.state_xy(x, y, energy)
     so_far = lyapunov_spectrum(ball, states, length, blocks)["exponent"].values
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
+    chaotic = _chaotic(so_far[-1].max(axis=-1), length)
+    if not chaotic.any():
+        raise ValueError(f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic")
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
-        "start": ("orbit", start, "start along y = 0, in section radii", RADIUS),
+        "start_x": ("orbit", x, "x of the start", LENGTH),
+        "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
     }
     data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
-    data |= _entered(ball, energy, states, cells, visits)
+    data |= _entered(ball, energy, [a[chaotic] for a in states], cells, visits)
     return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
+
+
+def regular_bound(length):
+    """A bound that the exponents of regular orbits of so many impacts keep, 3 ln n/n.
+
+    Their tangent vectors grow in proportion to the number of impacts.
+    """
+    return 3.0 * log(float(length)) / length
+
+
+def _chaotic(exponent, length):
+    """Which orbits of so many impacts are chaotic, by their largest exponents."""
+    return exponent > regular_bound(length)
+
+
+def in_sea(dataset):
+    """Which of the orbits that start over the section are chaotic.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As from `spread`.
+
+    Returns
+    -------
+    ndarray of bool, shape (orbits,)
+        Those whose largest exponent exceeds `regular_bound`.
+    """
+    length = int(dataset.attrs["block_impacts"]) * dataset.sizes["block"]
+    return _chaotic(dataset["exponent"].values.mean(axis=0).max(axis=-1), length)
 
 
 def _halves(number):
@@ -117,10 +153,10 @@ def _entered(ball, energy, states, cells, visits):
         counts.append((int(seen.any(axis=0).sum()), int(seen.all(axis=0).sum()), int(each.min())))
     any_of, all_of, least = np.array(counts, dtype=np.int64).T
     return {
-        "visit": ("visit", lengths, "number of impacts of each orbit"),
-        "entered_any": ("visit", any_of, "cells entered by at least one orbit"),
-        "entered_all": ("visit", all_of, "cells entered by each orbit"),
-        "entered_least": ("visit", least, "cells entered by the orbit that enters fewest"),
+        "visit": ("visit", lengths, "number of impacts of each chaotic orbit"),
+        "entered_any": ("visit", any_of, "cells entered by at least one chaotic orbit"),
+        "entered_all": ("visit", all_of, "cells entered by each chaotic orbit"),
+        "entered_least": ("visit", least, "cells entered by the chaotic orbit that enters fewest"),
     }
 
 
@@ -130,7 +166,7 @@ def _cell(place, cells):
 
 
 def stretches(dataset, length):
-    """The largest exponent of each stretch of `length` impacts of the sea's orbits.
+    """The largest exponent of each stretch of `length` impacts of the chaotic orbits.
 
     Parameters
     ----------
@@ -144,7 +180,7 @@ def stretches(dataset, length):
     ndarray, shape (stretches,)
         Nats an impact.
     """
-    block = dataset["exponent"].values
+    block = dataset["exponent"].values[:, in_sea(dataset)]
     count = length // int(dataset.attrs["block_impacts"])
     whole = block[: block.shape[0] // count * count]
     return whole.reshape(-1, count, *block.shape[1:]).mean(axis=1).max(axis=-1).ravel()

@@ -6,8 +6,22 @@ from dataclasses import dataclass
 import numpy as np
 
 HOLDS, CORRECTED, FALSE = "holds", "holds with a correction", "does not hold"
-PROVED, OPEN, NOT_COMPUTED = "proved", "open", "not computed"
-VERDICTS = (HOLDS, CORRECTED, FALSE, PROVED, OPEN)
+PROVED, UNDECIDED = "proved", "undecided"
+# The verdicts, and what each of them needs.
+VERDICTS = {
+    FALSE: "A case at the paper's own numbers, computed or proved, contradicts the statement as it "
+    "stands.",
+    CORRECTED: "As it stands the statement is wrong in a part, or says more than was shown. What "
+    "of it is true stands under *our value*, on the same evidence as *proved* or *holds* need.",
+    UNDECIDED: "Nothing here settles it, and the row says why: part of it was not or cannot be "
+    "computed, or a theorem's proof was not accepted.",
+    PROVED: "It follows from theorems whose hypotheses were checked in ball arithmetic "
+    "(`./reproduce prove`), or from identities that computer algebra verifies for all values of "
+    "their symbols (`tests/proofs/test_derivations.py`). Of a question that the paper leaves open: "
+    "what it misses is proved here. Numbers beside it are computed unless the row says otherwise.",
+    HOLDS: "Our numbers agree with it within the error given; no proof. Where the statement is a "
+    "judgement (*appreciable*, *similar*), so is the verdict, and the numbers behind it are given.",
+}
 DERIVED = "tests/proofs/test_derivations.py"  # the evidence for what computer algebra settles
 CLAIMS = {}  # number -> Claim
 KINDS = {
@@ -28,9 +42,9 @@ class Verdict:
     Parameters
     ----------
     verdict : str
-        One of VERDICTS, or "not computed: " and why.
+        One of VERDICTS.
     value : str
-        Our number, rounded so that it does not depend on the machine.
+        Our number, rounded so that it does not depend on the machine; of what is undecided, why.
     error : str
         Its error, or how far it can be trusted.
     evidence : str
@@ -43,9 +57,10 @@ class Verdict:
     evidence: str
 
     def __post_init__(self):
-        why = self.verdict.removeprefix(f"{NOT_COMPUTED}: ")
-        if self.verdict not in VERDICTS and (why == self.verdict or not why):
+        if self.verdict not in VERDICTS:
             raise ValueError(f"verdict {self.verdict!r} is not allowed: {', '.join(VERDICTS)}")
+        if not self.value:
+            raise ValueError(f"a verdict without a value is not allowed: {self}")
 
 
 @dataclass(frozen=True)
@@ -146,8 +161,8 @@ def formula(dataset, *names):
     return bool(np.all(holds)), bool(np.all((printed == 1) | (corrected == 1)))
 
 
-def derived(dataset, *names, value, remark="exact", proved=False):
-    """The Verdict on formulas that computer algebra settles."""
+def derived(dataset, *names, value, remark="exact", proved=True):
+    """The Verdict on formulas that computer algebra settles; not `proved` where by some values."""
     holds, mended = formula(dataset, *names)
     if mended and not holds:
         return Verdict(CORRECTED, value, remark, DERIVED)

@@ -16,6 +16,8 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.variables import states_of
+from pseudorigid.evidence.sea import section_points
+from pseudorigid.evidence.spread import in_sea
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import cell
 
@@ -123,13 +125,17 @@ def _orbits(dataset):
 
 def _spread(dataset):
     ball, energy = _ball(dataset)
-    some = slice(0, SOME)
-    start, impacts = dataset["start"].values[some], int(dataset.attrs["block_impacts"])
-    found = lyapunov_spectrum(ball, ball.start(start, energy), impacts, 1)["exponent"].values[0]
-    if _off(found, dataset["exponent"].values[0, some]):
+    points = section_points(ball, energy, dataset.sizes["orbit"])
+    if _off(points, [dataset["start_x"].values, dataset["start_y"].values]):
+        return "its orbits do not start uniformly over the section"
+    impacts = int(dataset.attrs["block_impacts"])
+    states = ball.state_xy(*(a[:SOME] for a in points), energy)
+    found = lyapunov_spectrum(ball, states, impacts, 1)["exponent"].values[0]
+    if _off(found, dataset["exponent"].values[0, :SOME]):
         return "its first block has other exponents"
-    rest = dataset["exponent"].values[..., 0]
-    if np.abs(rest.mean() - found[:, 0].mean()) > 6.0 * rest.std() / np.sqrt(found.shape[0]):
+    sea = in_sea(dataset)
+    first, rest = found[sea[:SOME], 0], dataset["exponent"].values[:, sea, 0]
+    if first.size and np.abs(rest.mean() - first.mean()) > 6.0 * rest.std() / np.sqrt(first.size):
         return "its exponents are not those of its first block"
     lengths = dataset["length"].values
     row = int(np.searchsorted(lengths, SHORT, side="right")) - 1

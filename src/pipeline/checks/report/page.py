@@ -18,6 +18,7 @@ from ...records.files import file_hash
 from ...records.record import read_record
 from .. import contracts
 from ..claims import render as claims
+from ..claims.ledger import CORRECTED, FALSE
 from ..currency import MISSING, Currency
 from ..sums import known_sums
 from . import numbers
@@ -70,7 +71,7 @@ def render(root, checked, absent) -> str:
         unmade=[name for name, shown in made.items() if not _any_made(shown)],
         more=more,
         claims=page.claims(),
-        corrected=(claims.FALSE, claims.CORRECTED),
+        corrected=(FALSE, CORRECTED),
         results=page.provenance(),
     )
 

@@ -5,6 +5,7 @@ from collections import Counter
 from ...checks.currency import Currency
 from ...config import expected, places
 from ...records.artifacts import ArtifactError
+from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import MisuseError, interruptible, locked, one_line
@@ -27,17 +28,19 @@ def run(given) -> int:
     with locked():
         targets = [path for path in ledger.paths(checked).values() if path != ledger.DERIVATIONS]
         drawings = places.figures(checked["variants"], "claims").values()
-        targets += [behind[-1] for _, behind in drawings]
+        # They are made together with the data, before `figures.make` looks at them.
+        before = {behind[-1]: identity(behind[-1]) for _, behind in drawings}
+        targets += before
         currency = Currency(ROOT, expected.of_all(checked))
         with sweeping.progress(checked["sweeps"], currency, targets):
             status = running.make(currency, targets, given.options)
         if status or running.only_says(given.options):
             return status
-        if status := figures.make(checked, "claims", given.options):
+        if status := figures.make(checked, "claims", given.options, before=before):
             return status
         with interruptible():
             ledger.derive(checked)
             verdicts = ledger.write(checked)
-    counts = Counter(verdict.verdict.partition(":")[0] for verdict in verdicts.values())
+    counts = Counter(verdict.verdict for verdict in verdicts.values())
     print(f"\n{places.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
     return 0

@@ -44,7 +44,7 @@ STAGES = {
     **{
         name: Stage(f"pseudorigid.evidence.{name}", name, tuple(fields.split()), follows=False)
         for name, fields in {
-            "spread": "between orbits length blocks regular regular_impacts cells visits",
+            "spread": "orbits length blocks regular regular_impacts cells visits",
             "clusters": "between orbits impacts cuts lags resamples seed",
             "rotation": "energies starts impacts detail detail_impacts",
             "jumps": "energies sides",

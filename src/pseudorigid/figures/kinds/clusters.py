@@ -1,5 +1,7 @@
 """Clusters of impacts: flight times in the sea, and what one cluster says of the next."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..axes.panel import Axis, Panel, corner, key
@@ -7,8 +9,10 @@ from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005
+_COLUMNS = (1, 135, 550), (0, 590, 1005)  # y, which remembers more, and x: index and frame
+_NAMES = "$x$", "$y$"
 _MARKS = ("o", "s", "^", "D")
-_ENDS = ("", "_low", "_high")
+_CAP = 0.04  # half the width of the line at a bar's end, in clusters
 
 
 @style.pinned()
@@ -24,27 +28,29 @@ def draw(scene, clusters):
     Returns
     -------
     Figure
-        Above: the distribution of flight times, with the cuts. Middle: correlation of x, and of y,
-        at the beginning of a cluster with the same so many clusters later. Below: share of the
-        variance of y there that is explained by where the earlier cluster began. Bars are 95 %
-        intervals.
+        Above: the distribution of flight times, with the cuts. Middle: correlation of y at the
+        beginning of a cluster with y so many clusters later, and beside it of x with x. Below:
+        share of the variance of y, and of x, there that is explained by where the earlier cluster
+        began. Lines above and below a mark are the ends of its 95 % interval.
     """
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
-    correlation = clusters["correlation"].values
-    span = 0.1 * (int(10.0 * float(np.abs(correlation).max())) + 1)
+    linear = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
+    span = 0.1 * (int(10.0 * float(np.abs(linear).max())) + 1)
     ticks = tuple(0.1 * i for i in range(-8, 9, 2) if abs(0.1 * i) <= span + 1e-9)
-    up = Axis((-span, span), ticks, "Correlation of $x$ (filled), $y$ (hollow)")
-    panel = _by_lag(sheet, (_LEFT, 680, _RIGHT, 1010), clusters, up, named=False)
-    for i in range(2):
-        rows = [clusters[f"correlation{end}"].values[..., i, i] for end in _ENDS]
-        _bars(panel, clusters, rows, shift=0.04 * i, hollow=i == 1)
-    panel.line([0.0, 99.0], [0.0, 0.0], color=style.BLACK, lw=0.7)
-    up = Axis((0.0, 0.7), (0, 0.2, 0.4, 0.6), "Share of the variance of $y$ explained")
-    panel = _by_lag(sheet, (_LEFT, 240, _RIGHT, 560), clusters, up, named=True)
-    rows = [clusters[f"dependence{end}"].values[..., 1] for end in _ENDS]
-    _bars(panel, clusters, rows, shift=0.0, hollow=False)
+    by_cell = [clusters[f"dependence{end}"].values for end in ("", "_low", "_high")]
+    for i, left, right in _COLUMNS:
+        name = f"Correlation of {_NAMES[i]}"
+        rows = [values[..., i, i] for values in linear]
+        panel = _by_lag(sheet, (left, 680, right, 1010), clusters, (-span, span), ticks, name)
+        panel.line([0.0, 99.0], [0.0, 0.0], color=style.BLACK, lw=0.7)
+        _marks(sheet, panel, clusters, rows)
+        name = f"Variance of {_NAMES[i]} explained"
+        rows = [values[..., i] for values in by_cell]
+        frame = (left, 240, right, 560)
+        panel = _by_lag(sheet, frame, clusters, (0.0, 0.7), (0, 0.2, 0.4, 0.6), name)
+        _marks(sheet, panel, clusters, rows)
     names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
     entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
     key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
@@ -61,22 +67,38 @@ def _flights(sheet, frame, clusters):
     panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of flights"), grid=False)
     corners = np.repeat(edges, 2)[1:-1]
     panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
-    for i, cut in enumerate(clusters["cut"].values):
+    cuts = clusters["cut"].values
+    for i, cut in enumerate(cuts):
         panel.line([cut, cut], [0.0, tall], color=style.HUES[i], lw=0.8, ls="--")
         period = f"{float(clusters['period'].values[i]):.1f}"
-        panel.note(cut, (0.95 - 0.1 * i) * tall, period, shift=(2, 0))
+        left = np.any((cuts > cut) & (cuts < cut + 0.1 * last))  # no room at the right
+        side = {"ha": "right", "shift": (-2, 0)} if left else {"ha": "left", "shift": (2, 0)}
+        panel.note(cut, (0.95 - 0.1 * i) * tall, period, **side)
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
-def _by_lag(sheet, frame, clusters, up, named):
+def _by_lag(sheet, frame, clusters, limits, ticks, name):
+    """A panel against the number of clusters between, labelled at the left of the sheet only."""
     lags = clusters["lag"].values.tolist()
+    up = Axis(limits, ticks, name)
+    if frame[0] != _LEFT:
+        up = replace(up, labels=[""] * len(ticks))
     across = Axis((0.6, lags[-1] + 0.5), lags, "Clusters later")
-    return Panel(sheet, frame, across if named else across.blank(), up)
+    return Panel(sheet, frame, across if limits[0] == 0.0 else across.blank(), up)
 
 
-def _bars(panel, clusters, rows, shift, hollow):
+def _marks(sheet, panel, clusters, rows):
+    """A mark for each cut and lag, between the ends of its interval."""
+    value, low, high = rows
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i in range(cuts.size):
-        at = lags + 0.12 * (i - 0.5 * (cuts.size - 1)) + shift
-        panel.bars(at, rows[1][i], rows[2][i], color=style.HUES[i], lw=0.7)
-        panel.dots(at, rows[0][i], style.HUES[i], hollow=hollow, marker=_MARKS[i % 4])
+        at = lags + 0.2 * (i - 0.5 * (cuts.size - 1))
+        panel.bars(at, low[i], high[i], color=style.HUES[i], lw=0.7)
+        for x, *ends in zip(at, low[i], high[i], strict=True):
+            for end in ends:
+                panel.line([x - _CAP, x + _CAP], [end, end], color=style.HUES[i], lw=0.5)
+        panel.dots(at, value[i], style.HUES[i], size=2.0, marker=_MARKS[i % 4])
+    widest = 0.5 * float((high - low).max())
+    _, _, right, top = panel.frame
+    text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
+    sheet.text(right - 3 * POINT, top - 3 * POINT, text, ha="right", va="top", size=7.0)

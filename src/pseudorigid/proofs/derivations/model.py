@@ -53,6 +53,28 @@ def uncoupled() -> Formula:
     return Formula(bool(alone and alike))
 
 
+def modes() -> Formula:
+    """Of the six strain modes an axial force excites two; value: how many.
+
+    Strains are (11, 22, 33) and the three shears, for which the inertia is the same. What a force
+    along 3 excites is spanned by its direction and what the stiffness makes of that.
+    """
+    young, nu = sp.symbols("Y nu", positive=True)
+    lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
+    normal = sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0))
+    stiffness = sp.diag(normal, 2 * shear * sp.eye(3))
+    columns = [sp.Matrix([0, 0, 1, 0, 0, 0])]
+    for _ in range(5):
+        columns.append(stiffness * columns[-1])
+    excited = sp.Matrix.hstack(*columns)
+    rank = excited.rank(simplify=True)
+    unsheared = all(zero(entry) for entry in excited[3:, :])
+    alike = sorted(normal.eigenvals().values()) == [1, 2]  # the two deviatoric modes
+    return Formula(
+        rank == 3 and unsheared and alike, rank == 2 and unsheared and alike, float(rank)
+    )
+
+
 def softness() -> Formula:
     """Young's modulus in units of rho g R, the value, that g = 0.04 and k = 1/5 ask for."""
     density, young = sp.symbols("rho Y", positive=True)

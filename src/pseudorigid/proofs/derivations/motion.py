@@ -17,6 +17,21 @@ def flights() -> Formula:
     return Formula(zeros([*conditions, printed]))
 
 
+def flow() -> Formula:
+    """The flow between impacts keeps dx ^ dxdot + k du ^ dudot."""
+    start = position, strain, speed, rate = sp.symbols("X U xd ud", real=True)
+    end = sp.Matrix([
+        position + speed * T + g * T**2 / 2,
+        strain * sp.cos(T) + rate * sp.sin(T),
+        speed + g * T,
+        rate * sp.cos(T) - strain * sp.sin(T),
+    ])  # fmt: skip
+    moved = [end.diff(T) - sp.Matrix([end[2], end[3], g, -end[1]])]  # it solves (23)
+    tangent = end.jacobian(start)
+    form = sp.Matrix([[0, 0, 1, 0], [0, 0, 0, k], [-1, 0, 0, 0], [0, -k, 0, 0]])
+    return Formula(zeros([*moved[0], *(tangent.T * form * tangent - form)]))
+
+
 def map_residuals(sign):
     """(28) as residuals of (x, v, w) -> (x1, v1, w1), with this sign in its first line."""
     x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)

@@ -1,16 +1,17 @@
 """Exponents of many orbits, at many lengths."""
 
-from ..fields import Between, Fraction, listed, whole
+from ..fields import Fraction, listed, whole
 from ..scene import OfRecords
 
 
 class Spread(OfRecords):
     """Lyapunov exponents of many orbits at many lengths
 
-    Lyapunov exponents of {{ s.orbits }} chaotic orbits of {{ s.length }} impacts, at energy {{
-    s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}: range, quartiles and mean over all
-    stretches of a length; the distribution of runs as long as Figure 7's, with its three and the
-    paper's number; exponents of regular orbits beside ln n/n.
+    Lyapunov exponents of the chaotic ones among {{ s.orbits }} orbits of {{ s.length }} impacts
+    that start uniformly over the section, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
+    s.ball.g }}: range, quartiles and mean over all stretches of a length; the distribution of runs
+    as long as Figure 7's, with its three and the paper's number; exponents of regular orbits beside
+    ln n/n.
 
     What to see: single runs scatter about the long-run value, and the paper's number is one such.
     """
@@ -18,10 +19,8 @@ class Spread(OfRecords):
     stages = ("spread", "lyapunov")
     telling = "long-run exponent"
 
-    between: Between
-    """the part of y = 0 on which chaotic orbits start"""
     orbits: whole(2, 1000)
-    """how many chaotic orbits"""
+    """how many orbits start uniformly over the section"""
     length: whole(100, 100_000_000)
     """impacts of each of them"""
     blocks: whole(2, 10_000)
@@ -44,7 +43,9 @@ class Spread(OfRecords):
 
     @staticmethod
     def numbers(block, spread, lyapunov):
-        """The mean over all orbits."""
-        largest = spread["exponent"].values.mean(axis=0).max(axis=-1)
+        """The mean over all chaotic orbits."""
+        from pseudorigid.evidence.spread import in_sea
+
+        largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
         error = largest.std(ddof=1) / largest.size**0.5
         return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
