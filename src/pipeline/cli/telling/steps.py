@@ -8,6 +8,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry
 
+from ...records.files import disk_is_full
 from ...records.sources import ROOT
 from .names import step
 
@@ -70,7 +71,7 @@ class LogHandler(LogHandlerBase):
         said = [line.split(": ", 2)[2] for line in lines if line.startswith("pseudorigid: ")]
         words = "".join(self.errors[-1:]).splitlines()
         said = said or [line for line in words if line and not line.startswith("  File ")]
-        return said[-1] if said else "no reason is known"
+        return disk_is_full(ROOT) or (said[-1] if said else "no reason is known")
 
 
 def register() -> str:

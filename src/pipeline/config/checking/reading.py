@@ -4,6 +4,7 @@ from pathlib import Path
 
 import yaml
 
+from ...records.files import FileError, read_text
 from .document import check
 from .words import ConfigError
 
@@ -51,7 +52,9 @@ def load(path) -> dict:
 
 def _parse(path):
     try:
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+        return yaml.load(read_text(path), _Loader)
+    except FileError as error:
+        raise ConfigError(str(error).removeprefix(f"{path}: ")) from None
     except OSError as error:
         raise ConfigError(f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
