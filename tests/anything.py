@@ -50,5 +50,5 @@ def spoilt(draw, data):
 
 
 FUZZ = settings(
-    max_examples=30, deadline=None, suppress_health_check=[*HealthCheck], derandomize=True
+    max_examples=20, deadline=None, suppress_health_check=[*HealthCheck], derandomize=True
 )

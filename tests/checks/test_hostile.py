@@ -13,7 +13,7 @@ from contextlib import redirect_stdout, suppress
 import netCDF4
 import pytest
 from anything import FUZZ, JSON, PATHS, edited, spoilt
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from verdicts import accepting, verified
 
@@ -351,7 +351,7 @@ def everything(tree, checked):
 def test_any_archive(packed, accepted, tmp_path):
     before, path = packed.read_bytes(), tmp_path / "a.tar"
 
-    @FUZZ
+    @settings(FUZZ, max_examples=200)
     @given(data=spoilt(before) | st.binary(max_size=2000))
     def trial(data):
         path.write_bytes(data)

@@ -3,7 +3,7 @@
 import pytest
 import yaml
 from anything import FUZZ, JSON, edited, spoilt
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from project import SHIPPED, shipped
 
@@ -16,7 +16,7 @@ def test_any_config(tmp_path):
     path = tmp_path / "config.yaml"
     documents = (edited(shipped()) | JSON).map(lambda found: yaml.safe_dump(found).encode())
 
-    @FUZZ
+    @settings(FUZZ, max_examples=100)
     @given(data=documents | spoilt(SHIPPED.read_bytes()) | st.binary(max_size=200))
     def trial(data):
         path.write_bytes(data)
