@@ -186,7 +186,8 @@ def read(path):
     listed = _listed(sums)
     for name in sorted({*listed, *found}):
         if name not in found or hashlib.sha256(found[name]).hexdigest() != listed.get(name):
-            raise ArchiveError(f"{path}: damaged: {name!r} does not fit {SUMS}")
+            shown = name if name in found else repr(name)  # others may be any text
+            raise ArchiveError(f"{path}: damaged: {shown} does not fit {SUMS}")
         if any(str(folder) in found for folder in PurePosixPath(name).parents):
             raise ArchiveError(f"{path}: damaged: a folder of {name!r} is a file too")
     return found
