@@ -41,10 +41,10 @@ def said(text, status):
     return Said(status, wrong, findings, notes, lines[end], lines[end + 1 :])
 
 
-def verified(tree, against=None, strict=False):
+def verified(tree, strict=False):
     """What verify says of a tree."""
     with redirect_stdout(StringIO()) as text:
-        status = verify(tree.path, config.load(tree.config), against, strict)
+        status = verify(tree.path, config.load(tree.config), strict)
     return said(text.getvalue(), int(status))
 
 

@@ -184,5 +184,10 @@ def test_damaged_and_foreign_archives_are_one_line(accepted, packed, tmp_path):
     assert result.stdout == f"reproduce: verify: no archive or folder {tmp_path}/none.tar\n"
     (tmp_path / "empty").mkdir()
     result = accepted.run("verify", "--against", str(tmp_path / "empty"))
-    said = f"reproduce: verify: {tmp_path}/empty is no tree of this project, and has no results\n"
-    assert (result.returncode, result.stdout) == (2, said)
+    said = (
+        f"reproduce: verify: {tmp_path}/empty is no tree of this project, and no archive of it "
+        "that was unpacked: paper_figures/MANIFEST.json: missing\n"
+    )
+    assert (result.returncode, result.stdout) == (1, said)
+    result = accepted.run("verify", "--against", "")
+    assert (result.returncode, result.stdout) == (2, "reproduce: verify: no archive or folder ''\n")

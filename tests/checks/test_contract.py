@@ -71,7 +71,26 @@ def test_a_figure_that_no_scene_makes(moved):
     shutil.copy(moved.path / FIG3, moved.path / "paper_figures" / "fig9.png")
     found = verified(moved)
     assert (found.status, found.wrong) == (1, {})
-    assert found.findings == ["paper_figures/fig9.png: no scene of config.yaml makes it"]
+    line = "paper_figures/fig9.png: no scene of config.yaml makes it: delete it, "
+    assert found.findings == [f"{line}or put its scene back"]
+    result = moved.run("fig3")  # the table of a run says so too
+    assert found.findings[0] in result.stdout.splitlines()
+
+
+def test_a_scene_that_was_removed_leaves_no_picture_unmentioned(moved):
+    document = moved.document()
+    del document["scenes"]["fig7"]
+    moved.write(document)
+    left = "no scene of config.yaml makes it: delete it, or put its scene back"
+    lines = [f"paper_figures/fig7.{kind}: {left}" for kind in ("png", "svg")]
+    listed = "lists fig7.png, which config.yaml does not publish: ./reproduce accept takes it out"
+    found = verified(moved)
+    assert found.status == 1
+    assert {f"paper_figures/MANIFEST.json: {listed}", *lines} <= {*found.findings}
+    status, said = accepting(moved)
+    assert status == 0 and {"fig7.png  gone", *lines} <= {*said}
+    assert verified(moved).findings == lines
+    assert (moved.path / "paper_figures" / "fig7.png").is_file()
 
 
 def of_the_paper(lines):

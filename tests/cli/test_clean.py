@@ -94,3 +94,53 @@ def test_a_result_that_is_committed_stays(tree):
     assert tree.run("clean", "--yes").returncode == 0
     assert "results/paper/motion_fig3.nc" in left(tree)
     assert "results/paper/periodic_fig3.nc" not in left(tree)
+
+
+@pytest.fixture
+def victim(tree):
+    """A user's file beside the tree."""
+    path = tree.path.parent / "victim.nc"
+    path.write_text("mine")
+    return path
+
+
+@pytest.mark.parametrize(
+    "output",
+    [
+        "results/paper/../../../victim.nc",
+        "results/paper/../../../../victim.nc",
+        "../victim.nc",
+        "results/paper/notes.txt/../../../../victim.nc",
+        "results/paper/figures/../notes.txt",
+        "VICTIM",
+        ["results/paper/victim.nc"],
+        {},
+        None,
+        "\0",
+    ],
+)
+def test_no_path_of_a_record_is_followed(tree, victim, output):
+    output = str(victim) if output == "VICTIM" else output
+    for name in ("victim.nc", "notes.txt"):
+        record = tree.path / "results" / "paper" / "provenance" / f"{name}.json"
+        record.write_text(json.dumps({"output": {"file": output}}))
+    result = tree.run("clean", "--yes")
+    assert result.returncode == 0, result.stdout
+    assert victim.read_text() == "mine"
+    assert left(tree) == {name for name, goes in FILES.items() if not goes}
+
+
+@pytest.mark.parametrize("name", ["results", "results/paper", "results/paper/logs", ".snakemake"])
+def test_no_link_is_followed(tree, tmp_path, name):
+    outside, link = tmp_path / "outside", tree.path / name
+    link.rename(outside)
+    link.symlink_to(outside)
+    (outside / "empty").mkdir()
+    before = sorted(outside.rglob("*"))
+    result = tree.run("clean", "--yes")
+    assert result.returncode == 0, result.stdout
+    assert sorted(outside.rglob("*")) == before
+    assert link.is_symlink()
+    if name == "results/paper":
+        line = "reproduce: results/paper leads out of this folder: what is there stays"
+        assert line in result.stdout.splitlines()

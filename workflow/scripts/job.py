@@ -3,6 +3,7 @@
 import sys
 import traceback
 from contextlib import contextmanager, suppress
+from pathlib import Path
 
 
 def _uncaught(kind, error, trace):
@@ -24,6 +25,9 @@ def one_line_errors(snakemake):
         if not isinstance(error, ValueError):  # ValueErrors are written for the user
             message = f"{type(error).__name__}: {message} (traceback in {log})"
         message = f"pseudorigid: {_subject(snakemake.wildcards)}: {message}"
+        with suppress(OSError):  # on a full disk the log needs the space of what goes anyway
+            for output in snakemake.output:
+                Path(output).unlink(missing_ok=True)
         with suppress(OSError), open(log, "w", encoding="utf-8") as file:  # or the disk is full
             file.write(f"{traceback.format_exc()}\n{message}\n")
         sys.exit(1)

@@ -2,11 +2,11 @@
 
 import shutil
 
-from ..records.files import file_hash, replacing
+from ..records.files import file_hash, obstacle, replacing
 from . import contracts, manifest
-from .currency import MISSING, Currency
-from .difference import UPSTREAM, Comparison
-from .sums import SUMS, ContractError, read_sums
+from .currency import MISSING
+from .difference import UPSTREAM, Comparison, not_as_made
+from .sums import SUMS, ContractError, left_over, read_sums
 
 
 def accept(root, checked):
@@ -42,9 +42,11 @@ def accept(root, checked):
 
 def _not_ready(root, contract):
     """Why the results cannot be accepted, or None."""
-    for path, why in Currency(root, contract.expected).outdated().items():
+    for path, why in not_as_made(root, contract).items():
         return f"{path} is missing" if why == MISSING else f"{path}: {why}"
     for name, drawing in contract.drawn.items():
+        if words := obstacle(root / contract.folder / name):
+            return f"{contract.folder}/{name}: {words}"
         if file_hash(root / contract.folder / name) != file_hash(root / drawing):
             return f"{contract.folder}/{name} is not {drawing}"
     return None
@@ -89,4 +91,5 @@ def _changes(comparison, contract, committed):
         if layers and set(layers) <= UPSTREAM:
             changes.append(f"{name}  the file is the same")
     gone = sorted(set(manifest.figures(committed)) - set(contract.drawn))
-    return changes + [f"{name}  gone" for name in gone]
+    left = left_over(comparison.root, contract.folder, {*contract.drawn, *contract.measured})
+    return changes + [f"{name}  gone" for name in gone] + left

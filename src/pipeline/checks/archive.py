@@ -6,20 +6,33 @@ The same files give the same bytes: names in order, no times, no owners, one mod
 import hashlib
 import io
 import json
+import os
 import tarfile
 import tempfile
-from pathlib import Path
+from contextlib import suppress
+from pathlib import Path, PurePosixPath
 
-from ..config.places import LEDGER
-from ..records.files import file_hash, replacing
+from ..config.places import LEDGER, PAPER, PUBLISHED
+from ..records.artifacts import ArtifactError, load
+from ..records.files import (
+    FileError,
+    file_hash,
+    obstacle,
+    open_regular,
+    read_bytes,
+    replacing,
+    write_whole,
+)
+from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import contracts, manifest
-from .currency import MISSING, Currency
-from .difference import Comparison
+from .currency import MISSING
+from .difference import Comparison, not_as_made
 from .sums import SUMS, ContractError, known_sums, read_sums
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
+_MOST = 10_000  # files in an archive; a complete one has some hundreds
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 README = """\
 Figures of E. Kanso and P. Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid foundation",
@@ -40,7 +53,7 @@ To check that nothing was damaged, here:
 
 To check that it can be made again, in a clone of pseudorigid, after ./reproduce:
 
-    ./reproduce verify --against THIS_FILE.tar
+    ./reproduce verify --against THIS_FILE.tar     # or this folder
 
 Data in here: {sets}.
 """
@@ -59,9 +72,9 @@ def write(root, checked, path):
         Where results are missing or not current, or published files not as their contract says.
     """
     path = Path(path)
-    if path.is_dir():
+    if os.path.isdir(path):
         raise ArchiveError(f"{path} is a folder")
-    if path.exists():  # another archive may be replaced, anything else is the user's
+    if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
     for contract in contracts.committed(checked):
         if problem := _problem(root, contract):
@@ -69,8 +82,7 @@ def write(root, checked, path):
     files = contents(root, checked)
     with replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
         for name, data in files.items():
-            entry = tarfile.TarInfo(f"{TOP}/{name}")
-            entry.size, entry.mode = len(data), 0o644
+            entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
             tar.addfile(entry, io.BytesIO(data))
     return file_hash(path)
 
@@ -94,7 +106,7 @@ def contents(root, checked):
                 found[record_path(path)] = _public_record(root, path)
     for path in places:
         if (root / path).is_file():
-            found[path] = (root / path).read_bytes()
+            found[path] = read_bytes(root / path)
     about = README.format(certificates=CERTIFICATES, sets=", ".join(sets))
     found[ABOUT] = about.encode()
     lines = [f"{hashlib.sha256(found[path]).hexdigest()}  {path}\n" for path in sorted(found)]
@@ -120,20 +132,23 @@ def _problem(root, contract):
         sums = read_sums(root, contract.folder)
     except ContractError as error:
         return f"{error}: run ./reproduce accept"
-    for path, why in Currency(root, contract.expected).outdated().items():
+    comparison = Comparison(root, contract, committed)
+    for path, why in not_as_made(root, contract, comparison).items():
         if why != MISSING:
             return f"{path}: {why}: run {contract.command}"
         if not contract.on_request:
             return f"{path} is missing: run {contract.command}"
     for name in sorted({*contract.drawn, *sums}):
         path = f"{contract.folder}/{name}"
+        if words := obstacle(root / path):
+            return f"{path}: {words}"
         drawn = file_hash(root / contract.drawn.get(name, path))
         if file_hash(root / path) is None or drawn not in (None, file_hash(root / path)):
             return f"{path} is not the one that was drawn: run {contract.command}"
         if file_hash(root / path) != sums.get(name):
             return f"{path} is not as in {contract.folder}/{SUMS}: run ./reproduce accept"
-    for path, digest in committed.get("texts", {}).items():
-        if file_hash(root / path) != digest:
+    for path in contract.texts:
+        if file_hash(root / path) != committed["texts"].get(path):
             return (
                 f"{path} is not as in {contract.folder}/{manifest.MANIFEST}: run {contract.command}"
             )
@@ -141,68 +156,184 @@ def _problem(root, contract):
 
 
 def read(path):
-    """File -> bytes of an archive, each checked by its sum; raises ArchiveError."""
+    """File -> bytes of an archive, each checked by its sum; nothing is written.
+
+    Only what `write` writes is taken: regular files with plain names, and not a byte beside them.
+
+    Raises
+    ------
+    ArchiveError
+    """
     found = {}
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
-        with tarfile.open(path, "r:") as tar:
-            for entry in tar:
-                inside = entry.isfile() and entry.name.removeprefix(f"{TOP}/") != entry.name
-                if not inside or ".." in Path(entry.name).parts:
-                    raise ArchiveError(f"{path}: not made by ./reproduce archive: {entry.name}")
-                found[entry.name.removeprefix(f"{TOP}/")] = tar.extractfile(entry).read()
-    except (tarfile.TarError, OSError, EOFError) as error:
+        with open_regular(path) as file:
+            for name, data in _members(file):
+                if name in found or len(found) == _MOST:
+                    many = f"more than {_MOST:,} files" if len(found) == _MOST else "twice"
+                    raise tarfile.TarError(f"{name!r}: {many}")
+                found[name] = data
+    except _ForeignError as error:
+        raise ArchiveError(f"{path}: not made by ./reproduce archive: {error}") from None
+    except FileError as error:
+        raise ArchiveError(str(error)) from None
+    except (tarfile.TarError, OSError, ValueError) as error:
         raise ArchiveError(f"{path}: no archive, or damaged: {error}") from None
     if SUMS not in found:
         raise ArchiveError(f"{path}: not made by ./reproduce archive, or damaged: no {SUMS}")
-    sums = found.pop(SUMS).decode("utf-8", "replace").splitlines()
-    listed = dict(reversed(line.split("  ", 1)) for line in sums if "  " in line)
+    sums = found.pop(SUMS)
+    listed = _listed(sums)
     for name in sorted({*listed, *found}):
         if name not in found or hashlib.sha256(found[name]).hexdigest() != listed.get(name):
-            raise ArchiveError(f"{path}: damaged: {name} does not fit {SUMS}")
+            shown = name if name in found else repr(name)  # others may be any text
+            raise ArchiveError(f"{path}: damaged: {shown} does not fit {SUMS}")
+        if any(str(folder) in found for folder in PurePosixPath(name).parents):
+            raise ArchiveError(f"{path}: damaged: a folder of {name!r} is a file too")
     return found
 
 
-def verify(root, checked, path):
-    """Print of each file of this tree and of the archive at `path` how they compare; 0 if alike."""
-    theirs = read(path)
+class _ForeignError(Exception):
+    """The name of an entry that `write` does not write."""
+
+
+def _members(file):
+    """Yield (name, bytes) of each file of a tar, checked before it is read."""
+    total = os.fstat(file.fileno()).st_size
+    while (header := file.read(tarfile.BLOCKSIZE)).strip(b"\0"):
+        given = tarfile.TarInfo.frombuf(header, "utf-8", "strict")
+        name = given.name.removeprefix(f"{TOP}/")
+        try:
+            ours = name != given.name and _is_plain(name) and _header(name, given.size) == header
+        except ValueError:  # no number or name of this format
+            ours = False
+        if not ours:
+            raise _ForeignError(f"{given.name!r:.100}")
+        if given.size > total - file.tell():
+            raise tarfile.TarError(f"{given.name!r} says that it has {given.size:,} bytes")
+        yield name, file.read(given.size)
+        if file.read(-given.size % tarfile.BLOCKSIZE).strip(b"\0"):
+            raise tarfile.TarError(f"there are bytes between {given.name!r} and the next file")
+    end = file.tell() - len(header) + 2 * tarfile.BLOCKSIZE
+    if total != end + -end % tarfile.RECORDSIZE or file.read().strip(b"\0"):
+        raise tarfile.TarError("it is cut off, or there are bytes after its end")
+
+
+def _is_plain(name):
+    """Whether a name from outside is that of a file below the folder it is in."""
+    return name.isprintable() and not {"", ".", ".."} & {*name.split("/")}
+
+
+def _header(name, size):
+    """The block before a file in an archive; raises ValueError for what does not fit in."""
+    entry = tarfile.TarInfo(f"{TOP}/{name}")
+    entry.size, entry.mode = size, 0o644
+    return entry.tobuf(tarfile.USTAR_FORMAT, "utf-8", "strict")
+
+
+def _listed(sums):
+    """File -> sha256 of the text of an archive's SHA256SUMS."""
+    lines = sums.decode("utf-8", "replace").splitlines()
+    return dict(reversed(line.split("  ", 1)) for line in lines if "  " in line)
+
+
+def read_folder(folder, checked):
+    """File -> bytes of another tree, or of an archive that was unpacked, as `contents` has them.
+
+    Raises
+    ------
+    ArchiveError
+        A folder that is neither.
+    """
+    try:
+        manifest.read(folder, PUBLISHED[PAPER])
+        found = contents(folder, checked)
+        # An archive may have files that this tree's config does not name.
+        for name in _listed(read_bytes(folder / SUMS)) if (folder / SUMS).is_file() else ():
+            if name not in found and _is_plain(name) and (folder / name).is_file():
+                found[name] = read_bytes(folder / name)
+    except (ContractError, FileError) as error:
+        what = "no tree of this project, and no archive of it that was unpacked"
+        raise ArchiveError(f"{folder} is {what}: {error}") from None
+    del found[SUMS]
+    return found
+
+
+def verify(root, checked, place):
+    """Compare this tree with an archive, or with the folder of another tree, file by file.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+    checked : dict
+        The checked config.
+    place : pathlib.Path
+        An archive, another tree, or an archive that was unpacked.
+
+    Returns
+    -------
+    int
+        0 where all files are there and alike.
+
+    Raises
+    ------
+    ArchiveError
+        Where `place` is none of these.
+    """
+    folder = place.is_dir()
+    theirs = read_folder(place, checked) if folder else read(place)
+    absent = f"not in the {'folder' if folder else 'archive'}"
     ours = contents(root, checked)
     del ours[SUMS]
     theirs.pop(ABOUT, None), ours.pop(ABOUT)  # which says what is there
-    counts = {"identical": 0, "differs": 0, "missing here": 0, "not in the archive": 0}
+    counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
     width = max(map(len, {*ours, *theirs}))
     with tempfile.TemporaryDirectory() as folder:
-        layers = _layers(root, checked, theirs, Path(folder))
+        how = _differences(root, checked, ours, theirs, Path(folder))
         for name in sorted({*ours, *theirs}):
             if name not in theirs:
-                word = "not in the archive"
+                word = absent
             elif name not in ours:
                 word = "missing here"
             else:
                 word = "identical" if ours[name] == theirs[name] else "differs"
             counts[word] += 1
             print(f"{name:{width}}  {word}")
-            for layer, words in (layers(name) or {}).items() if word == "differs" else ():
-                print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", ""))
+            for layer, words in how(name).items() if word == "differs" else ():
+                print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
     print("", ", ".join(f"{n} {word}" for word, n in counts.items() if n), sep="\n")
     return int(counts["identical"] < len({*ours, *theirs}))
 
 
-def _layers(root, checked, theirs, folder):
-    """Published file -> the layers that differ, named by the archive's own manifests."""
-    for name, data in theirs.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_bytes(data)
+def _differences(root, checked, ours, theirs, folder):
+    """A function: file -> layer -> words, by their manifests and by the files themselves.
+
+    What is compared is copied into `folder` under names that this tree knows.
+    """
+    for name in ours.keys() & theirs.keys():
+        if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
+            write_whole(folder / name, theirs[name])
     known = {}
     for contract in contracts.committed(checked):
-        try:
+        with suppress(ContractError):
             committed = manifest.read(folder, contract.folder)
-        except ContractError:
-            continue
-        comparison = Comparison(root, contract, committed, folder)
-        known |= {f"{contract.folder}/{name}": (comparison, name) for name in contract.drawn}
+            comparison = Comparison(root, contract, committed, folder)
+            known |= {f"{contract.folder}/{name}": (comparison, name) for name in contract.drawn}
 
     def layers(path):
         comparison, name = known.get(path, (None, None))
-        return comparison and comparison.layers(name)
+        found = (comparison and comparison.layers(name)) or {}
+        layer = "data" if path.endswith(".nc") else "drawing"
+        try:
+            if path.endswith(".nc"):
+                described = {path: manifest.describe_data(load(folder / path))}
+                alone = Comparison(root, None, {"data": described}, folder)
+                return {"data": alone.differing_data(path, path) or "the same in other bytes"}
+            if comparison and not {"drawing", "file"} & {*found}:
+                image = root / comparison.contract.results / "differences" / name
+                found[layer] = difference(root / path, folder / path, image)[0]
+        except (ArtifactError, PictureError, FileError) as error:
+            found[layer] = str(error)
+        return found
 
     return layers

@@ -3,7 +3,7 @@
 from functools import cache
 
 from ..records.differences import differing_block, differing_files, differing_package
-from ..records.files import file_hash
+from ..records.files import file_hash, obstacle
 from ..records.record import RecordError, read_record, versions
 
 MISSING = "missing"
@@ -54,8 +54,7 @@ class Currency:
 
     def _by_record(self, path, made):
         if self.digest(path) is None:
-            folder = (self.root / path).is_dir()
-            return "a folder stands in its place, move it away" if folder else MISSING
+            return obstacle(self.root / path) or MISSING
         try:
             record = read_record(self.root, path)
         except RecordError as error:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..config.expected import needed
 from ..records.artifacts import ArtifactError, canonical_values, load
 from ..records.differences import (
     differing_block,
@@ -17,20 +18,59 @@ from ..records.differences import (
     differing_keys,
     differing_package,
 )
-from ..records.files import FileError, file_hash
+from ..records.files import FileError, file_hash, obstacle
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
 from . import manifest
+from .currency import Currency
+from .sums import ContractError
 
 # A difference in one of these alone leaves the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
 
 
+UNEXPLAINED = (
+    "differs from the committed one, although its config, sources and packages do not: delete it"
+)
+
+
+def not_as_made(root, contract, comparison=None):
+    """Which results of a contract are not what this tree makes: one answer for every command.
+
+    A result's record decides. Where the manifest lists the result, and all that makes it is as
+    committed, it must be the committed one too, whatever its record says.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+    contract : contracts.Contract
+    comparison : Comparison, optional
+        With the committed manifest, which is read without it.
+
+    Returns
+    -------
+    dict of str to str
+        Result -> why, in words.
+    """
+    found = Currency(root, contract.expected).outdated()
+    if comparison is None:
+        try:
+            comparison = Comparison(root, contract, manifest.read(root, contract.folder))
+        except ContractError:
+            return found
+    found = comparison.unexplained() | found
+    for path in contract.expected:  # each after its inputs
+        for used in contract.expected[path].inputs:
+            if used in found:
+                found.setdefault(path, f"made from {used}, which is not current")
+    return found
+
+
 class Comparison:
     """A tree at `root` with its `contract` against the manifest `committed`.
 
-    `against` is a folder with a second copy, a tree or its results, or None: it serves to say how
-    large a difference is.
+    `against` is a folder with a second copy of the tree, or None: it serves to say how large a
+    difference is.
     """
 
     def __init__(self, root, contract, committed, against=None):
@@ -46,7 +86,7 @@ class Comparison:
         entry = self.committed["scenes"].get(scene)
         if entry is None or name not in entry["figures"]:
             return None
-        sources = {path: self.committed["sources"][path] for path in entry["sources"]}
+        sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
         here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
         was, now = "in the manifest", "in config.yaml"
         before = self.committed["environment"]
@@ -59,11 +99,14 @@ class Comparison:
         return {layer: words for layer, words in layers.items() if words}
 
     def _data(self, scene, entry):
-        for stage, path in self.contract.data[scene].items():
-            if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
-                words = self.differing_data(path, entry["data"][stage])
-                if words:
-                    return words
+        stages = self.contract.data[scene].items()
+        words = (self._dataset(stage, path, entry) for stage, path in stages)
+        return next(filter(None, words), None)
+
+    def _dataset(self, stage, path, entry):
+        """How the dataset of a stage differs from the committed one, or None."""
+        if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
+            return self.differing_data(path, entry["data"][stage])
         return None
 
     def _differing_data(self, path, committed_name):
@@ -72,8 +115,6 @@ class Comparison:
             dataset = load(self.root / path)
         except ArtifactError as error:
             return str(error).replace(f"{self.root}/", "")
-        except Exception as error:  # of an edited file, whatever netCDF4 makes of it
-            return f"{path}: damaged ({type(error).__name__})"
         before, after = self.committed["data"][committed_name], manifest.describe_data(dataset)
         for name in sorted({*before["variables"], *after["variables"]}):
             old, new = before["variables"].get(name), after["variables"].get(name)
@@ -84,7 +125,7 @@ class Comparison:
                     words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
                     return f"{path}: variable {name}: another {what.removesuffix('s')}{words}"
             if old["sha256"] != new["sha256"]:
-                pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=True)
+                pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=False)
                 block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
                 return (
                     f"{path}: variable {name} differs from block {block} on "
@@ -98,9 +139,7 @@ class Comparison:
     def _size_of_difference(self, path, name, dataset):
         if self.against is None:
             return ""
-        copy = self._find(self.against, Path(path).name)
-        if copy is None:
-            return f"; no {Path(path).name} in {self.against}"
+        copy = self.against / path
         try:
             other = load(copy)
         except ArtifactError as error:
@@ -114,7 +153,9 @@ class Comparison:
         """{"drawing": words} or {"file": words}, of the published file or the one in results."""
         published, drawn = f"{self.contract.folder}/{name}", self.contract.drawn[name]
         if self.file_hash(published) is None:
-            return {"file": f"{published} is missing: {self.contract.command} makes it"}
+            why = obstacle(self.root / published)
+            missing = f"{published} is missing: {self.contract.command} makes it"
+            return {"file": f"{published}: {why}" if why else missing}
         encoding = {}
         for path in (published, drawn):
             if self.file_hash(path) in (entry["sha256"], None):
@@ -137,9 +178,10 @@ class Comparison:
                 candidates.append(Path(folder) / name)
                 candidates[-1].write_bytes(blob)
             if self.against is not None:
-                candidates.append(self._find(self.against, name))
+                drawing = self.contract.drawn[name]
+                candidates += [self.against / self.contract.folder / name, self.against / drawing]
             for candidate in candidates:
-                if candidate is not None and file_hash(candidate) == entry["sha256"]:
+                if file_hash(candidate) == entry["sha256"]:
                     image = f"{self.contract.results}/differences/{name}"
                     try:
                         words, saved = difference(self.root / path, candidate, self.root / image)
@@ -148,13 +190,42 @@ class Comparison:
                     return f"{words}: see {image}" if saved else words
         return "another picture; no copy of the committed one is at hand to count what differs"
 
-    def _find(self, folder, name):
-        """The file of this name in another tree or its results, or None."""
-        results = self.contract.results
-        for place in (".", "figures", self.contract.folder, results, f"{results}/figures"):
-            if (folder / place / name).is_file():
-                return folder / place / name
-        return None
+    def unexplained(self) -> dict[str, str]:
+        """Result -> words, where it differs from the committed one and nothing that makes it does.
+
+        Its record may say that this tree made it: then the record says something untrue.
+        """
+        found = []
+        for name, drawing in self.contract.drawn.items():
+            scene = self.contract.scenes[name]
+            entry = self.committed["scenes"].get(scene, {"data": {}, "figures": {}})
+            different = [
+                path
+                for stage, path in self.contract.data[scene].items()
+                if self._dataset(stage, path, entry)
+            ]
+            figure = entry["figures"].get(name)
+            if figure and self.file_hash(drawing) not in (None, figure["sha256"]):
+                different.append(drawing)
+            found += [path for path in different if not self._explained(path, scene, entry)]
+        return dict.fromkeys(found, UNEXPLAINED)
+
+    def _explained(self, path, scene, entry):
+        """Whether what makes a result may differ from what made the committed one."""
+        expected = self.contract.expected
+        made = [expected[each] for each in needed(expected, [path])]
+        keys = {key for each in made for key in each.config}
+        blocks = (entry["config"], self.contract.config[scene])
+        return bool(
+            any(used not in expected for each in made for used in each.inputs)
+            or differing_package(self.committed["environment"], self.versions)
+            or differing_block(*({k: block[k] for k in keys & {*block}} for block in blocks))
+            or any(
+                self.file_hash(file) != self.committed["sources"].get(file)
+                for each in made
+                for file in each.sources
+            )
+        )
 
 
 def ulps(a, b):

@@ -8,6 +8,8 @@ import hashlib
 import json
 from pathlib import Path
 
+import pydantic
+
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
 from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
@@ -17,6 +19,41 @@ from .sums import SUMS, ContractError, text_of
 MANIFEST = "MANIFEST.json"
 BLOCK = 1024  # values hashed together, so that a difference can be placed
 _SHORT = 16  # hex digits of the hash of a block or an attribute
+
+
+class _Variable(pydantic.BaseModel):
+    dims: list[str]
+    shape: list[int]
+    dtype: str
+    attributes: dict[str, str]
+    sha256: str
+    blocks: str
+
+
+class _Data(pydantic.BaseModel):
+    attributes: dict[str, str]
+    sizes: dict[str, int]
+    variables: dict[str, _Variable]
+
+
+class _Figure(pydantic.BaseModel):
+    drawing: dict[str, int | str]
+    sha256: str
+
+
+class _Scene(pydantic.BaseModel):
+    config: dict
+    sources: list[str]
+    data: dict[str, str]
+    figures: dict[str, _Figure]
+
+
+class _Manifest(pydantic.BaseModel):
+    environment: dict[str, str | None]
+    texts: dict[str, str | None]
+    sources: dict[str, str | None]
+    data: dict[str, _Data]
+    scenes: dict[str, _Scene]
 
 
 def describe_data(dataset):
@@ -81,11 +118,16 @@ def read(root, folder):
     name = f"{folder}/{MANIFEST}"
     try:
         manifest = json.loads(text_of(root, name))
+        # It covers every entry: none can be lost or changed without a word.
+        if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
+            raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
+        _Manifest.model_validate(manifest, strict=True)
+    except pydantic.ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise ContractError(f"{name}: broken: {place}: {first['msg']}") from None
     except (ValueError, RecursionError) as error:
         raise ContractError(f"{name}: broken: {error}") from None
-    # It covers every entry: none can be lost or changed without a word.
-    if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
-        raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
     return manifest
 
 

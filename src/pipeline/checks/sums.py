@@ -1,5 +1,10 @@
 """The hashes of the files of a contract: SHA256SUMS, in its folder."""
 
+from pathlib import Path
+
+from ..config.places import SHOWN
+from ..records.files import FileError, read_text
+
 SUMS = "SHA256SUMS"
 
 
@@ -13,7 +18,9 @@ def read_sums(root, folder):
     found = {}
     for number, line in enumerate(text_of(root, path).splitlines(), 1):
         digest, mark, name = line[:64], line[64:66], line[66:]
-        if len(digest) < 64 or set(digest) - set("0123456789abcdef") or not name or mark != "  ":
+        hexadecimal = len(digest) == 64 and not set(digest) - set("0123456789abcdef")
+        # A name with a folder in it could lead out of this one.
+        if not hexadecimal or mark != "  " or name in ("", "..") or Path(name).name != name:
             raise ContractError(f"{path}: line {number} is not a sha256 and a file's name")
         found[name] = digest
     return found
@@ -27,11 +34,22 @@ def known_sums(root, folder):
         return {}
 
 
+def left_over(root, folder, names):
+    """A line for each picture in a folder of published files that is none of `names`."""
+    there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in SHOWN}
+    return [
+        f"{folder}/{name}: no scene of config.yaml makes it: delete it, or put its scene back"
+        for name in sorted(there - set(names))
+    ]
+
+
 def text_of(root, name):
     """The text of a file of a contract; raises ContractError."""
     try:
-        return (root / name).read_text(encoding="utf-8")
-    except FileNotFoundError:
+        return read_text(root / name)
+    except (FileNotFoundError, NotADirectoryError):
         raise ContractError(f"{name}: missing") from None
-    except (OSError, ValueError) as error:
+    except FileError as error:
+        raise ContractError(str(error).replace(f"{root}/", "")) from None
+    except UnicodeDecodeError as error:
         raise ContractError(f"{name}: cannot be read: {error}") from None

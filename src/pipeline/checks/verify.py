@@ -5,17 +5,16 @@ config and sources did not make; a contract that is broken. A note, and exit 0: 
 differs behind the committed bytes.
 """
 
-from ..config import places
-from ..records.files import file_hash
+from ..records.files import file_hash, obstacle
 from . import contracts, manifest
-from .currency import MISSING, Currency
-from .difference import UPSTREAM, Comparison
-from .sums import SUMS, ContractError, known_sums, read_sums
+from .currency import MISSING
+from .difference import UPSTREAM, Comparison, not_as_made
+from .sums import SUMS, ContractError, known_sums, left_over, read_sums
 
 NEW = "new: ./reproduce accept adds it to the contract"
 
 
-def verify(root, checked, against=None, strict=False):
+def verify(root, checked, strict=False):
     """Print what differs between a tree and its contracts.
 
     Parameters
@@ -24,8 +23,6 @@ def verify(root, checked, against=None, strict=False):
         Of the tree.
     checked : dict
         The checked config.
-    against : pathlib.Path, optional
-        A folder with another tree or its results, with which what differs is compared.
     strict : bool
         Notes are red too.
 
@@ -37,12 +34,12 @@ def verify(root, checked, against=None, strict=False):
     status = 0
     for contract in contracts.committed(checked):
         if not contract.on_request or manifest.there(root, contract):
-            red, notes = _verify(root, contract, against)
+            red, notes = _verify(root, contract)
             status |= bool(red or (strict and notes))
     return status
 
 
-def _verify(root, contract, against):
+def _verify(root, contract):
     """(red findings, notes), having printed a line or more for each published file and each."""
     try:
         committed = manifest.read(root, contract.folder)
@@ -50,11 +47,11 @@ def _verify(root, contract, against):
     except ContractError as error:
         committed, findings = None, [f"{error}: the layers cannot be compared"]
     findings += _sums(root, contract, committed)
-    for path, digest in (committed or {}).get("texts", {}).items():
-        if file_hash(root / path) != digest:
+    for path in contract.texts if committed else ():
+        if file_hash(root / path) != committed["texts"].get(path):
             findings.append(f"{path}: not the committed one: {contract.command} writes it")
-    stale = Currency(root, contract.expected).outdated()
-    comparison = committed and Comparison(root, contract, committed, against)
+    comparison = committed and Comparison(root, contract, committed)
+    stale = not_as_made(root, contract, comparison)
     width = max(map(len, contract.drawn), default=0)
     different, behind = [], []
     for name in contract.drawn:
@@ -96,7 +93,7 @@ def _by_sums(root, contract, name):
     wanted = known_sums(root, contract.folder).get(name)
     digest = file_hash(root / contract.folder / name)
     if digest is None:
-        return ["file: missing"]
+        return [f"file: {obstacle(root / contract.folder / name) or MISSING}"]
     if wanted is None:
         return ["file: nothing to compare it with"]
     return [f"file: {'as in' if digest == wanted else 'differs from'} SHA256SUMS"]
@@ -127,14 +124,11 @@ def _surplus(root, contract, listed):
     """Files that are there or in the manifest but that nothing makes."""
     folder = contract.folder
     found = [
-        f"{folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not publish"
+        f"{folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not publish: "
+        "./reproduce accept takes it out"
         for name in sorted(set(listed) - set(contract.drawn))
     ]
-    there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in places.SHOWN}
-    return found + [
-        f"{folder}/{name}: no scene of config.yaml makes it"
-        for name in sorted(there - set(contract.drawn) - set(listed) - set(contract.measured))
-    ]
+    return found + left_over(root, folder, {*contract.drawn, *contract.measured})
 
 
 def _grouped(pairs):

@@ -17,10 +17,7 @@ CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
 FIGURES = "figures to draw, by the names in config.yaml; all without a name"
 DATA = "a dataset to judge it by, in the place of that name (as in fig2/orbits)"
-AGAINST = (
-    "an archive: compare this tree with it, file by file; or a folder with another tree or its "
-    "results: say how many ulp lie between its data and these"
-)
+AGAINST = "an archive, or a folder with one unpacked or another tree: compare file by file with it"
 
 
 class Word:
@@ -196,8 +193,11 @@ def main(arguments):
 
 def _refuse_unknown(argument, names, word=None):
     """Refuse the first name that is nowhere in config.yaml's text and so cannot be meant."""
+    config = ROOT / "config.yaml"
+    if not config.is_file():  # reading a FIFO would wait for ever
+        return
     try:
-        text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+        text = config.read_text(encoding="utf-8", errors="replace")
     except OSError:  # which is said when it is read in earnest
         return
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)

@@ -6,11 +6,12 @@ import shutil
 from pathlib import PurePath
 
 from ..checks.currency import Currency
+from ..checks.sums import left_over
 from ..config import expected, places, unknown
 from ..config.expected import Expected
 from ..records.differences import columns
-from ..records.files import identity, replacing, write_whole
-from ..records.record import recorded
+from ..records.files import FileError, identity, obstacle, read_text, replacing, write_whole
+from ..records.record import record_path, recorded
 from ..records.sources import ROOT
 from . import running
 from .folder import MisuseError
@@ -76,8 +77,12 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
         elif identity(made[path]) == before[made[path]]:
             rows[path] = scene, "current"
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
-    publish(good)
-    more = _missed_impacts(variants, variant, {wanted[path][0] for path in good})
+    for path, why in publish(good).items():
+        rows[path], status = (rows[path][0], f"not published: {why}"), status or 1
+    more = [*_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
+    if variant in places.PUBLISHED:
+        folder = places.PUBLISHED[variant]
+        more += left_over(ROOT, folder, [PurePath(path).name for path in figures])
     shown = {path: row for path, row in rows.items() if not (brief and row[1] == "current")}
     if shown:
         table(places.PUBLISHED.get(variant), shown, more)
@@ -102,10 +107,16 @@ def table(folder, rows, more=()) -> None:
         print(f"snakemake's log: {running.LOGS[-1]}")
 
 
-def made(folder, files) -> None:
-    """Publish drawings and print a line for each; `files` is file, as published -> drawing."""
-    publish(files)
-    table(folder, {path: (PurePath(path).stem, "made") for path in files})
+def made(folder, files) -> int:
+    """Publish drawings and print a line for each; 1 where one cannot be published.
+
+    `files` is file, as published -> drawing.
+    """
+    problems = publish(files)
+    rows = {path: (PurePath(path).stem, "made") for path in files}
+    rows |= {path: (rows[path][0], f"not published: {why}") for path, why in problems.items()}
+    table(folder, rows)
+    return int(bool(problems))
 
 
 def of_scenes(checked, variant, names) -> list[str] | None:
@@ -118,13 +129,23 @@ def of_scenes(checked, variant, names) -> list[str] | None:
     return [path for path, (scene, _) in found.items() if scene in names] if names else None
 
 
-def publish(drawings) -> None:
-    """Copy each finished drawing to where users look for it, in one step, where it is another."""
+def publish(drawings) -> dict[str, str]:
+    """Copy each finished drawing to where users look for it, in one step, where it is another.
+
+    Returns published file -> why it could not be, for each that could not.
+    """
+    problems = {}
     for path, drawing in drawings.items():
         published = ROOT / path
-        if not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
-            with replacing(published) as part:
-                shutil.copyfile(ROOT / drawing, part)
+        if words := obstacle(published):
+            problems[path] = words
+        elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
+            try:
+                with replacing(published) as part:
+                    shutil.copyfile(ROOT / drawing, part)
+            except FileError as error:
+                problems[path] = str(error).removeprefix(f"{published}: ")
+    return problems
 
 
 def _find_absent(variants, variant, currency):
@@ -140,32 +161,36 @@ def _find_absent(variants, variant, currency):
     currency.expected[path] = made = Expected(orbits, [], sorted({p for _, p in orbits.values()}))
     if currency.reason(path):
         with recorded(path, *made):
-            _write_absent(path, variant, orbits)
+            _write_absent(variants, variant, orbits)
     return known_absent(variant)
 
 
-def _write_absent(path, variant, orbits) -> None:
+def _write_absent(variants, variant, orbits) -> None:
     from pseudorigid.dynamics.variables import of_type
 
     from ..records.artifacts import load
 
-    found, folder = {}, ROOT / "results" / variant
+    found = {}
     for scene, (kind, dataset) in orbits.items():
         try:
             of_type(load(ROOT / dataset), kind)
         except ValueError as error:
             found[scene] = str(error)
-            for old in (*folder.glob(f"figures/{scene}.*"), *folder.glob(f"provenance/{scene}.*")):
-                old.unlink()
-    write_whole(ROOT / path, json.dumps(found, indent=1) + "\n")
+            for extension in variants[variant][scene]["formats"]:
+                drawing = places.drawn(scene, extension, variant)
+                for old in (drawing, record_path(drawing)):
+                    (ROOT / old).unlink(missing_ok=True)
+    write_whole(ROOT / places.absent_file(variant), json.dumps(found, indent=1) + "\n")
 
 
 def known_absent(variant) -> dict[str, str]:
     """Scene -> why its figure cannot exist, as the last run of a variant found."""
     try:
-        return json.loads((ROOT / places.absent_file(variant)).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found = json.loads(read_text(ROOT / places.absent_file(variant)))
+    except (OSError, ValueError, RecursionError):
         return {}
+    # Somebody else may have written it: a cache of results comes from anywhere.
+    return {scene: str(why) for scene, why in found.items()} if isinstance(found, dict) else {}
 
 
 def _missed_impacts(variants, variant, scenes):

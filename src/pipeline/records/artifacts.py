@@ -7,13 +7,14 @@ arrays are contiguous: `row_size` counts the samples of each row, one row after 
 
 import hashlib
 import json
+import math
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 import xarray as xr
 
-from .files import replacing
+from .files import obstacle, replacing
 
 
 class ArtifactError(ValueError):
@@ -94,17 +95,22 @@ def load(path):
     """
     path = Path(path)
     if not path.is_file():
-        raise ArtifactError(f"{path}: no such artifact")
+        raise ArtifactError(f"{path}: {obstacle(path) or 'no such artifact'}")
     try:
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
             file.set_auto_scale(False)
+            # Values are stored as they are: what says that it has more than the file is damaged.
+            if sum(math.prod(v.shape) for v in file.variables.values()) > path.stat().st_size:
+                raise ArtifactError(f"{path}: damaged: it has fewer values than it says")
             variables = {
                 name: (variable.dimensions, variable[...], _attributes(variable))
                 for name, variable in file.variables.items()
             }
             attrs = _attributes(file)
-    except (OSError, RuntimeError, UnicodeDecodeError) as error:
+    except ArtifactError:
+        raise
+    except Exception as error:  # of a damaged file, whatever netCDF4 makes of it
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
         raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
     if "config" not in attrs:

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from .files import write_whole
+from .files import open_regular, write_whole
 
 
 class PictureError(ValueError):
@@ -32,7 +32,7 @@ def pixels(path):
     from PIL import Image
 
     try:
-        with Image.open(path) as image:
+        with open_regular(path) as file, Image.open(file) as image:
             return np.asarray(image.convert("RGB"))
     except Exception as error:  # of many kinds, among them SyntaxError
         raise PictureError(f"{path}: damaged, or not a picture") from error
@@ -55,8 +55,9 @@ def elements(path):
         A file that is no SVG.
     """
     try:
-        text = ElementTree.canonicalize(from_file=path, strip_text=True)
-    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        with open_regular(path) as file:
+            text = ElementTree.canonicalize(from_file=file, strip_text=True)
+    except (ElementTree.ParseError, ValueError, LookupError, RecursionError) as error:
         raise PictureError(f"{path}: damaged, or not SVG ({error})") from error
     return text.replace("<", "\n<").split("\n")
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 
-from .files import file_hash, write_whole
+from .files import file_hash, read_text, write_whole
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
@@ -61,7 +61,7 @@ def read_record(root, path):
         In words, where there is none to be read.
     """
     try:
-        record = json.loads((root / record_path(path)).read_text(encoding="utf-8"))
+        record = json.loads(read_text(root / record_path(path)))
         for name, kind in SHAPE.items():
             if not isinstance(record[name], kind):
                 raise TypeError

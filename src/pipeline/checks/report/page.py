@@ -14,12 +14,14 @@ import jinja2
 from ...config import expected, places
 from ...config.declared.kinds import KINDS
 from ...records.artifacts import load
-from ...records.files import file_hash
+from ...records.files import file_hash, read_bytes, read_text
+from ...records.pictures import PictureError
 from ...records.record import read_record
 from .. import contracts
 from ..claims import render as claims
 from ..claims.ledger import CORRECTED, FALSE
 from ..currency import MISSING, Currency
+from ..difference import not_as_made
 from ..sums import known_sums
 from . import numbers
 
@@ -87,6 +89,9 @@ class _Page:
         self.serves = places.served(self.variants)
         self.expected = expected.of_variants(self.variants)
         self.outdated = Currency(root, self.expected).outdated()
+        self.contracts = {each.folder: each for each in contracts.committed(checked)}
+        paper = self.contracts[places.PUBLISHED[places.PAPER]]
+        self.outdated |= not_as_made(root, paper)
         self.shown = {}  # every result behind what the page shows, in order
 
     def variant(self, name):
@@ -108,10 +113,10 @@ class _Page:
     def on_request(self):
         """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set."""
         found = []
-        for contract in contracts.committed(self.checked):
+        for contract in self.contracts.values():
             if not contract.on_request:
                 continue
-            outdated = Currency(self.root, contract.expected).outdated()
+            outdated = not_as_made(self.root, contract)
             made, folder = [], Path(contract.results).name
             for name, file in contract.drawn.items():
                 if not name.endswith(".png") or file in outdated:
@@ -129,7 +134,7 @@ class _Page:
     def claims(self):
         """The rows of CLAIMS.md, or none."""
         try:
-            return claims.read((self.root / places.LEDGER).read_text(encoding="utf-8"))
+            return claims.read(read_text(self.root / places.LEDGER))
         except (OSError, ValueError):
             return []
 
@@ -138,7 +143,7 @@ class _Page:
         found = []
         for path in self.shown:
             record = read_record(self.root, path)
-            commit = (record.get("commit") or "no commit")[:12]
+            commit = str(record.get("commit") or "no commit")[:12]
             found.append(
                 {
                     "path": path,
@@ -157,9 +162,12 @@ class _Page:
     def _measured(self, variant, scene):
         """The rows of a scene's numbers, and the one that tells."""
         block = self.variants[variant][scene]
-        ours = numbers.measured(
-            block, lambda stage: load(self.root / self.serves[variant, scene, stage])
-        )
+        data = {stage: self.serves[variant, scene, stage] for stage in places.stages(block)}
+        try:
+            ours = numbers.measured(block, lambda stage: load(self.root / data[stage]))
+        except (LookupError, TypeError, AttributeError, ArithmeticError):
+            files = ", ".join(data.values())
+            raise ValueError(f"not datasets of {scene}: delete {files} and run again") from None
         rows = numbers.beside(scene, ours)
         telling = KINDS[block["picture"]].telling
         return {"rows": rows, "telling": next(row for row in rows if row[0] == telling)}
@@ -183,7 +191,9 @@ class _Page:
 
     def _image(self, file):
         """Its bytes as text, and its size in pixels."""
-        data = (self.root / file).read_bytes()
+        data = read_bytes(self.root / file)
+        if len(data) < 24:
+            raise PictureError(f"{file}: damaged, or not a picture")
         wide, high = struct.unpack(">II", data[16:24])
         return {"data": base64.b64encode(data).decode(), "wide": wide, "high": high}
 
@@ -205,8 +215,7 @@ def _seconds(root, path):
     """How long the job took that made a result, as snakemake noted it, or None."""
     name = base64.urlsafe_b64encode(path.encode()).decode()
     try:
-        text = (root / ".snakemake" / "metadata" / name).read_text(encoding="utf-8")
-        job = json.loads(text)
+        job = json.loads(read_text(root / ".snakemake" / "metadata" / name))
         return float(job["endtime"]) - float(job["starttime"])
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -10,6 +10,7 @@ import yaml
 
 from ...checks.currency import DAMAGED, MISSING
 from ...config.expected import needed
+from ...records.files import obstacle
 from ...records.record import record_path
 from ...records.sources import ROOT
 from ..arguments import explained
@@ -17,6 +18,11 @@ from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
 LOGS = []  # snakemake's own, of the runs of this process, from the root
+# Options with which a run would not be one of this folder, and what is so instead.
+_ELSEWHERE = {
+    "directory": "results are made in the folder of ./reproduce: copy it to have them elsewhere",
+    "snakefile": "the Snakefile of this folder is run",
+}
 _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
 _SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
@@ -52,9 +58,13 @@ def options_of(arguments):
     from snakemake.exceptions import CliException, WorkflowError
 
     try:
-        return parser.parse_args(arguments)
+        options = parser.parse_args(arguments)
     except (CliException, WorkflowError, ValueError) as error:  # of a value, as in --cores x
         raise MisuseError(" ".join(str(error).split())) from None
+    for name, what in _ELSEWHERE.items():
+        if getattr(options, name):
+            raise MisuseError(f"--{name} is not used here: {what}")
+    return options
 
 
 def only_says(arguments) -> bool:
@@ -91,7 +101,7 @@ def make(currency, wanted, arguments) -> int:
     paths = needed(currency.expected, wanted)
     outdated = currency.outdated(paths)
     for path, why in outdated.items():
-        if (ROOT / path).is_dir():
+        if obstacle(ROOT / path):
             raise UsageError(f"{path}: {why}")
         for folder in Path(path).parents:
             if (ROOT / folder).exists() and not (ROOT / folder).is_dir():

@@ -8,6 +8,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry
 
+from ...records.files import disk_is_full
 from ...records.sources import ROOT
 from .names import step
 
@@ -68,9 +69,12 @@ class LogHandler(LogHandlerBase):
             if log.stat().st_mtime > self.started[job] - 2:  # some file systems keep whole seconds
                 lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
         said = [line.split(": ", 2)[2] for line in lines if line.startswith("pseudorigid: ")]
+        if said:
+            return said[-1]
         words = "".join(self.errors[-1:]).splitlines()
-        said = said or [line for line in words if line and not line.startswith("  File ")]
-        return said[-1] if said else "no reason is known"
+        words = [line for line in words if line and not line.startswith("  File ")]
+        full = disk_is_full(ROOT / self.results[job])
+        return full or (words[-1] if words else "no reason is known")
 
 
 def register() -> str:

@@ -6,10 +6,11 @@ import sys
 from contextlib import suppress
 
 from ...config import ConfigError, expected
+from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import hint
-from ..folder import MisuseError, UsageError, locked
+from ..folder import MisuseError, UsageError, locked, say
 
 RESULTS = ROOT / "results"
 # Beside results and their records: what words and jobs leave in these folders.
@@ -31,23 +32,32 @@ def run(given) -> int:
         if name not in there:
             has = f": there are {', '.join(there) or 'none'}"
             raise MisuseError(f"no folder results/{name}{hint(name, there) or has}")
-    names = given.folder or there
+    names = []
+    for name in given.folder or there:
+        if _is_inside(RESULTS / name / "file"):
+            names.append(name)
+        else:
+            say(f"results/{name} leads out of this folder: what is there stays")
     with locked():
         files = _made(given, names)
-        folders = [] if given.folder else [f for f in [ROOT / ".snakemake"] if f.is_dir()]
+        own = ROOT / ".snakemake"
+        folders = [own] if not given.folder and own.is_dir() and not own.is_symlink() else []
         if not files and not folders:
             print("nothing to delete")
             return 0
-        size = sum(file.stat().st_size for file in files) / 1e6
+        size = sum(file.lstat().st_size for file in files) / 1e6
         places = ", ".join([f"results/{name}" for name in names] + [f.name for f in folders])
         what = f"{len(files)} files, {size:.1f} MB, in {places}"
         if not given.yes and not _agreed(what):
             raise UsageError("nothing was deleted")
-        for file in files:
-            file.unlink()
-        for folder in folders:
-            shutil.rmtree(folder)
-        _remove_empty_folders(names)
+        try:
+            for file in files:
+                file.unlink()
+            for folder in folders:
+                shutil.rmtree(folder)
+            _remove_empty_folders(names)
+        except OSError as error:
+            raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
         print(f"deleted {what}")
     return 0
 
@@ -60,17 +70,27 @@ def _made(given, names):
         results = expected.of_all(given.checked)
         found |= {ROOT / path for path in (*results, *map(record_path, results))}
     for record in RESULTS.glob("*/provenance/*.json"):
-        with suppress(OSError, ValueError, KeyError, TypeError):
-            output = json.loads(record.read_text(encoding="utf-8"))["output"]["file"]
-            if ROOT / record_path(output) == record:
-                found |= {record, ROOT / output}
+        # A record may come from anywhere: it chooses between the two places that it can speak of.
+        folder = record.parents[1]
+        results = {
+            str(f.relative_to(ROOT)): f
+            for f in (folder / record.stem, folder / "figures" / record.stem)
+        }
+        with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
+            found |= {results[json.loads(read_text(record))["output"]["file"]], record}
     return sorted(
         file
         for file in found
         if file.is_file()
+        and _is_inside(file)
         and file.relative_to(RESULTS).parts[0] in names
         and str(file.relative_to(ROOT)) not in committed
     )
+
+
+def _is_inside(file):
+    """Whether a file is in this folder, and not where a link in its path leads."""
+    return file.parent.resolve() == ROOT.resolve() / file.parent.relative_to(ROOT)
 
 
 def _agreed(what):
@@ -84,5 +104,5 @@ def _agreed(what):
 def _remove_empty_folders(names):
     for name in names:
         for folder in sorted(RESULTS.glob(f"{name}/**/"), reverse=True):
-            if not any(folder.iterdir()):
+            if _is_inside(folder / "file") and not any(folder.iterdir()):
                 folder.rmdir()

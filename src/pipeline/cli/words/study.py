@@ -25,5 +25,5 @@ def run(given) -> int:
             for chart, (data, *_) in parts.CHARTS.items():
                 drawn = parts.drawn(chart)
                 files[parts.published(chart) if data in parts.FIXED else drawn] = drawn
-            figures.made(parts.FOLDER, files)
+            status = figures.made(parts.FOLDER, files)
     return status

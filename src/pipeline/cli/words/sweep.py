@@ -35,5 +35,5 @@ def run(given) -> int:
         with sweeping.progress(sweeps, currency, targets):
             status = running.make(currency, targets, options)
         if status == 0 and not running.only_says(options):
-            figures.made(places.ATLAS, files)
+            status = figures.made(places.ATLAS, files)
     return status

@@ -1,24 +1,21 @@
 """./reproduce verify: whether everything here is as committed."""
 
+import os
+
 from ...records.sources import ROOT
 from ..folder import MisuseError, one_line
 
-# What another tree has, or the folder of its results.
-TREE = ("results", "paper_figures", "figures", "*.nc", "*.png")
-
 
 def run(given) -> int:
-    """Compare the tree with its contracts, or with an archive; 0 where nothing is red."""
-    against = given.against and given.start / given.against
-    if against is not None and not against.exists():
-        raise MisuseError(f"verify: no archive or folder {against}")
-    if against is not None and against.is_dir() and not any(map(list, map(against.glob, TREE))):
-        raise MisuseError(f"verify: {against} is no tree of this project, and has no results")
-    if against is not None and not against.is_dir():
-        from ...checks import archive
+    """Compare the tree with its contracts, or with an archive or another tree; 0 if all is well."""
+    if given.against is None:
+        from ...checks.verify import verify
 
-        with one_line("verify: ", archive.ArchiveError):
-            return archive.verify(ROOT, given.checked, against)
-    from ...checks.verify import verify
+        return verify(ROOT, given.checked, given.strict)
+    place = given.start / given.against
+    if not given.against or not os.path.exists(place):
+        raise MisuseError(f"verify: no archive or folder {place if given.against else repr('')}")
+    from ...checks import archive
 
-    return verify(ROOT, given.checked, against, given.strict)
+    with one_line("verify: ", archive.ArchiveError):
+        return archive.verify(ROOT, given.checked, place)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import yaml
 
+from ...records.files import FileError, read_text
 from .document import check
 from .words import ConfigError
 
@@ -55,10 +56,11 @@ def load(path) -> dict:
 
 def _parse(path):
     try:
-        size = path.stat().st_size
-        if size > LARGEST:
-            raise ConfigError(f"has {size} bytes: expected at most {LARGEST}")
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+        if path.is_file() and path.stat().st_size > LARGEST:
+            raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST}")
+        return yaml.load(read_text(path), _Loader)
+    except FileError as error:
+        raise ConfigError(str(error).removeprefix(f"{path}: ")) from None
     except OSError as error:
         raise ConfigError(f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:

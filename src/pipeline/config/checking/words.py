@@ -8,8 +8,11 @@ class ConfigError(Exception):
     """What is wrong in the config, a line for each mistake: place, value, and what is allowed."""
 
     def __init__(self, *lines: str):
-        super().__init__("\n".join(lines))
-        self.lines = lines
+        # A key may have line breaks in it: a mistake stays on its line.
+        self.lines = tuple(
+            "".join(c if c.isprintable() else repr(c)[1:-1] for c in line) for line in lines
+        )
+        super().__init__("\n".join(self.lines))
 
 
 def refusal(place, value, allowed) -> str:

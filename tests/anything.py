@@ -1,0 +1,54 @@
+"""Random documents and bytes for the tests of what somebody else may have written."""
+
+import copy
+
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+
+SCALARS = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5)
+JSON = st.recursive(
+    SCALARS,
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3)
+    ),
+    max_leaves=5,
+)
+PATHS = ["/tmp/x", "../../x", "results/paper/../../x", "\0", "", "x" * 300, "/proc/self/mem", ".."]
+VALUES = JSON | st.sampled_from(PATHS)
+
+
+@st.composite
+def edited(draw, document):
+    """A JSON document in which some places hold something else, or nothing."""
+    document = copy.deepcopy(document)
+    for _ in range(draw(st.integers(1, 3))):
+        place = document
+        while isinstance(place, (dict, list)) and place:
+            keys = sorted(place) if isinstance(place, dict) else range(len(place))
+            key = draw(st.sampled_from(list(keys)))
+            if not isinstance(place[key], (dict, list)) or draw(st.integers(0, 2)) == 0:
+                if draw(st.booleans()):
+                    place[key] = draw(VALUES)
+                elif isinstance(place, dict):
+                    place[draw(st.sampled_from(PATHS))] = place.pop(key)
+                else:
+                    place.append(draw(VALUES))
+                break
+            place = place[key]
+    return document
+
+
+@st.composite
+def spoilt(draw, data):
+    """Bytes of which some were changed, cut out, doubled or appended."""
+    for _ in range(draw(st.integers(1, 3))):
+        start = draw(st.integers(0, len(data))) // draw(st.sampled_from([1, 512, 1]))
+        size = draw(st.sampled_from([1, 3, 12, 512, 5000]))
+        part = draw(st.binary(max_size=20) | st.just(data[start : start + size]))
+        data = data[:start] + part + data[start + draw(st.sampled_from([0, size, len(part)])) :]
+    return data
+
+
+FUZZ = settings(
+    max_examples=20, deadline=None, suppress_health_check=[*HealthCheck], derandomize=True
+)

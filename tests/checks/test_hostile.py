@@ -1,0 +1,422 @@
+"""Archives, records and manifests that somebody else wrote: one line each, nothing outside."""
+
+import gzip
+import hashlib
+import io
+import json
+import os
+import shutil
+import subprocess
+import tarfile
+from contextlib import redirect_stdout, suppress
+
+import netCDF4
+import pytest
+from anything import FUZZ, JSON, PATHS, edited, spoilt
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from verdicts import accepting, verified
+
+from pipeline import config
+from pipeline.checks import archive, manifest
+from pipeline.checks.currency import Currency
+from pipeline.checks.verify import verify
+from pipeline.cli.arguments import Given
+from pipeline.cli.words import clean
+from pipeline.config import expected
+from pipeline.records.files import FileError
+from pipeline.records.record import record_path
+
+DATA = "results/paper/motion_fig3.nc"
+DRAWING = "results/paper/figures/fig3.png"
+FIG3 = "paper_figures/fig3.png"
+FORGED = "differs from the committed one, although its config, sources and packages do not"
+
+
+@pytest.fixture(scope="module")
+def packed(accepted, tmp_path_factory):
+    path = tmp_path_factory.mktemp("archive") / "a.tar"
+    archive.write(accepted.path, config.load(accepted.config), path)
+    return path
+
+
+def against(tree, place):
+    """(exit status, lines) of verify --against."""
+    with redirect_stdout(io.StringIO()) as text:
+        status = archive.verify(tree.path, config.load(tree.config), place)
+    return status, text.getvalue().splitlines()
+
+
+# ---- archives ----
+
+
+def entry(name, data=b"x", kind=tarfile.REGTYPE, form=tarfile.USTAR_FORMAT, size=None):
+    """The bytes of one entry of a tar."""
+    about = tarfile.TarInfo(name)
+    about.type, about.linkname = kind, "/etc/passwd" if kind in b"12" else ""
+    about.size = len(data) if size is None else size
+    return about.tobuf(form) + data + bytes(-len(data) % 512)
+
+
+def whole(*entries):
+    """A tar of entries and fitting sums, ended as it should be."""
+    found = b"".join(entries) + bytes(1024)
+    return found + bytes(-len(found) % tarfile.RECORDSIZE)
+
+
+def with_sums(*names):
+    """A tar with files of these names, and sums that fit."""
+    digest = hashlib.sha256(b"x").hexdigest()
+    sums = "".join(f"{digest}  {name}\n" for name in names).encode()
+    files = [entry(f"pseudorigid/{name}") for name in names]
+    return whole(*files, entry("pseudorigid/SHA256SUMS", sums))
+
+
+HOSTILE = {
+    "absolute": with_sums("//tmp/absolute.txt"),
+    "above": with_sums("../above.txt"),
+    "dots": with_sums("a/../../above.txt"),
+    "a file as a folder": with_sums("paper_figures/fig3.png", "paper_figures/fig3.png/x"),
+    "twice": with_sums("a", "a"),
+    "control characters": with_sums("a\x1b[2J\nb"),
+    "a long name": whole(entry(f"pseudorigid/{'n' * 300}", form=tarfile.GNU_FORMAT)),
+    "a name of pax": whole(entry("pseudorigid/ä" + "n" * 300, form=tarfile.PAX_FORMAT)),
+    "huge": whole(entry("pseudorigid/x", size=10**12, form=tarfile.GNU_FORMAT)),
+    "large": whole(entry("pseudorigid/x", size=8 * 10**9)),
+    "negative": whole(entry("pseudorigid/x", size=-512, form=tarfile.GNU_FORMAT)),
+    "a huge header": entry("x", size=10**12, kind=tarfile.XHDTYPE, form=tarfile.GNU_FORMAT),
+    "many": b"".join(entry(f"pseudorigid/{i}", b"") for i in range(10_050)),
+    "compressed": gzip.compress(whole(entry("pseudorigid/x"))),
+    "no text": whole(entry("pseudorigid/x").replace(b"pseudorigid/x", b"pseudorigid/\xff")),
+    "zeros": bytes(10240),
+    **{
+        f"of type {kind}": whole(entry("pseudorigid/x", b"", kind))
+        for kind in (b"\0", b"1", b"2", b"3", b"4", b"5", b"6", b"7", b"S", b"L", b"x")
+    },
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_archive_is_one_line(accepted, tmp_path, name):
+    path = tmp_path / "h.tar"
+    path.write_bytes(HOSTILE[name])
+    with pytest.raises(archive.ArchiveError, match=r"^\S+h.tar: [^\n\x1b]{10,200}$"):
+        against(accepted, path)
+
+
+def test_bytes_beside_the_files_do_not_pass(packed, tmp_path):
+    good, path = packed.read_bytes(), tmp_path / "h.tar"
+    for more in (b"x" * 700, bytes(700), bytes(10240), good):
+        path.write_bytes(good + more)
+        with pytest.raises(archive.ArchiveError, match="bytes after its end"):
+            archive.read(path)
+    for place, part in ((100, b"0000777"), (136, b"00000000001"), (265, b"root")):  # of a header
+        path.write_bytes(good[:place] + part + good[place + len(part) :])
+        with pytest.raises(archive.ArchiveError):
+            archive.read(path)
+    files = archive.read(packed)
+    first = next(iter(files))
+    end = 512 + len(files[first])
+    assert end % 512
+    path.write_bytes(good[:end] + b"x" + good[end + 1 :])
+    with pytest.raises(archive.ArchiveError, match="bytes between"):
+        archive.read(path)
+
+
+# ---- folders ----
+
+
+def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
+    other = accepted.copy(tmp_path / "other")
+    assert against(accepted, other.path)[0] == 0
+    subprocess.run(["tar", "-xf", packed, "-C", tmp_path], check=True)
+    status, lines = against(accepted, tmp_path / "pseudorigid")
+    assert (status, lines[-1]) == (0, f"{len(lines) - 2} identical")
+    for file in (DATA, FIG3):
+        (other.path / file).write_text("garbage")
+    with netCDF4.Dataset(other.path / "results/paper/motion_fig4.nc", "a") as dataset:
+        dataset["strain"][3] = 0.5
+    (other.path / "paper_figures" / "fig7.svg").unlink()
+    status, lines = against(accepted, other.path)
+    words = {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if line[:1].strip()}
+    assert status == 1
+    assert words[FIG3] == words[DATA] == words["results/paper/motion_fig4.nc"] == "differs"
+    assert words["paper_figures/fig7.svg"] == "not in the folder"
+    text = "\n".join(lines)
+    assert f"drawing: the other {FIG3}: damaged, or not a picture" in text
+    assert f"data: the other {DATA}: damaged, or not netCDF" in text
+    assert "variable strain differs from block 0 on" in text and " ulp, compared with the " in text
+
+
+def test_a_folder_that_is_no_tree_is_one_line(accepted, tmp_path):
+    folder = tmp_path / "garbage"
+    shutil.copytree(accepted.path / "paper_figures", folder / "paper_figures")
+    (folder / "x.nc").write_text("garbage")
+    for content in ("garbage", "{}", None):
+        path = folder / "paper_figures" / "MANIFEST.json"
+        path.unlink()
+        if content:
+            path.write_text(content)
+        else:
+            os.mkfifo(path)
+        with pytest.raises(
+            archive.ArchiveError, match=r"garbage is no tree of this project, [^\n]+$"
+        ):
+            against(accepted, folder)
+
+
+# ---- what is forged ----
+
+
+def forge(tree, path, content=None):
+    """Change a result, and all records as if that were what was made."""
+    file, provenance = tree.path / path, tree.path / "results" / "paper" / "provenance"
+    if content is None:
+        with netCDF4.Dataset(file, "a") as dataset:
+            dataset["strain"][:] = 0.5 * dataset["strain"][:]
+    else:
+        file.write_bytes(content)
+    digest = hashlib.sha256(file.read_bytes()).hexdigest()
+    for record in provenance.glob("*.json"):
+        content = json.loads(record.read_text())
+        if content["output"]["file"] == path:
+            content["output"]["sha256"] = digest
+        if path in content["inputs"]:
+            content["inputs"][path] = digest
+        record.write_text(json.dumps(content))
+
+
+def test_a_forged_dataset_is_refused_by_all_until_it_is_made_again(moved):
+    forge(moved, DATA)
+    checked = config.load(moved.config)
+    assert not Currency(moved.path, expected.of_scenes(checked["variants"])).outdated()
+    found = verified(moved)
+    assert (found.status, set(found.wrong)) == (1, {"fig3.png", "fig3.svg"})
+    assert found.findings[0] == f"{DATA}: {FORGED}: delete it: run ./reproduce"
+    before = (moved.path / "paper_figures" / "MANIFEST.json").read_bytes()
+    status, (line,) = accepting(moved)
+    assert (status, line) == (
+        1,
+        f"reproduce accept: {DATA}: {FORGED}: delete it: run ./reproduce first",
+    )
+    assert (moved.path / "paper_figures" / "MANIFEST.json").read_bytes() == before
+    with pytest.raises(archive.ArchiveError, match=f"{DATA}: {FORGED}"):
+        archive.write(moved.path, checked, moved.path / "a.tar")
+    assert moved.run("report").returncode == 0
+    page = (moved.path / "results" / "report" / "report.html").read_text()
+    assert f"not current: made from {DATA}, which is not current" in page
+    (moved.path / DATA).unlink()
+    assert moved.run("fig3").returncode == 0
+    assert verified(moved)[:4] == (0, {}, [], [])
+
+
+def test_a_forged_picture_is_refused(moved):
+    content = (moved.path / "paper_figures" / "fig4.png").read_bytes()
+    forge(moved, DRAWING, content)
+    (moved.path / FIG3).write_bytes(content)
+    status, (line,) = accepting(moved)
+    assert status == 1 and f"{DRAWING}: {FORGED}" in line
+    assert f"{DRAWING}: {FORGED}: delete it: run ./reproduce" in verified(moved).findings
+
+
+def test_another_source_explains_other_data(moved):
+    """Whoever changes how data are made can accept them."""
+    module = moved.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
+    text = module.read_text()
+    assert text.count('"strain"') >= 1
+    with module.open("a") as file:
+        file.write("\n_scene_motion = scene_motion\n\n\ndef scene_motion(*a, **b):\n")
+        file.write(
+            "    found = _scene_motion(*a, **b)\n    found['strain'] *= 0.5\n    return found\n"
+        )
+    moved.warm()
+    assert moved.run().returncode == 0
+    assert "fig3.png" in verified(moved).wrong
+    status, lines = accepting(moved)
+    assert status == 0 and any(line.startswith("fig3.png  data: ") for line in lines)
+    assert verified(moved).status == 0
+
+
+# ---- what is no regular file ----
+
+OTHERS = {
+    "a FIFO": os.mkfifo,
+    "a folder": os.mkdir,
+    "a device": lambda p: os.symlink("/dev/zero", p),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+@pytest.mark.parametrize(
+    "file", [FIG3, DATA, DRAWING, record_path(DATA), "paper_figures/MANIFEST.json"]
+)
+def test_what_is_no_file_hangs_nothing(moved, tmp_path, file, what):
+    (moved.path / file).unlink()
+    OTHERS[what](moved.path / file)
+    said = f"{file}: {what} stands in its place, move it away"
+    if file == record_path(DATA):
+        said = f"{DATA}: its record {file} cannot be read: run ./reproduce"
+    with redirect_stdout(io.StringIO()) as text:
+        assert verify(moved.path, config.load(moved.config))
+    assert said in text.getvalue()
+    if file != "paper_figures/MANIFEST.json":
+        status, (line,) = accepting(moved)
+        assert status == 1 and line.startswith(f"reproduce accept: {said}")
+    with pytest.raises(archive.ArchiveError, match=f"^{said}"):
+        archive.write(moved.path, config.load(moved.config), tmp_path / "a.tar")
+
+
+def test_a_run_passes_by_what_is_no_file(moved):
+    """The table names it, and the rest is published."""
+    for name, make in (("fig3.png", os.mkdir), ("fig4.png", os.mkfifo), ("fig7.png", os.unlink)):
+        (moved.path / "paper_figures" / name).unlink()
+        if make is not os.unlink:
+            make(moved.path / "paper_figures" / name)
+    result = moved.run()
+    assert result.returncode == 1
+    rows = dict(line.split(maxsplit=2)[1:] for line in result.stdout.splitlines() if ".png" in line)
+    assert rows[FIG3] == "not published: a folder stands in its place, move it away"
+    assert rows["paper_figures/fig4.png"] == rows[FIG3].replace("folder", "FIFO")
+    assert "identical" in rows["paper_figures/fig7.png"]
+    (moved.path / DRAWING).unlink()
+    os.mkfifo(moved.path / DRAWING)
+    result = moved.run()
+    line = f"reproduce: {DRAWING}: a FIFO stands in its place, move it away\n"
+    assert (result.returncode, result.stdout) == (1, line)
+
+
+@pytest.mark.parametrize("word", ["verify", "-n", "archive"])
+def test_a_config_that_is_no_file_is_one_line(moved, word):
+    moved.config.unlink()
+    os.mkfifo(moved.config)
+    result = moved.run(word)
+    said = "config.yaml: a FIFO stands in its place, move it away\n"
+    assert (result.returncode, result.stdout) == (1, said)
+
+
+def test_an_archive_cannot_be_written_where_there_are_no_files(accepted, tmp_path):
+    with pytest.raises(FileError, match=r"^/proc/x.tar: cannot be written: No such file [^\n]+$"):
+        archive.write(accepted.path, config.load(accepted.config), "/proc/x.tar")
+    with pytest.raises(FileError, match=r"File name too long$"):
+        archive.write(accepted.path, config.load(accepted.config), tmp_path / ("n" * 300))
+    os.mkfifo(tmp_path / "fifo")
+    with pytest.raises(archive.ArchiveError, match="it is no regular file"):
+        archive.write(accepted.path, config.load(accepted.config), tmp_path / "fifo")
+
+
+@pytest.mark.parametrize("option", ["--directory", "-d", "--direct"])
+def test_a_run_is_of_its_own_folder(accepted, tmp_path, option):
+    result = accepted.run("fig3", option, str(tmp_path / "elsewhere"), "--forceall")
+    assert result.returncode == 2
+    assert result.stdout.startswith("reproduce: --directory is not used here: ")
+    assert not (tmp_path / "elsewhere").exists()
+
+
+# ---- anything at all ----
+
+
+@pytest.fixture
+def around(moved, monkeypatch):
+    """A function that says what is around a copy, which words that delete take for their own."""
+    monkeypatch.setattr(clean, "ROOT", moved.path)
+    monkeypatch.setattr(clean, "RESULTS", moved.path / "results")
+    (moved.path.parent / "victim.nc").write_text("mine")
+
+    def listed():
+        files = sorted(moved.path.parent.rglob("*"))
+        return [(str(f), f.lstat().st_size) for f in files if not f.is_relative_to(moved.path)]
+
+    return listed
+
+
+def everything(tree, checked):
+    """What each word that reads records and manifests says, and what clean would delete."""
+    with redirect_stdout(io.StringIO()) as text:
+        verify(tree.path, checked)
+        accepting(tree)
+        try:
+            archive.write(tree.path, checked, tree.path / "a.tar")
+        except (archive.ArchiveError, FileError) as error:
+            print(error)
+    (tree.path / "a.tar").unlink(missing_ok=True)
+    given = Given(folder=[], yes=True)
+    given.config = checked
+    names = ["paper"]
+    for file in clean._made(given, names):
+        assert file.resolve().is_relative_to(tree.path / "results" / "paper")
+    return text.getvalue()
+
+
+@pytest.mark.slow
+def test_any_archive(packed, accepted, tmp_path):
+    before, path = packed.read_bytes(), tmp_path / "a.tar"
+
+    @settings(FUZZ, max_examples=200)
+    @given(data=spoilt(before) | st.binary(max_size=2000))
+    def trial(data):
+        path.write_bytes(data)
+        if data != before:
+            with pytest.raises(archive.ArchiveError, match=r"^[^\n]+$"):
+                against(accepted, path)
+
+    trial()
+    assert [*tmp_path.iterdir()] == [path]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["motion_fig3.nc", "fig3.png", "absent.json"])
+def test_any_record(moved, around, name):
+    path = moved.path / "results" / "paper" / "provenance" / f"{name}.json"
+    before, checked, outside = path.read_text(), config.load(moved.config), around()
+
+    @FUZZ
+    @given(document=edited(json.loads(before)) | JSON)
+    def trial(document):
+        path.write_text(json.dumps(document))
+        everything(moved, checked)
+        assert around() == outside
+
+    trial()
+
+
+@pytest.mark.slow
+def test_any_manifest(moved, around):
+    """Also with a checksum that fits: anybody can compute it."""
+    path = moved.path / "paper_figures" / "MANIFEST.json"
+    before, checked, outside = path.read_text(), config.load(moved.config), around()
+
+    @FUZZ
+    @given(document=edited(json.loads(before)) | JSON, fitting=st.booleans())
+    def trial(document, fitting):
+        if fitting and isinstance(document, dict):
+            document.pop("checksum", None)
+            with suppress(ValueError):
+                document["checksum"] = manifest._checksum(document)
+        path.write_text(json.dumps(document))
+        with redirect_stdout(io.StringIO()):
+            verify(moved.path, checked)
+        with suppress(archive.ArchiveError):
+            archive.write(moved.path, checked, moved.path / "a.tar")
+        accepting(moved)
+        assert around() == outside
+
+    trial()
+
+
+@pytest.mark.slow
+def test_any_sums(moved, around):
+    path = moved.path / "paper_figures" / "SHA256SUMS"
+    before, checked, outside = path.read_bytes(), config.load(moved.config), around()
+    digest = hashlib.sha256(b"mine").hexdigest()
+    named = st.sampled_from([*PATHS[:4], "../../victim.nc", "a\x1bb"]).map(
+        lambda name: before + f"{digest}  {name}\n".encode()
+    )
+
+    @FUZZ
+    @given(data=spoilt(before) | named)
+    def trial(data):
+        path.write_bytes(data)
+        everything(moved, checked)
+        assert around() == outside
+
+    trial()

@@ -1,0 +1,73 @@
+"""Files: what is read, what a full disk says, and what a failing job leaves."""
+
+import errno
+import importlib.util
+import os
+import socket
+import sys
+from collections import namedtuple
+from types import SimpleNamespace
+
+import pytest
+from project import ROOT
+
+from pipeline.records import files
+
+Usage = namedtuple("Usage", "total used free")
+
+
+def test_only_regular_files_are_opened(tmp_path, monkeypatch):
+    os.mkfifo(tmp_path / "a FIFO")
+    (tmp_path / "a folder").mkdir()
+    (tmp_path / "a device").symlink_to("/dev/zero")
+    with socket.socket(socket.AF_UNIX) as other:
+        monkeypatch.chdir(tmp_path)  # a socket's name is short
+        other.bind("a socket")
+    for what in ("a FIFO", "a folder", "a device", "a socket"):
+        words = f"{what} stands in its place, move it away"
+        assert files.obstacle(tmp_path / what) == words
+        assert files.file_hash(tmp_path / what) is None
+        with pytest.raises(files.FileError, match=f"/{what}: {words}$"):
+            files.read_bytes(tmp_path / what)
+    (tmp_path / "loop").symlink_to("loop")
+    assert files.obstacle(tmp_path / "loop").startswith("cannot be read: Too many levels")
+    for missing in ("none", "a file/below"):
+        (tmp_path / "a file").touch()
+        assert files.obstacle(tmp_path / missing) is files.file_hash(tmp_path / missing) is None
+    (tmp_path / "link").symlink_to("a file")
+    assert files.read_text(tmp_path / "link") == ""
+
+
+@pytest.mark.parametrize(
+    ("number", "usage", "words"),
+    [
+        (errno.ENOSPC, Usage(10**9, 10**9, 0), "the disk is full, 0.0 MB are left"),
+        (errno.EACCES, Usage(10**9, 10**9, 0), "the disk is full, 0.0 MB are left"),
+        (None, Usage(10**9, 10**9, 0), "the disk is full, 0.0 MB are left"),
+        (errno.ENOENT, Usage(0, 0, 0), "No such file or directory"),
+        (errno.EACCES, Usage(0, 0, 0), "Permission denied"),
+        (errno.EROFS, Usage(10**9, 10**9, 0), "Read-only file system"),
+        (errno.ENOSPC, Usage(10**9, 0, 10**9), "No space left on device"),
+    ],
+)
+def test_a_disk_is_full_only_if_it_is(tmp_path, monkeypatch, number, usage, words):
+    monkeypatch.setattr(files.shutil, "disk_usage", lambda path: usage)
+    error = OSError(number, os.strerror(number)) if number else RuntimeError("NetCDF: HDF error")
+    refused = pytest.raises(files.FileError, match=f"cannot be written: {words}$")
+    with refused, files.replacing(tmp_path / "new" / "x"):
+        raise error
+
+
+def test_a_failing_job_makes_room_for_its_log(tmp_path, monkeypatch):
+    """Its output goes first: on a full disk the reason could not be written beside it."""
+    spec = importlib.util.spec_from_file_location("job", ROOT / "workflow" / "scripts" / "job.py")
+    job = importlib.util.module_from_spec(spec)
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)  # which the module sets
+    spec.loader.exec_module(job)
+    output, log = tmp_path / "x.nc", tmp_path / "x.log"
+    output.touch()
+    snakemake = SimpleNamespace(log=[log], output=[output, tmp_path / "none"], wildcards={})
+    with pytest.raises(SystemExit), job.one_line_errors(snakemake):
+        raise ValueError("the disk is full")
+    assert not output.exists()
+    assert log.read_text().endswith("the disk is full\n")
