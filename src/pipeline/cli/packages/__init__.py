@@ -3,14 +3,12 @@
 `reproduce` calls `set_up` before any package is there: only the standard library is used here.
 """
 
-import ast
 import fcntl
 import importlib.util
 import os
 import re
 import shutil
 import signal
-import ssl
 import subprocess
 import sys
 import tempfile
@@ -19,9 +17,9 @@ from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 
-from ..records.sources import ROOT
-from . import activation
-from .folder import UsageError, interruptible, locked, say
+from ...records.sources import ROOT
+from ..folder import UsageError, interruptible, locked, say
+from . import activation, indexes
 
 VENV = ROOT / ".venv"
 LOG = VENV / "install.log"  # made first: a .venv with it is ours
@@ -30,20 +28,6 @@ CONTENTS = VENV / "contents"  # what lies in site-packages; `reproduce` looks wh
 MADE = ROOT / ".venv.made"  # the inode of the .venv that was made here
 LINK = "made-by-reproduce"
 TEXT = "installing the locked packages into .venv (once)"
-# Settings of pip that choose where packages come from, and their names for uv.
-SOURCES = {
-    "index-url": "UV_DEFAULT_INDEX",
-    "extra-index-url": "UV_INDEX",
-    "find-links": "UV_FIND_LINKS",
-    "trusted-host": "UV_INSECURE_HOST",
-    "cert": "SSL_CERT_FILE",
-    "client-cert": "SSL_CLIENT_CERT",
-    "proxy": "ALL_PROXY",
-}
-OF_PIP = (*SOURCES, "no-index", "timeout", "default-timeout", "retries", "keyring-provider")
-# The same for uv's own settings; others could install elsewhere, or something else.
-OF_UV = r"UV_(\w*INDEX|FIND_LINKS|KEYRING|INSECURE_HOST|SYSTEM_CERTS|NATIVE_TLS|HTTP|CACHE_DIR"
-OF_UV += r"|CONFIG_FILE|CREDENTIALS|CONCURRENT|OFFLINE|REQUEST)"
 
 
 def add_packages(name: str) -> None:
@@ -130,15 +114,13 @@ def _make():
     with _linked() as root:
         _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", f"{root}/.venv"]))
         activation.adopt(VENV, f"{root}/.venv")
-    # A relative path, so that the folder may move.
-    (_site() / "pseudorigid.pth").write_text("../../../../src\n")
     _install(["build", "lock"], TEXT)
 
 
 def _mend():
     """Install the packages again in a .venv that lacks some; what a user added stays."""
     STAMP.unlink()
-    missing = [name for name in CONTENTS.read_text().split("\n") if not (_site() / name).exists()]
+    missing = [name for name in CONTENTS.read_text().splitlines() if not (_site() / name).exists()]
     if missing:
         names = ["lock", *(file.name.removesuffix("-stamp") for file in VENV.glob("*-stamp"))]
         _install(names, f".venv lacks {missing[0]}: installing its packages again", again=True)
@@ -200,24 +182,22 @@ def _install(names, text, again=False):
     with _linked() as root, _told(text, names) as tell:
         python = f"{root}/.venv/bin/python"
         pip = _pip(python)
-        settings = _pip_settings(pip)
+        settings = indexes.pip_settings(pip)
         source = []
         if os.environ.get("PSEUDORIGID_WHEELS"):
             source = ["--no-index", "--find-links", os.path.dirname(root) + "/wheels"]
+        elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
+            source = ["--no-index"]
         how = ["--require-hashes", *source, "-r"]
         of_pip = [*pip, "install", "--no-compile", "--progress-bar=off", *how]
-        pip_environment = _environment() | {
-            f"PIP_{name.upper().replace('-', '_')}": value for name, value in settings.items()
-        }
-        pip_environment |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
-        pip_environment["PIP_DISABLE_PIP_VERSION_CHECK"] = "1"
+        pip_environment = indexes.pip_environment(settings)
 
         def by_pip(name, *more):
             command = [*of_pip, f"{root}/requirements/{name}.txt", *more]
             return _run(command, pip_environment, tell)
 
         uv = _uv() or (by_pip("uv", "--only-binary=:all:", "--retries=1") and _uv())
-        environment = _uv_environment(settings)
+        environment = indexes.uv_environment(settings)
         mine = "UV_CACHE_DIR" not in environment
         if mine:  # beside the packages, which are then links to it, and removed after them
             environment["UV_CACHE_DIR"] = f"{root}/.venv/cache/uv"
@@ -233,11 +213,13 @@ def _install(names, text, again=False):
             shutil.rmtree(VENV / "cache" / "uv", ignore_errors=True)
         activation.adopt(VENV, f"{root}/.venv")
         activation.place_scripts(VENV)
-    listed = CONTENTS.read_text().split("\n") if CONTENTS.exists() else ["pseudorigid.pth"]
+    # A relative path, so that the folder may move.
+    (_site() / "pseudorigid.pth").write_text("../../../../src\n")
+    listed = CONTENTS.read_text().splitlines() if CONTENTS.exists() else ["pseudorigid.pth"]
     entries = _entries(name for name in names if name != "build") | {
         name for name in listed if (_site() / name).exists()
     }
-    CONTENTS.write_text("\n".join(sorted(entries)))
+    CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
 
 
 def _pip(python):
@@ -266,40 +248,6 @@ def _uv():
     return None
 
 
-def _pip_settings(pip):
-    """Where pip takes packages from: its files' settings, over which its variables go."""
-    said = subprocess.run(
-        [*pip, "config", "list"], capture_output=True, text=True, check=False, env=os.environ
-    )
-    found = re.findall(r"^(global|install|:env:)\.([\w-]+)=(.+)$", said.stdout, re.M)
-    found.sort(key=lambda item: ("global", "install", ":env:").index(item[0]))
-    return {name: ast.literal_eval(value) for _, name, value in found if name in OF_PIP}
-
-
-def _environment():
-    """The present environment without what would install elsewhere, or something else."""
-    others = r"PIP_|UV_|VIRTUAL_ENV$|CONDA_PREFIX$|SETUPTOOLS_|DISTUTILS_"
-    kept = {name: value for name, value in os.environ.items() if not re.match(others, name)}
-    return kept | {"LC_ALL": "C.UTF-8"}  # setuptools asks the locale
-
-
-def _uv_environment(settings):
-    """The environment for uv: its own settings, or where there are none those of pip."""
-    own = {name: value for name, value in os.environ.items() if re.match(OF_UV, name)}
-    home = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
-    files = [Path(home, "uv", "uv.toml"), Path("/etc/uv/uv.toml"), Path("/etc/xdg/uv/uv.toml")]
-    theirs = {SOURCES[name]: value for name, value in settings.items() if name in SOURCES}
-    if any("INDEX" in name or name == "UV_CONFIG_FILE" for name in own) or any(
-        file.exists() for file in files
-    ):
-        theirs = {}
-    # pip looks for a version in all indexes; what it is, its hash decides.
-    usual = {"UV_INDEX_STRATEGY": "unsafe-best-match"}
-    if ssl.get_default_verify_paths().cafile:
-        usual["UV_SYSTEM_CERTS"] = "1"
-    return _environment() | usual | theirs | own
-
-
 def _entries(names):
     """What the packages of requirements/NAME.txt have put into site-packages."""
     pinned = {name.lower() for each in names for name in _pins(each)}
@@ -324,7 +272,7 @@ def _site():
 
 @contextmanager
 def _told(text, names):
-    """Tell in one line what is done; yields what shows on a terminal how many packages are there."""
+    """Tell in one line what is done; yields what counts the packages on a terminal."""
     total = sum(len(_pins(name)) for name in names)
     live = sys.stderr.isatty()
     if not live:
@@ -352,7 +300,7 @@ def _run(command, environment=None, tell=lambda: None):
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=log,
-            env=environment or _environment(),
+            env=environment or indexes.neutral_environment(),
             cwd=VENV,
             close_fds=False,  # the lock
         )

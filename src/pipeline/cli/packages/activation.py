@@ -51,6 +51,7 @@ def adopt(venv, written):
 
 def place_scripts(venv):
     """Write the present place of `venv` into its scripts, and into `venv`/place."""
+    venv = venv.resolve()
     place = venv / "place"
     if place.exists():
         _free(venv / "bin", _read(place))
