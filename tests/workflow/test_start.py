@@ -302,12 +302,13 @@ def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     assert said == f"reproduce: waiting for another ./reproduce in this folder to end\n{LINE}"
 
 
+INSTALLERS = ["uv", pytest.param("pip", marks=pytest.mark.slow)]
 NAMES = ("plain", 'it\'s "$HOME" `here`; a\\b', "with a\nnewline")
 SHELLS = {"sh": ".", "dash": ".", "bash": "source", "zsh": "source", "fish": "source"}
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("installer", ["uv", "pip"])
+@pytest.mark.parametrize("installer", INSTALLERS)
 def test_the_venv_works_as_any_other_in_any_folder_and_moved(set_up, name, installer):
     if installer == "uv":
         set_up.with_uv()
@@ -342,7 +343,7 @@ def test_a_folder_that_path_cannot_hold_says_so(set_up):
     assert set_up.shell(". .venv/bin/activate").startswith("reproduce: PATH cannot hold a folder")
 
 
-@pytest.mark.parametrize("installer", ["uv", "pip"])
+@pytest.mark.parametrize("installer", INSTALLERS)
 def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up, installer):
     if installer == "uv":
         set_up.with_uv()
@@ -364,7 +365,7 @@ def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up,
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
 
 
-@pytest.mark.parametrize("installer", ["uv", "pip"])
+@pytest.mark.parametrize("installer", INSTALLERS)
 def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
     if installer == "uv":
         set_up.with_uv()
@@ -387,7 +388,7 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
     assert (status, said) == (0, f"handed over fig3\n{LINE}")
 
 
-@pytest.mark.parametrize("installer", ["uv", "pip"])
+@pytest.mark.parametrize("installer", INSTALLERS)
 def test_settings_choose_where_packages_come_from_and_nothing_else(set_up, installer):
     if installer == "uv":
         set_up.with_uv()

@@ -48,6 +48,26 @@ def add_packages(name: str) -> None:
         stamp.write_bytes(wanted)
 
 
+def told_damage() -> bool:
+    """Whether a file of a locked package is missing or cut; if so, say it, and have it mended.
+
+    The next ./reproduce misses the file and installs the packages again.
+    """
+    if Path(sys.prefix).resolve() != VENV.resolve() or not CONTENTS.is_file():
+        return False
+    for package in _installed(_names()):
+        for file in package.files or ():
+            place = _site() / file
+            size = place.stat().st_size if place.is_file() else None
+            if file.parts[0] != ".." and file.suffix != ".pyc" and size != (file.size or size):
+                place.unlink(missing_ok=True)
+                with CONTENTS.open("a") as contents:
+                    contents.write(f"{file}\n")
+                say(f".venv is damaged: {file}: run ./reproduce again to mend it")
+                return True
+    return False
+
+
 def set_up(wanted: str, arguments: list[str]) -> None:
     """Make .venv, or mend it, and hand over to `python -m pipeline`.
 
@@ -122,8 +142,7 @@ def _mend():
     STAMP.unlink()
     missing = [name for name in CONTENTS.read_text().splitlines() if not (_site() / name).exists()]
     if missing:
-        names = ["lock", *(file.name.removesuffix("-stamp") for file in VENV.glob("*-stamp"))]
-        _install(names, f".venv lacks {missing[0]}: installing its packages again", again=True)
+        _install(_names(), f".venv lacks {missing[0]}: installing its packages again", again=True)
 
 
 def _remove():
@@ -248,13 +267,24 @@ def _uv():
     return None
 
 
+def _names():
+    """The names of the requirements that .venv holds."""
+    return ["lock", *(file.name.removesuffix("-stamp") for file in VENV.glob("*-stamp"))]
+
+
+def _installed(names):
+    """The packages of requirements/NAME.txt in site-packages."""
+    pinned = {name.lower() for each in names for name in _pins(each)}
+    for package in metadata.distributions(path=[str(_site())]):
+        if re.sub(r"[-_.]+", "-", package.name).lower() in pinned:
+            yield package
+
+
 def _entries(names):
     """What the packages of requirements/NAME.txt have put into site-packages."""
-    pinned = {name.lower() for each in names for name in _pins(each)}
     return {
         file.parts[0]
-        for package in metadata.distributions(path=[str(_site())])
-        if re.sub(r"[-_.]+", "-", package.name).lower() in pinned
+        for package in _installed(names)
         for file in package.files or ()
         if file.parts[0] not in ("..", "__pycache__")
     }
