@@ -1,6 +1,5 @@
 """What is refused before anything starts, each in one line."""
 
-import hashlib
 import os
 import re
 import shutil
@@ -9,6 +8,8 @@ import subprocess
 import sys
 import time
 import zipfile
+from base64 import urlsafe_b64encode
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -129,12 +130,17 @@ def wheel(folder, name):
         f"{info}/entry_points.txt": f"[console_scripts]\n{name}-where = {name}:main\n",
     }
     record = f"{info}/RECORD"
-    files[record] = "".join(f"{file},,\n" for file in [*files, record])
+    lines = "".join(
+        f"{file},sha256={urlsafe_b64encode(sha256(text.encode()).digest()).decode().rstrip('=')},"
+        f"{len(text)}\n"
+        for file, text in files.items()
+    )
+    files[record] = f"{lines}{record},,\n"
     file = folder / f"{name}-1.0-py3-none-any.whl"
     with zipfile.ZipFile(file, "w") as archive:
         for path, text in files.items():
             archive.writestr(path, text)
-    return f"{name}==1.0 --hash=sha256:{hashlib.sha256(file.read_bytes()).hexdigest()}\n"
+    return f"{name}==1.0 --hash=sha256:{sha256(file.read_bytes()).hexdigest()}\n"
 
 
 class SetUp:
@@ -363,6 +369,24 @@ def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up,
         assert set_up.run() == (0, "handed over\n")
     for package in ("needed", "extra", "mine"):
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
+
+
+@pytest.mark.parametrize("how", ["missing", "cut"])
+def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it(set_up, how):
+    set_up.with_uv()
+    set_up.run()
+    shutil.copy(ROOT / "src/pipeline/__main__.py", set_up.tree / "src/pipeline")
+    main = "def main(words):\n    import needed.__init__\n    return needed.__init__.main()\n"
+    (set_up.tree / "src/pipeline/cli/main.py").write_text(main)
+    assert set_up.run() == (0, f"{set_up.venv}\n")
+    file = set_up.site / "needed" / "__init__.py"
+    file.write_text("import") if how == "cut" else file.unlink()
+    damage = "needed/__init__.py"
+    line = f"reproduce: .venv is damaged: {damage}: run ./reproduce again to mend it\n"
+    assert set_up.run() == (1, line)
+    line = f"reproduce: .venv lacks {damage}: installing its packages again\n"
+    assert set_up.run() == (0, f"{set_up.venv}\n{line}")
+    assert set_up.run() == (0, f"{set_up.venv}\n")
 
 
 @pytest.mark.parametrize("installer", INSTALLERS)
