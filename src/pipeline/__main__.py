@@ -8,11 +8,17 @@ if __name__ == "__main__":
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
+    from .cli.packages import told_damage
+
     try:
         from .cli.main import main
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] in ("pipeline", "pseudorigid"):
+
+        status = main(sys.argv[1:])
+    except Exception:
+        if not told_damage():
             raise
-        print(f"reproduce: .venv is damaged ({error}): remove it and run again", file=sys.stderr)
-        sys.exit(1)
-    sys.exit(main(sys.argv[1:]))
+        status = 1
+    else:
+        if status not in (0, 130):
+            told_damage()
+    sys.exit(status)

@@ -33,8 +33,22 @@ __all__ = list(_HOMES)
 def __getattr__(name):
     if name in _HOMES:
         return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+    if name == "__version__":
+        return _version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__():
-    return sorted([*globals(), *__all__])
+    return sorted([*globals(), *__all__, "__version__"])
+
+
+def _version():
+    """Return the version in pyproject.toml, or that of the installed package."""
+    import tomllib
+    from importlib import metadata
+    from pathlib import Path
+
+    root = Path(__file__).parents[2]
+    if (root / "src" / __name__).is_dir():
+        return tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
+    return metadata.version(__name__)

@@ -91,8 +91,9 @@ def clone(shared, accepted):
     def make(folder):
         tree = accepted.copy(folder)
         (tree.path / ".venv").mkdir(exist_ok=True)  # compiled code may be in it
-        for name in ("bin", "lib", "lib64", "pyvenv.cfg", "stamp"):
+        for name in ("bin", "lib", "lib64", "pyvenv.cfg", "stamp", "contents"):
             (tree.path / ".venv" / name).symlink_to(ROOT / ".venv" / name)
+        (tree.path / ".venv" / "place").write_text(str(tree.path / ".venv"))
         shutil.copy(ROOT / "CLAIMS.md", tree.path)
         tree.write(tree.document() | {"variants": shipped()["variants"]})
 

@@ -28,6 +28,21 @@ def test_snakemake_lint(tree):
     assert result.returncode == 0, result.stdout
 
 
+def test_no_setting_of_git_changes_a_file(tmp_path):
+    for file in (".gitattributes", "reproduce", "config.yaml", "paper_figures/fig3.svg"):
+        (tmp_path / "one" / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / file, tmp_path / "one" / file)
+    silent("git", "init", "-q", str(tmp_path / "one"))
+    git = ("git", "-C", str(tmp_path / "one"), "-c", "user.name=x", "-c", "user.email=x")
+    silent(*git, "add", ".")
+    silent(*git, "commit", "-q", "-m", "x")
+    for name, settings in {"crlf": ["core.autocrlf=true"], "eol": ["core.eol=crlf"]}.items():
+        given = [word for setting in settings for word in ("-c", setting)]
+        silent("git", "clone", "-q", *given, str(tmp_path / "one"), str(tmp_path / name))
+        for file in ("reproduce", "config.yaml", "paper_figures/fig3.svg"):
+            assert (tmp_path / name / file).read_bytes() == (ROOT / file).read_bytes()
+
+
 @pytest.mark.parametrize("shell", ["sh", "dash", "bash"])
 def test_the_shell_can_read_reproduce(shell):
     if shutil.which(shell) is None:
@@ -42,7 +57,7 @@ def pins(path):
 
 
 def test_every_package_is_pinned_and_hashed():
-    for name in ("build.txt", "lock.txt"):
+    for name in ("build.txt", "uv.txt", "lock.txt", "test.txt"):
         text = (ROOT / "requirements" / name).read_text()
         entries = re.split(r"^(?=[a-z0-9])", text, flags=re.MULTILINE)[1:]
         assert len(entries) == len(pins(f"requirements/{name}"))
@@ -50,16 +65,23 @@ def test_every_package_is_pinned_and_hashed():
         assert "://" not in text
 
 
-def test_the_lock_holds_what_is_asked_for():
-    locked = pins("requirements/lock.txt")
-    for line in (ROOT / "requirements" / "main.in").read_text().splitlines():
+@pytest.mark.parametrize(("asked", "lock"), [("main", "lock"), ("test", "test")])
+def test_the_locks_hold_what_is_asked_for(asked, lock):
+    locked = pins(f"requirements/{lock}.txt")
+    for line in (ROOT / "requirements" / f"{asked}.in").read_text().splitlines():
         if line and not line.startswith("#"):
-            name, _, version = line.lower().partition("==")
+            name, _, version = line.lower().replace("_", "-").partition("==")
             assert locked[name].startswith(version)
 
 
-def test_the_conda_environment_has_the_versions_of_the_lock():
+def test_the_packages_of_the_tests_have_the_versions_of_the_lock():
     locked = pins("requirements/lock.txt")
+    tested = pins("requirements/test.txt")
+    assert {name: locked.get(name, version) for name, version in tested.items()} == tested
+
+
+def test_the_conda_environment_has_the_versions_of_the_lock():
+    locked = pins("requirements/study.txt") | pins("requirements/lock.txt")
     wanted = pins("workflow/envs/python.yaml")
     assert wanted
     assert {name: locked[name] for name in wanted} == wanted

@@ -9,6 +9,8 @@ import zipfile
 import pytest
 from project import NO_CACHES, ROOT
 
+import pseudorigid
+
 PARTS = ("pyproject.toml", "README.md", "LICENSE", "src")
 
 
@@ -34,9 +36,11 @@ def test_the_wheel_works_without_the_repository(tmp_path):
             shutil.copy(ROOT / part, clone / part)
     pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
     offline = ("--no-build-isolation", "--no-deps", "--no-index")
+    before = {path.name for path in clone.rglob("*")}
     built = run(*pip, "wheel", *offline, "-w", tmp_path, ".", cwd=clone)
     assert built.returncode == 0, built.stdout + built.stderr
     (wheel,) = tmp_path.glob("pseudorigid-*.whl")
+    assert {path.name for path in clone.rglob("*")} == before
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.partition("/")[0].partition("-")[0] for name in names} == {"pseudorigid"}
 
@@ -55,10 +59,12 @@ def test_the_wheel_works_without_the_repository(tmp_path):
 
     text = (ROOT / "README.md").read_text(encoding="utf-8").partition("## From Python\n\n")[2]
     snippet = textwrap.dedent(text.partition("\n\n`pip install")[0])
-    where = "import pseudorigid; print(pseudorigid.__file__, float(hyperbolic.multiplier))"
+    where = "import pseudorigid; print(pseudorigid.__file__, float(hyperbolic.multiplier))\n"
+    where += "print(pseudorigid.__version__)"
     shown = run(python, "-c", f"{snippet}\n{where}", cwd=away)
     assert shown.returncode == 0, shown.stderr
-    place, multiplier = shown.stdout.split()
+    place, multiplier, version = shown.stdout.split()
+    assert version == pseudorigid.__version__ == wheel.name.split("-")[1]
     assert place.startswith(str(site))
     assert f"its multiplier is {float(multiplier):.4f}" in snippet
     absent = run(python, "-c", "import pipeline", cwd=away)

@@ -1,11 +1,16 @@
 """What is refused before anything starts, each in one line."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+import zipfile
+from base64 import urlsafe_b64encode
+from hashlib import sha256
+from pathlib import Path
 
 import pytest
 from project import ROOT
@@ -119,38 +124,105 @@ def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
     assert not (tree.path / ".venv").exists()
 
 
-STAND_IN = """#!/bin/sh
-case "$*" in
-*pipeline.cli.arguments*) exit 75 ;;
-*sys.version_info\\[:2]*) echo 3 11 ;;
-'-m venv '*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python"; echo "command = $*" >"$3/pyvenv.cfg" ;;
-*'-m pip '*) [ ! -e "$SLOW" ] || { touch "$SLOW.begun"; exec sleep 60; } ;;
-*'-m pipeline'*) echo "handed over$PYTHONWARNINGS" ;;
-esac
+LINE = "reproduce: installing the locked packages into .venv (once)\n"
+MADE = (0, f"handed over\n{LINE}")
+UV = ROOT / ".venv" / "bin" / "uv"
+# A uv of the right version whose installations succeed, slowly if the file SLOW is there.
+SLOW_UV = """#!/bin/sh
+[ "$1" != --version ] || { echo uv %s; exit; }
+[ ! -e "$SLOW" ] || { echo $$ >"$SLOW.pid"; exec sleep 60; }
+exit 1
 """
 
 
+def wheel(folder, name):
+    """Write a wheel of a module, `name`, with a script that prints where it runs."""
+    info = f"{name}-1.0.dist-info"
+    files = {
+        f"{name}/__init__.py": "import sys\ndef main(): print(sys.prefix, *sys.argv[1:])\n",
+        f"{info}/METADATA": f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n",
+        f"{info}/WHEEL": "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
+        f"{info}/entry_points.txt": f"[console_scripts]\n{name}-where = {name}:main\n",
+    }
+    record = f"{info}/RECORD"
+    lines = "".join(
+        f"{file},sha256={urlsafe_b64encode(sha256(text.encode()).digest()).decode().rstrip('=')},"
+        f"{len(text)}\n"
+        for file, text in files.items()
+    )
+    files[record] = f"{lines}{record},,\n"
+    file = folder / f"{name}-1.0-py3-none-any.whl"
+    with zipfile.ZipFile(file, "w") as archive:
+        for path, text in files.items():
+            archive.writestr(path, text)
+    return f"{name}==1.0 --hash=sha256:{sha256(file.read_bytes()).hexdigest()}\n"
+
+
 class SetUp:
-    """A tree whose interpreter installs nothing."""
+    """A tree that installs three small packages from a folder, and then only says so."""
 
     def __init__(self, tree, folder):
-        self.venv, self.slow = tree.path / ".venv", folder / "slow"
+        self.tree, self.venv, self.folder = tree.path, tree.path / ".venv", folder
+        self.wheels = folder / "a folder, $HOME's"
+        self.wheels.mkdir()
+        for name, package in (("build", "tools"), ("lock", "needed"), ("test", "extra")):
+            file = self.tree / "requirements" / f"{name}.txt"
+            file.write_text(wheel(self.wheels, package))
+        main = "import sys\nprint('handed over', *sys.argv[1:], *sys.warnoptions)\n"
+        (self.tree / "src" / "pipeline" / "__main__.py").write_text(main)
         (folder / "bin").mkdir()
-        (folder / "bin" / "python3").write_text(STAND_IN)
-        (folder / "bin" / "python3").chmod(0o755)
-        path = f"{folder / 'bin'}:{os.environ['PATH']}"
-        self.how = {
-            "args": [str(tree.path / "reproduce")],
-            "env": os.environ
-            | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)}
-            | {"PYTHONWARNINGS": "error"},  # must not reach what runs
-            "text": True,
+        (folder / "tmp").mkdir()
+        self.slow = folder / "slow"
+        self.environment = {
+            "HOME": str(folder),
+            "PATH": f"{folder / 'bin'}:{Path(sys.base_prefix) / 'bin'}:/usr/bin:/bin",
+            "PSEUDORIGID_WHEELS": str(self.wheels),
+            "TMPDIR": str(folder / "tmp"),
+            "SLOW": str(self.slow),
+            "PYTHONWARNINGS": "error",  # must not reach what runs
         }
-        self.folder = folder
 
-    def run(self):
-        result = subprocess.run(**self.how, capture_output=True, check=False)
+    def with_uv(self, text=None):
+        """Put a uv onto PATH: the one of this .venv, or a script."""
+        if text is None and not UV.exists():
+            pytest.skip("uv has no wheel for this machine")
+        file = self.folder / "bin" / "uv"
+        if text is None:
+            file.symlink_to(UV)
+        else:
+            file.write_text(text)
+            file.chmod(0o755)
+
+    def run(self, *arguments, **environment):
+        result = subprocess.run(
+            [str(self.venv.parent / "reproduce"), *arguments],
+            env=self.environment | environment,
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         return result.returncode, result.stdout + result.stderr
+
+    def shell(self, command, shell="sh"):
+        """What a command prints in a shell, in the folder of the tree."""
+        said = subprocess.run(
+            [shell, "-c", command],
+            env={"PATH": "/usr/bin:/bin", "HOME": str(self.folder)},
+            cwd=self.venv.parent,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        return said.stdout + said.stderr
+
+    @property
+    def site(self):
+        (site,) = self.venv.glob("lib/python3*/site-packages")
+        return site
+
+    def installer(self, package="needed"):
+        return (self.site / f"{package}-1.0.dist-info" / "INSTALLER").read_text().strip()
 
 
 @pytest.fixture
@@ -158,14 +230,10 @@ def set_up(tree, tmp_path):
     return SetUp(tree, tmp_path)
 
 
-MADE = (
-    0,
-    "handed over\nreproduce: installing the locked packages into .venv (once, about a minute)\n",
-)
-
-
 def test_what_is_left_of_a_venv_is_made_anew(set_up):
+    set_up.with_uv()
     assert set_up.run() == MADE
+    assert set_up.installer() == "uv"
     assert set_up.run() == (0, "handed over\n")
     for gone in (["stamp"], ["install.log", "stamp"], ["install.log", "stamp", "pyvenv.cfg"]):
         for name in gone:
@@ -174,10 +242,14 @@ def test_what_is_left_of_a_venv_is_made_anew(set_up):
     shutil.rmtree(set_up.venv)
     set_up.venv.mkdir()
     assert set_up.run() == MADE
-    assert not list(set_up.folder.glob("tmp*"))
+    assert not list((set_up.folder / "tmp").iterdir())
+    (set_up.tree / "requirements" / "lock.txt").write_text(wheel(set_up.wheels, "other"))
+    assert set_up.run() == MADE
+    assert not (set_up.site / "needed").exists()
 
 
 def test_a_venv_of_somebody_else_stays(set_up):
+    set_up.with_uv()
     set_up.run()
     (set_up.venv / "install.log").unlink()
     (set_up.venv / "stamp").unlink()
@@ -201,22 +273,184 @@ def test_a_venv_of_somebody_else_stays(set_up):
     assert (kept / "bin" / "python").is_file()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_set_up_ends_when_its_shell_alone_is_told(set_up, number):
+def start_slowly(set_up, number):
+    """A run of ./reproduce and its installer's process, which sleeps; `number` is not ignored."""
+    (version,) = re.findall(r"^uv==(\S+)", (ROOT / "requirements/uv.txt").read_text(), re.MULTILINE)
+    set_up.with_uv(SLOW_UV % version)
     set_up.slow.touch()
     run = subprocess.Popen(
-        **set_up.how,
+        [str(set_up.tree / "reproduce")],
+        env=set_up.environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
+        text=True,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # noqa: PLW1509
     )
+    pid = set_up.folder / "slow.pid"
     for _ in range(600):
-        if (set_up.folder / "slow.begun").exists():
+        if pid.exists() and pid.read_text().strip():
             break
         time.sleep(0.1)
+    return run, int(pid.read_text())
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_set_up_ends_when_it_alone_is_told(set_up, number):
+    run, installer = start_slowly(set_up, number)
     run.send_signal(number)
     _, said = run.communicate(timeout=30)
     assert run.returncode == 130
-    assert said.splitlines()[1:] == ["reproduce: interrupted: run it again to go on"]
+    assert said == f"{LINE}reproduce: interrupted: run it again to go on\n"
+    assert not Path(f"/proc/{installer}").exists()
+    assert not list((set_up.folder / "tmp").iterdir())
     set_up.slow.unlink()
     assert set_up.run() == MADE
+    assert set_up.installer() == "pip"  # since this uv fails
+
+
+def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
+    run, installer = start_slowly(set_up, signal.SIGINT)
+    run.kill()
+    run.communicate()
+    set_up.slow.unlink()
+    next_one = subprocess.Popen(
+        run.args, env=set_up.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    with pytest.raises(subprocess.TimeoutExpired):
+        next_one.communicate(timeout=2)
+    os.kill(installer, signal.SIGKILL)
+    out, said = next_one.communicate(timeout=60)
+    assert out == "handed over\n"
+    assert said == f"reproduce: waiting for another ./reproduce in this folder to end\n{LINE}"
+
+
+INSTALLERS = ["uv", pytest.param("pip", marks=pytest.mark.slow)]
+NAMES = ("plain", 'it\'s "$HOME" `here`; a\\b', "with a\nnewline")
+SHELLS = {"sh": ".", "dash": ".", "bash": "source", "zsh": "source", "fish": "source"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("installer", INSTALLERS)
+def test_the_venv_works_as_any_other_in_any_folder_and_moved(set_up, name, installer):
+    if installer == "uv":
+        set_up.with_uv()
+    for folder in (name, "moved"):
+        place = set_up.folder / "x" / folder
+        place.parent.mkdir(exist_ok=True)
+        set_up.venv.parent.rename(place)
+        set_up.venv = place / ".venv"
+        if folder == "moved":
+            assert set_up.shell(".venv/bin/needed-where") == f"{set_up.venv}\n"
+            said = set_up.shell(". .venv/bin/activate; echo $?")
+            assert said.startswith("1\nreproduce: this folder has moved: ")
+            assert set_up.run() == (0, "handed over\n")
+        else:
+            assert set_up.run() == MADE
+            assert set_up.installer() == installer
+        assert set_up.shell(".venv/bin/needed-where 'a b'") == f"{set_up.venv} a b\n"
+        for shell, word in SHELLS.items():
+            if shutil.which(shell, path="/usr/bin:/bin"):
+                script = f"./.venv/bin/activate{'.fish' * (shell == 'fish')}"
+                said = set_up.shell(f"{word} {script}; needed-where; command -v python", shell)
+                assert said == f"{set_up.venv}\n{set_up.venv}/bin/python\n", shell
+    said = set_up.shell(".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'")
+    assert said == f"{set_up.venv.parent}/src/pipeline\n"
+
+
+def test_a_folder_that_path_cannot_hold_says_so(set_up):
+    set_up.with_uv()
+    place = set_up.tree.rename(set_up.folder / "a:b")
+    set_up.venv = place / ".venv"
+    assert set_up.run() == MADE
+    assert set_up.shell(". .venv/bin/activate").startswith("reproduce: PATH cannot hold a folder")
+
+
+@pytest.mark.parametrize("installer", INSTALLERS)
+def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up, installer):
+    if installer == "uv":
+        set_up.with_uv()
+    add = "from pipeline.cli.packages import add_packages as add; add('test'); add('test')"
+    environment = set_up.environment | {"PYTHONPATH": str(set_up.tree / "src")}
+    set_up.run()
+    for _ in range(2):  # then it is there
+        subprocess.run([set_up.venv / "bin/python", "-c", add], env=environment, check=True)
+    mine = wheel(set_up.folder, "mine").split("==")[0]
+    pip = "PIP_NO_INDEX=1 .venv/bin/python -m pip install -q --find-links .. mine"
+    assert mine == "mine" and set_up.shell(pip) == ""
+    assert set_up.run() == (0, "handed over\n")
+    for name in ("needed", "needed-1.0.dist-info", "extra", "pseudorigid.pth"):
+        (set_up.site / name).rename(set_up.folder / name)
+        line = f"reproduce: .venv lacks {name}: installing its packages again\n"
+        assert set_up.run() == (0, f"handed over\n{line}")
+        assert set_up.run() == (0, "handed over\n")
+    for package in ("needed", "extra", "mine"):
+        assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
+
+
+@pytest.mark.parametrize("how", ["missing", "cut"])
+def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it(set_up, how):
+    set_up.with_uv()
+    set_up.run()
+    shutil.copy(ROOT / "src/pipeline/__main__.py", set_up.tree / "src/pipeline")
+    main = "def main(words):\n    import needed.__init__\n    return needed.__init__.main()\n"
+    (set_up.tree / "src/pipeline/cli/main.py").write_text(main)
+    assert set_up.run() == (0, f"{set_up.venv}\n")
+    file = set_up.site / "needed" / "__init__.py"
+    file.write_text("import") if how == "cut" else file.unlink()
+    damage = "needed/__init__.py"
+    line = f"reproduce: .venv is damaged: {damage}: run ./reproduce again to mend it\n"
+    assert set_up.run() == (1, line)
+    line = f"reproduce: .venv lacks {damage}: installing its packages again\n"
+    assert set_up.run() == (0, f"{set_up.venv}\n{line}")
+    assert set_up.run() == (0, f"{set_up.venv}\n")
+
+
+@pytest.mark.parametrize("installer", INSTALLERS)
+def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
+    if installer == "uv":
+        set_up.with_uv()
+    assert set_up.run("--offline", "nowhere") == (
+        1,
+        f"reproduce: {set_up.folder}/nowhere: no folder with wheels is there\n",
+    )
+    assert set_up.run("--offline")[0] == 2
+    (needed,) = set_up.wheels.glob("needed*")
+    whole = needed.read_bytes()
+    for content in (whole[:-9] + b"corrupted", None):
+        needed.write_bytes(content) if content else needed.unlink()
+        status, said = set_up.run()
+        assert status == 1
+        assert said.splitlines()[-1].startswith("reproduce: could not install the packages (above")
+        assert not (set_up.venv / "stamp").exists()
+    needed.write_bytes(whole)
+    environment = {"PSEUDORIGID_WHEELS": ""}
+    status, said = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)
+    assert (status, said) == (0, f"handed over fig3\n{LINE}")
+
+
+@pytest.mark.parametrize("installer", INSTALLERS)
+def test_settings_choose_where_packages_come_from_and_nothing_else(set_up, installer):
+    if installer == "uv":
+        set_up.with_uv()
+    wheels = set_up.wheels.rename(set_up.folder / "wheels")
+    elsewhere = set_up.folder / "elsewhere"
+    text = f"[global]\nno-index = true\nfind-links = {wheels}\n"
+    text += f"[install]\nuser = true\ntarget = {elsewhere}\nno-binary = :all:\n"
+    (set_up.folder / "pip.conf").write_text(text)
+    hostile = {
+        "PSEUDORIGID_WHEELS": "",
+        "PIP_CONFIG_FILE": str(set_up.folder / "pip.conf"),
+        "PIP_USER": "1",
+        "PIP_PREFIX": str(elsewhere),
+        "PIP_REQUIRE_VIRTUALENV": "1",
+        "UV_SYSTEM_PYTHON": "1",
+        "UV_PYTHON": sys.executable,
+        "UV_NO_BINARY": "1",
+        "VIRTUAL_ENV": str(elsewhere),
+        "CONDA_PREFIX": str(elsewhere),
+        "PYTHONHOME": str(elsewhere),
+    }
+    assert set_up.run(**hostile) == MADE
+    assert set_up.installer() == installer
+    assert set_up.shell(".venv/bin/needed-where") == f"{set_up.venv}\n"
+    assert not elsewhere.exists()

@@ -119,7 +119,10 @@ WORDS = {
         "one table of ratios of speed, measured now",
         more=" Installs the packages of the study's rivals first (once).",
     ),
-    "test": Word("the test suite (arguments go to pytest)"),
+    "test": Word(
+        "the test suite (arguments go to pytest)",
+        more=" Installs the packages of the tests first (once).",
+    ),
     "help": Word("this list, or the arguments of a WORD", _one("word", "one of these words")),
 }
 NO_WORD = Making(
@@ -128,6 +131,7 @@ NO_WORD = Making(
     _switch("--version", "print the versions of this project and of snakemake"),
 )
 SETTINGS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
+OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
 SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
 
 
@@ -172,6 +176,8 @@ def read(arguments):
     if not word and given.version:
         print(_versions())
         sys.exit(0)
+    if any(option.partition("=")[0] == "--offline" for option in options):
+        refuse("--offline DIR comes first: ./reproduce --offline DIR ...")
     if any(option.partition("=")[0] in SETTINGS for option in options):
         refuse("--config and --configfile are not used here: edit config.yaml")
     given.word, given.options = word, options
@@ -273,7 +279,7 @@ def _parser(name):
         width = max(map(len, WORDS))
         lines = [f"  {word:{width}}  {WORDS[word].line}" for word in WORDS]
         more = "./reproduce WORD --help has a word's arguments."
-        parser.epilog = "\n".join(["words:", *lines, "", more, SNAKEMAKE])
+        parser.epilog = "\n".join(["words:", *lines, "", more, OFFLINE, SNAKEMAKE])
     for key, how in word.arguments:
         parser.add_argument(key, **how)
     usage = parser.format_usage().partition(": ")[2].strip()

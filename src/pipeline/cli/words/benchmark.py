@@ -20,7 +20,8 @@ PARTS = ("Snakefile", "config.yaml", "paper_figures", "src", "workflow")
 def run(given) -> int:
     """Print one table of ratios of speed, and one of whole runs."""
     bench = [sys.executable, "-P", "-m", "pseudorigid.study.bench"]
-    if status := add_packages("study") or subprocess.call(bench):
+    add_packages("study")
+    if status := subprocess.call(bench):
         return status
     with interruptible(), tempfile.TemporaryDirectory() as folder:
         print("", *_runs(Path(folder)), sep="\n")

@@ -3,7 +3,10 @@
 import os
 import sys
 
+from ..packages import add_packages
+
 
 def run(given) -> int:
-    """Hand over to pytest; its exit status is ours."""
+    """Install the packages of the tests and hand over to pytest; its exit status is ours."""
+    add_packages("test")
     os.execv(sys.executable, [sys.executable, "-m", "pytest", *given.options])
