@@ -59,8 +59,8 @@ class Box:
         """Draw small opaque dots of `size` points across, in the order given."""
         there = self.seen(x, y, z)
         across, up = self.view(x[there], y[there], z[there])
-        how = {"mew": 0} | how
-        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **how)
+        how = {"mew": 0, "marker": "o"} | how
+        self.sheet.draw(across, up, ls="none", ms=size, color=color, **how)
 
     def line(self, x, y, z, color, width):
         """Draw a line of `width` points, broken where a coordinate is NaN."""

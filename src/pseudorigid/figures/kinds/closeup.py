@@ -5,6 +5,8 @@ from ..axes.plane import Plane
 from ..canvas import style
 from ..canvas.ragged import rows
 
+_DOT = 3.4  # points
+
 
 @style.pinned()
 def draw(scene, manifolds):
@@ -37,8 +39,9 @@ def draw(scene, manifolds):
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
         picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
-    picture.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
+    picture.dots(*saddle, style.VERMILION, _DOT, mew=0.5, mec="white")
     picture.legend(
+        ("saddle", 32, {"color": style.VERMILION, "dots": _DOT}),
         ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )

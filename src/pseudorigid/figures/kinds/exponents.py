@@ -7,17 +7,18 @@ from ..axes.limits import complete, of_data
 from ..axes.panel import Axis, Panel
 from ..axes.plane import Plane
 from ..canvas import style
+from ..canvas.sheet import POINT
 
 _FROM = 0.25  # of the impacts: where the inset begins
-_LEAST = 150  # pixels between the first two exponents that have room for an inset
+_LEAST = 170  # pixels between the first two exponents that have room for an inset
 
 
 @style.pinned()
 def draw(scene, lyapunov):
     """The exponents' histories, one hue an orbit, named at their ends.
 
-    The largest ones have an inset below them, over the same impacts, with a line at each of its
-    ticks.
+    The largest ones have an inset below them, with a line at each of its ticks. It stands above its
+    own part of the impacts, with the same ticks.
 
     Parameters
     ----------
@@ -64,9 +65,12 @@ def _inset(picture, largest, first, second):
     if not high - low > _LEAST:
         return None
     start, end = picture.across.limits
-    across = Axis((start + _FROM * (end - start), end), ())
-    room = 0.2 * (high - low)
-    frame = left + _FROM * (right - left), low + room, right, high - room
+    start += _FROM * (end - start)
+    outer = zip(picture.across.ticks, picture.across.labels, strict=True)
+    shown = {tick: label for tick, label in outer if start < tick < end}
+    across = Axis((start, end), [*shown], labels=[*shown.values()])
+    bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
+    frame = left + _FROM * (right - left), bottom, right, high - 0.2 * (high - low)
     return _Inset(picture.sheet, frame, across, Axis(**largest))
 
 
