@@ -1,5 +1,7 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
+import numpy as np
+
 from ..axes.limits import complete, of_window, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
@@ -26,14 +28,17 @@ def draw(scene, manifolds):
     Raises
     ------
     ValueError
-        Nothing lies within the axes.
+        Axes that show nothing, or a window through which no branch passes.
     """
+    if np.isnan(manifolds["x"].values).all():
+        low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))
+        raise ValueError(f"window: no branch of this length passes x {low}, xdot {high}")
     scene = complete(
         scene,
         x=lambda: of_window(*map(float, manifolds.attrs["window_x"])),
         xdot=lambda: of_window(*map(float, manifolds.attrs["window_xdot"])),
     )
-    refuse_empty(scene["axes"], manifolds)
+    refuse_empty(scene["axes"], {name: manifolds[name].values for name in ("x", "xdot")})
     picture = plane(scene)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):

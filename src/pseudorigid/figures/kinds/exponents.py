@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...dynamics.variables import final_exponents
-from ..axes.limits import complete, of_data
+from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.panel import Axis, Panel
 from ..axes.plane import Plane
 from ..canvas import style
@@ -29,6 +29,11 @@ def draw(scene, lyapunov):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     scene = complete(
@@ -37,10 +42,15 @@ def draw(scene, lyapunov):
         exponent=lambda: of_data(exponent),
         largest=lambda: of_data(exponent[exponent.shape[0] // 2 :, :, 0], most=4),
     )
+    over = np.broadcast_to(impact[:, None, None], exponent.shape)
+    refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     picture = plane(scene)
     _, orbits, indices = exponent.shape
     ends = np.median(final_exponents(lyapunov), axis=0)
     inset = _inset(picture, scene["axes"]["largest"], *ends[:2])
+    if inset:
+        later = impact >= inset.across.limits[0]
+        refuse_empty(scene["axes"], {"largest": exponent[later, :, 0]})
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
         there = ~np.isnan(exponent[:, orbit, 0])

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
+from ..axes.limits import refuse_empty
 from ..axes.panel import Axis, Panel, corner, key
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -33,7 +34,15 @@ def draw(scene, manifolds, horseshoe):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show none of the sets, or nothing of the image.
     """
+    refuse_empty(scene["axes"], {name: horseshoe[name].values for name in "xy"})
+    for name in "pq":
+        refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
     sheet = Sheet(style.COLUMN, _HIGH)
     x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
     _tangle(Panel(sheet, _ABOVE, x, y), manifolds, horseshoe)

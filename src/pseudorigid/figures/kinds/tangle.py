@@ -39,10 +39,10 @@ def draw(scene, orbits, manifolds, periodic):
     Raises
     ------
     ValueError
-        Nothing lies within the axes, or no orbit has that type.
+        Axes or a view that show none of the branches, or no orbit of that type.
     """
     scene = complete_box(scene, orbits, manifolds)
-    refuse_empty(scene["axes"], manifolds)
+    refuse_empty(scene["axes"], {name: manifolds[name].values for name in style.NAMES})
     saddles = states_of(of_type(periodic, scene["type"]))
     count = saddles.shape[1]
     entries = [
@@ -56,6 +56,7 @@ def draw(scene, orbits, manifolds, periodic):
     if Box(scene).seen(*states_of(manifolds)[:, _jumps(manifolds)]).any():
         entries.append(("jump of the map", style.FRAME, "s", True))
     box = Box(scene, entries)
+    box.refuse_hidden(*states_of(manifolds))
     box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds)
     box.points(*saddles, "white", _SADDLE + 1.2)
