@@ -103,6 +103,8 @@ def _tips(line, every):
     every = every[:, ~np.isnan(every[0])]
     for some in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):
         place = some[~np.isnan(line[0, some])]
+        if place.size == 0:
+            continue
         piece = line[:, place]
         steps = np.sqrt((np.diff(piece) ** 2).sum(axis=0))
         along = np.concatenate([[0.0], np.cumsum(steps)])

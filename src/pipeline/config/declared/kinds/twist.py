@@ -12,9 +12,10 @@ class Twist(Scene):
     {{ s.energies|first }} to {{ s.energies|last }} it is enclosed, and rounded to a double;
     straight lines join these values.
 
-    What to see: where it is not zero, Moser's theorem gives invariant curves around the point. At
-    the ring it changes sign: one zero is proved to lie in an interval of energies less than 1e-12
-    wide, whose middle is written there. That there is no other zero is seen, not proved.
+    What to see: where it is not zero, Moser's theorem gives invariant curves around the point.
+    Positive means that the rotation number falls away from the point. A zero is proved at the ring,
+    its energy enclosed to ten digits and more; whether there is another one is not. Below that
+    energy the normal form has a circle without shear, which shrinks into the point.
     """
 
     stages = ("twist",)
