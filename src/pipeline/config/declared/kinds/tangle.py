@@ -25,6 +25,6 @@ class Tangle(OfBranches, OfOrbits, OnSurface):
     def numbers(block, orbits, periodic, manifolds):
         """The orbit, and how much there is of its branches."""
         return Tangle.about_orbit(periodic, block) | {
-            "branches": f"{manifolds.sizes['branch']}",
+            "branches": f"{manifolds.sizes['branch']:,}",
             "points of the lines": f"{manifolds.sizes['vertex']:,}",
         }
