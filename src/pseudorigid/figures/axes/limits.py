@@ -12,7 +12,7 @@ import numpy as np
 from ..canvas import style
 
 # How many times as wide as the data, or as the largest of them, limits may be.
-_SPOT, _FLAT, _LEAST = 100.0, 1e6, 1e-12
+_SPOT, _FLAT, _LEAST = 1000.0, 1e6, 1e-12
 
 
 def of_window(low, high):
