@@ -11,8 +11,9 @@ import numpy as np
 
 from ..canvas import style
 
-# How many times as wide as the data, or as the largest of them, limits may be.
-_SPOT, _FLAT, _LEAST = 1000.0, 1e6, 1e-12
+# How many times as large as the data limits may be: of a box or window, of a line's abscissa (a run
+# may be a short try-out of a longer one), of its ordinate (where it may be flat); and at least.
+_SPOT, _LINE, _FLAT, _LEAST = 1e3, 1e4, 1e6, 1e-12
 
 
 def of_window(low, high):
@@ -120,7 +121,7 @@ def refuse_empty(axes, values, joined=False):
             raise ValueError(f"axes.{name}: there is nothing to be drawn")
         least, most = float(known.min()), float(known.max())
         size = max(abs(least), abs(most))
-        widest = _FLAT if joined and shown else _SPOT
+        widest = (_FLAT if shown else _LINE) if joined else _SPOT
         half = 0.5 * high - 0.5 * low  # the whole may overflow
         why = {
             "all data lie beyond them": high < least or most < low,
