@@ -171,7 +171,7 @@ def test_plateaus_names_lie_within_their_panel(data, monkeypatch):
     kind, found = data["rotation"]
     place, turns = (found[f"detail_{name}"].values for name in ("place", "rotation"))
     last = int(np.argmax(place))
-    highest = int(round(1e5 * turns[last])), 100_000, place[last - 1], place[last]
+    highest = round(1e5 * turns[last]), 100_000, place[last - 1], place[last]
     monkeypatch.setattr(kind, "plateaus", lambda *_: [highest])
     figure = kind.draw(SCENE, found)
     with style.pinned():

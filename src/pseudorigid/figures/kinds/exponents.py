@@ -47,7 +47,7 @@ def draw(scene, lyapunov):
     picture = plane(scene)
     _, orbits, indices = exponent.shape
     ends = np.median(final_exponents(lyapunov), axis=0)
-    inset = _inset(picture, scene["axes"]["largest"], *ends[:2])
+    inset = _inset(picture, scene["axes"]["largest"], *ends[:2], last=impact[-1])
     if inset:
         later = impact >= inset.across.limits[0]
         refuse_empty(scene["axes"], {"largest": exponent[later, :, 0]})
@@ -68,14 +68,19 @@ class _Inset(Panel):
     size = 7.0
 
 
-def _inset(picture, largest, first, second):
-    """The panel between the first exponent and the second at the right, None without room."""
+def _inset(picture, largest, first, second, last):
+    """The panel between the first exponent and the second at the right.
+
+    None without room there, or where the last impact comes before its begin.
+    """
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
     if not high - low > _LEAST:
         return None
     start, end = picture.across.limits
     start += _FROM * (end - start)
+    if last < start:
+        return None
     outer = zip(picture.across.ticks, picture.across.labels, strict=True)
     shown = {tick: label for tick, label in outer if start < tick < end}
     across = Axis((start, end), [*shown], labels=[*shown.values()])
