@@ -288,7 +288,7 @@ def verdicts(data):
         minor(panel, across=False)
         title = f"Wrong verdicts, {data['cells'].values[row]}"
         sheet.text(LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
-        if row == 0:
+        if row == 1:
             corner(sheet, frame, "bars: \N{PLUS-MINUS SIGN} one standard error")
         for i, name in enumerate(data["name"].values):
             color, marker = VERDICTS[name]
