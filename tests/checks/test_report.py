@@ -200,6 +200,7 @@ def shown(tree, name):
 def test_committed_pictures_are_shown_where_the_tree_made_none(reported, tmp_path):
     tree = reported.copy(tmp_path / "committed")
     pictures = sorted((ROOT / "more_figures").glob("*/*.png"))
+    shutil.copy(ROOT / "tests" / "scenes.yaml", tree.config)
     assert shown(tree, "claims-flux") is None
     shutil.copytree(ROOT / "more_figures", tree.path / "more_figures", dirs_exist_ok=True)
     for folder in (tree.path / "more_figures").iterdir():  # whatever stands there at the moment
