@@ -193,7 +193,7 @@ def shown(tree, name):
     """The article of a committed picture in the page of a tree, without its bytes, or None."""
     text = re.sub('base64,[^"]*', "base64,", rendered(tree))
     Outline(text)
-    found = re.search(f'<article id="more_figures-{name}-png".*?</article>', text, re.DOTALL)
+    found = re.search(f'<article id="more_figures-{name}[.]png".*?</article>', text, re.DOTALL)
     return found and found.group()
 
 
