@@ -1,6 +1,7 @@
 """The report: one page that needs nothing else, with every figure and what was measured in it."""
 
 import base64
+import hashlib
 import json
 import re
 import shutil
@@ -187,6 +188,55 @@ def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
         r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc", text
     )
     assert "<td>approximately 0.235" not in text
+
+
+def shown(tree, name):
+    """The article of a committed picture in the page of a tree, without its bytes, or None."""
+    text = re.sub('base64,[^"]*', "base64,", rendered(tree))
+    Outline(text)
+    found = re.search(f'<article id="more_figures-{name}[.]png".*?</article>', text, re.DOTALL)
+    return found and found.group()
+
+
+def test_committed_pictures_are_shown_where_the_tree_made_none(reported, tmp_path):
+    tree = reported.copy(tmp_path / "committed")
+    pictures = sorted((ROOT / "more_figures").glob("*/*.png"))
+    shutil.copy(ROOT / "tests" / "scenes.yaml", tree.config)
+    assert shown(tree, "claims-flux") is None
+    shutil.copytree(ROOT / "more_figures", tree.path / "more_figures", dirs_exist_ok=True)
+    for folder in (tree.path / "more_figures").iterdir():  # whatever stands there at the moment
+        files = sorted(folder.glob("*.png"))
+        sums = [f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in files]
+        (folder / "SHA256SUMS").write_text("".join(sums))
+    text = rendered(tree)
+    for path in pictures:
+        assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1, path
+        article = shown(tree, f"{path.parent.name}-{path.stem}")
+        assert f"{path.parent.name}/{path.name}: the committed one (" in article
+    assert "no hash of measurements is kept" in shown(tree, "study-seconds_grazing")
+    # Its caption would have values that it was not made from.
+    (tree.path / "more_figures" / "claims" / "MANIFEST.json").unlink()
+    assert "other values than config.yaml" in shown(tree, "claims-flux")
+    with open(tree.path / "more_figures" / "claims" / "flux.png", "ab") as file:
+        file.write(b"x")
+    assert "<p>No picture: more_figures/claims/flux.png is not the" in shown(tree, "claims-flux")
+    assert "<img" not in shown(tree, "claims-flux")
+
+
+def test_whole_numbers_have_commas_throughout(reported):
+    block = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}, "starts": [0.1, 0.2]}
+    about = page._Page._about
+    some = block | {"picture": "portrait", "impacts": [20000, 25000]}
+    assert "of 45,000 impacts in all" in about(None, "fig2", some)["shows"]
+    assert (
+        "up to 200,000, at"
+        in about(None, "f", some | {"picture": "exponents", "impacts": 200000})["shows"]
+    )
+    text = re.sub(
+        '<style>.*?</style>|base64,[^"]*|<[^>]*>', " ", rendered(reported), flags=re.DOTALL
+    )
+    text = text.partition("What made each result")[0]
+    assert not re.findall(r"(?<![\d.,])\d{5,}(?![\d.,])", text)
 
 
 def test_what_cannot_exist_is_said(reported):

@@ -130,3 +130,51 @@ def test_jumps_are_drawn_only_where_there_are_any(data):
 def test_every_kind_is_a_module_of_its_own():
     for name in NAMES:
         assert hasattr(getattr(kinds, name), "draw")
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.texts]
+
+
+def test_every_mark_is_in_a_key(data):
+    named = {
+        "flux": ("stable branch", "unstable branch", "crossing, and its lobe's area"),
+        "rotation": ("regular", "chaotic", "fixed point", "islands"),
+        "jumps": ("regular orbits", "chaotic orbit"),
+        "spread": ("thin: range, thick: quartiles, dot: mean",),
+    }
+    for name, words in named.items():
+        kind, *datasets = data[name]
+        assert set(words) <= set(texts(kind.draw(SCENE, *datasets)))
+
+
+def test_an_orbit_has_no_rotation_number_in_the_key(data):
+    kind, last = data["last_curve"]
+    said = texts(kind.draw(SCENE, last))
+    assert not [text for text in said if "rotation number" in text]
+    for number, periods in zip(last["rotation"].values, last["period"].values, strict=True):
+        assert f"convergents of {number:.6f}" in said
+        assert f"orbit from period {periods[-1]:.0f}" in said
+
+
+def test_eight_energies_have_eight_hues(data):
+    kind, few = data["rotation"]
+    many = few.isel(energy=[0, 1, 2, 3, 0, 1, 2, 3])
+    energies = [0.001, 0.005, 0.01, 0.015, 0.02, 0.026, 0.028, 0.03]
+    figure = kind.draw(SCENE, many.assign(energy=("energy", energies)))
+    inks = {line.get_color() for line in figure.artists if line.get_linewidth() == 1.0}
+    assert len(inks) == 8
+    assert not [line for line in figure.artists if line.get_linestyle() == "--"]
+
+
+def test_plateaus_names_lie_within_their_panel(data, monkeypatch):
+    kind, found = data["rotation"]
+    place, turns = (found[f"detail_{name}"].values for name in ("place", "rotation"))
+    last = int(np.argmax(place))
+    highest = round(1e5 * turns[last]), 100_000, place[last - 1], place[last]
+    monkeypatch.setattr(kind, "plateaus", lambda *_: [highest])
+    figure = kind.draw(SCENE, found)
+    with style.pinned():
+        names = [text for text in figure.texts if "/100000" in text.get_text()]
+        boxes = [text.get_window_extent() for text in names]
+    assert boxes and all(box.y0 > 715 and box.y1 < 1065 and box.x1 < 1005 for box in boxes)

@@ -2,7 +2,22 @@
 
 import numpy as np
 import pytest
-from samples import ATTRS, DATA, FLAT, SCENES, SPACE, VIEW, draw, manifolds, motion, orbits, states
+from samples import (
+    ATTRS,
+    DATA,
+    FLAT,
+    SCENES,
+    SPACE,
+    VIEW,
+    draw,
+    exponents,
+    manifolds,
+    module,
+    motion,
+    orbits,
+    periodic,
+    states,
+)
 from slowly import slowly
 
 from pseudorigid.figures.axes import box, projection
@@ -149,3 +164,58 @@ def test_lines_end_in_open_dots():
         last = [at - 1 for at in edge[1::2]] + [at for at in edge[2::2]]
         ends += int(np.sum(picture.seen(*(part[last] for part in line))))
     assert sum(len(a.get_xdata()) for a in dots) == ends + 1  # and the key's
+
+
+def marks_of(figure, marker, face=None):
+    """The places of all marks of one shape, and one colour, in pixels, the key's among them."""
+    found = [
+        np.column_stack(a.get_data()) * figure.dpi
+        for a in figure.artists
+        if a.get_marker() == marker and face in (None, a.get_markerfacecolor())
+    ]
+    return np.concatenate(found) if found else np.empty((0, 2))
+
+
+def folded(turn_back):
+    """Branches of which the first goes out along a line in the surface and comes back beside it."""
+    data = manifolds().isel(vertex=slice(60))
+    s = np.linspace(0.0, 1.0, 30)
+    y = np.concatenate([s, 1.0 - s if turn_back else 1.0 + s]) * 0.05
+    k, g, radius = 0.2, 0.04, np.sqrt(2 * 0.01 + 0.04**2 / 0.2)
+    x = np.full(60, g / k) + np.where(turn_back, np.linspace(0, 2e-3, 60), 0.0)
+    s = np.sqrt((radius**2 - k * (x - g / k) ** 2 - y**2 / (1 + k)) * (1 + k) / k)
+    states = {"x": x, "xdot": (y + k * s) / (1 + k), "udot": (s - y) / (1 + k)}
+    data = data.assign({name: ("vertex", value) for name, value in states.items()})
+    return data.isel(branch=[0]).assign(row_size=("branch", [60]))
+
+
+def test_a_sharp_fold_has_a_dot_of_its_own_and_a_straight_line_none():
+    key = 1
+    for turn_back in (True, False):
+        figure = module("tangle").draw(SCENES["tangle"], orbits(), folded(turn_back), periodic())
+        dots = [a for a in figure.artists if a.get_marker() == "o" and a.get_markersize() == 2.0]
+        assert sum(len(a.get_xdata()) for a in dots) == key + turn_back
+
+
+def test_a_jump_has_squares_and_an_end_a_dot():
+    figure = draw("tangle")
+    picture, data = box.Box(SCENES["tangle"]), manifolds()
+    state = [data[name].values for name in style.NAMES]
+    seen = picture.seen(*state)
+    jumps = [99, 103]  # beside the gap
+    ends = np.cumsum(data["row_size"].values) - 1
+    squares = marks_of(figure, "s")
+    assert len(squares) == seen[jumps].sum() + seen[jumps].any()  # with the key's
+    hollow = [a for a in figure.artists if a.get_marker() == "o"]
+    hollow = [a for a in hollow if a.get_markerfacecolor() == "white" and a.get_markersize() < 3]
+    assert sum(len(a.get_xdata()) for a in hollow) == seen[ends].sum()
+    texts = [text.get_text() for text in figure.texts]
+    assert ("jump of the map" in texts) == bool(seen[jumps].any())
+
+
+def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
+    assert "saddle" in [text.get_text() for text in draw("closeup").texts]
+    axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
+    figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
+    labels = [text.get_text() for text in figure.texts]
+    assert labels.count("0.4") == 1 and labels.count("1.2") == 2  # ticks from 0.5 on, twice

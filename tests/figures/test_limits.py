@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from samples import DATA, KINDS, SCENES, module
 
-from pseudorigid.figures.axes.limits import of_data
+from pseudorigid.figures.axes.box import Box
+from pseudorigid.figures.axes.limits import of_data, refuse_empty
 
 
 @pytest.mark.parametrize("low", [-0.37, 0.0, 1e-9, 12345.6])
@@ -25,3 +27,67 @@ def test_limits_and_ticks_are_round_numbers():
     axis = of_data(np.array([-0.174, 0.573]), most=6)
     assert axis == {"limits": [-0.2, 0.6], "ticks": [-0.2, 0.0, 0.2, 0.4, 0.6]}
     assert of_data([0, 200000], room=0.0)["limits"] == [0, 200000]
+
+
+WRONG = [
+    [1e300, 1.1e300], [-1e300, 1e300], [-1.7e308, 1.7e308], [0, 1e300], [-1e300, 0],
+    [1e7, 2e7], [-1.1e300, -1e300], [1e-300, 1e-299], [-5e-324, 5e-324],
+]  # fmt: skip
+AXES = [(kind, name) for kind in KINDS for name in SCENES[kind]["axes"]]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("limits", WRONG, ids=str)
+@pytest.mark.parametrize("kind, name", AXES)
+def test_axes_that_show_nothing_are_refused_by_name_and_limits(kind, name, limits):
+    axes = SCENES[kind]["axes"] | {name: {"limits": limits, "ticks": limits}}
+    with pytest.raises(ValueError) as refused:
+        module(kind).draw(SCENES[kind] | {"axes": axes}, *DATA[kind]())
+    said = str(refused.value)
+    assert f"axes.{name}.limits [{limits[0]}, {limits[1]}]" in said and "\n" not in said
+
+
+@pytest.mark.parametrize("limits", [[0.21, 0.24], [0.5, 0.6], [-1e300, 1e300], [0.3, 1e9]])
+def test_an_inset_that_shows_nothing_is_refused(limits):
+    axes = SCENES["exponents"]["axes"] | {"largest": {"limits": limits, "ticks": limits}}
+    scene, data = SCENES["exponents"] | {"axes": axes}, DATA["exponents"]()
+    if limits == [0.21, 0.24]:
+        assert module("exponents").draw(scene, *data)
+        return
+    with pytest.raises(ValueError, match=r"^axes\.largest\.limits \["):
+        module("exponents").draw(scene, *data)
+
+
+def test_a_line_between_samples_and_flat_data_are_drawn():
+    line = {"t": np.array([0.0, 1.0, 2.0]), "y": np.array([0.0, 1.0, 0.0])}
+    narrow = {"t": {"limits": [0.4, 0.6]}, "y": {"limits": [0.3, 0.7]}}
+    refuse_empty(narrow, line, joined=True)
+    with pytest.raises(ValueError, match="nothing lies within"):
+        refuse_empty(narrow, line)
+    apart = {"t": {"limits": [0.0, 0.2]}, "y": {"limits": [-0.9, -0.1]}}
+    with pytest.raises(ValueError, match=r"^axes\.y\.limits .*lie from 0 to 1$"):
+        refuse_empty(apart, line, joined=True)
+    flat = {"t": {"limits": [0, 2]}, "y": {"limits": [-1e4, 1e4]}}
+    refuse_empty(flat, line, joined=True)
+    with pytest.raises(ValueError, match="too wide"):
+        refuse_empty(flat, line)
+    with pytest.raises(ValueError, match="nothing to be drawn"):
+        refuse_empty(flat, {"t": np.array([]), "y": np.array([])})
+
+
+def test_a_view_from_which_the_surface_hides_all_is_refused():
+    data = DATA["portrait"]()[0]
+    scene = SCENES["portrait"] | {"sea": []}
+    seen = Box(scene).seen(*(data[name].values for name in ("x", "xdot", "udot")))
+    assert 0 < seen.sum() < seen.size
+    one = data.assign(row_size=("orbit", [1]))
+    assert module("portrait").draw(scene, one.isel(point=[int(np.argmax(seen))]))
+    with pytest.raises(ValueError, match=r"^view .*'azimuth': 115.* hides all"):
+        module("portrait").draw(scene, one.isel(point=[int(np.argmin(seen))]))
+
+
+def test_a_window_that_no_branch_passes_is_refused():
+    (data,) = DATA["closeup"]()
+    none = data.isel(vertex=[]).assign_attrs(window_x=[3.0, 3.1], window_xdot=[0.0, 0.1])
+    with pytest.raises(ValueError, match=r"^window: no branch .* x \[3.0, 3.1\]"):
+        module("closeup").draw(SCENES["closeup"], none)

@@ -135,3 +135,12 @@ def test_scans_that_differ_in_their_step_have_one_entry():
 def test_decades_are_placed_by_our_own_logarithm():
     assert panel.log10([1e-12, 1.0, 1e3]) == pytest.approx([-12, 0, 3], abs=1e-14)
     assert np.isnan(panel.log10([0.0, -1.0])).all()
+
+
+def test_the_worst_right_root_is_in_the_key_where_it_is_drawn():
+    for wrong, there in ((0.0, True), (0.3, False)):
+        figure = study.work(work_data(100.0, 1e-10, 1e-6, wrong), 1, "evaluations")
+        words = [text.get_text() for text in figure.texts if "worst" in text.get_text()]
+        assert bool(words) is there
+        if there:
+            assert words == ["hollow: the worst right root, if at most 1 % are wrong"]

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from .axes.panel import Axis, Panel, decades, key, log10
+from .axes.panel import Axis, Panel, corner, decades, key, log10
 from .axes.raster import minor
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
@@ -62,8 +62,9 @@ def draw(chart, data):
 def work(data, which, cost):
     """Error and failures against cost: a work-precision diagram.
 
-    Filled: the median error; hollow: the worst of the right roots, where at most one in a hundred
-    is wrong (else it is the largest error that does not count as wrong); below: the share of wrong
+    Filled marks, full lines: the median error. Hollow marks, dashed lines: the worst of the right
+    roots, where at most one in a hundred is wrong (else it is the largest error that does not count
+    as wrong). Heavy bars: quartiles of the seconds. Below: the share of wrong
     roots.
 
     Parameters
@@ -78,8 +79,14 @@ def work(data, which, cost):
     -------
     matplotlib.figure.Figure
     """
-    entries = _families(data)
-    sheet, top = _sheet(1050 + (math.ceil(len(entries) / 2) + 1) * 42)
+    entries, notes = _families(data), [("filled: the median", style.FRAME, "o", False)]
+    if (data["wrong"].values[which] <= FEW).any():
+        words = f"hollow: the worst right root, if at most {100 * FEW:.0f} % are wrong"
+        notes.append((words, style.FRAME, "o", True))
+    if cost == "seconds":
+        notes.append(("heavy bars: quartiles of the seconds", style.FRAME, "", False, 1.6))
+    lines = math.ceil(len(entries) / 2)
+    sheet, top = _sheet(1010 + (lines + len(notes)) * 48)
     across = COSTS[cost]
     error = _from_zero(ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
@@ -101,8 +108,8 @@ def work(data, which, cost):
                 upper.line([low, high], [y, y], color=color, lw=1.6)
         lower.line(x, some["wrong"].values, color=color, lw=0.9)
         lower.dots(x, some["wrong"].values, color, marker=marker)
-    entries += [("median", style.FRAME, "", False), ("worst right root", style.FRAME, "", True)]
     key(sheet, entries, top - 960, 2)
+    key(sheet, notes, top - 960 - 48 * lines, 1)
     return sheet.figure
 
 
@@ -234,7 +241,8 @@ def figure_errors(data):
     across = _from_zero(-16, 6, "Error of the picture / what it can hide")
     panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
-    sheet.text(740, top + 4 * POINT, "Evaluations an impact:", ha="left", va="bottom", size=7.0)
+    heading = "Evaluations an impact, of the two cheapest that suffice"
+    corner(sheet, (LEFT, bottom, sheet.wide - 15, top), heading)
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
         errors = _seen(row["error"].values / float(row["limit"]), -16)
@@ -280,6 +288,8 @@ def verdicts(data):
         minor(panel, across=False)
         title = f"Wrong verdicts, {data['cells'].values[row]}"
         sheet.text(LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
+        if row == 1:
+            corner(sheet, frame, "bars: \N{PLUS-MINUS SIGN} one standard error")
         for i, name in enumerate(data["name"].values):
             color, marker = VERDICTS[name]
             cost, wrong = data["cost"].values[row, i], data["wrong"].values[row, i]

@@ -5,6 +5,7 @@ behind it have.
 """
 
 import base64
+import hashlib
 import json
 import struct
 from pathlib import Path
@@ -17,12 +18,12 @@ from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import PictureError
 from ...records.record import read_record
-from .. import contracts
+from .. import contracts, manifest
 from ..claims import render as claims
 from ..claims.ledger import CORRECTED, FALSE
 from ..currency import MISSING, Currency
 from ..difference import not_as_made
-from ..sums import known_sums
+from ..sums import ContractError, known_sums
 from . import numbers
 
 # What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
@@ -38,6 +39,7 @@ CHARTS = {
     "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
     "line": "the regular share of the section, and the exponent of the rest, against the energy",
 }
+_PNG = b"\x89PNG\r\n\x1a\n"
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -104,14 +106,17 @@ class _Page:
             about |= {"image": None, "rows": [], "telling": None}
             if not why:
                 about |= self._measured(name, scene)
-                about |= {"image": self._image(file), "file": self._file(name, scene)}
+                about |= {"image": self._read(file), "file": self._file(name, scene)}
                 behind = [self.serves[name, scene, stage] for stage in places.stages(block)]
                 self.shown |= dict.fromkeys([*behind, file])
             found.append(about)
         return found
 
     def on_request(self):
-        """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set."""
+        """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set.
+
+        Those that this tree has not made are the committed ones.
+        """
         found = []
         for contract in self.contracts.values():
             if not contract.on_request:
@@ -119,17 +124,54 @@ class _Page:
             outdated = not_as_made(self.root, contract)
             made, folder = [], Path(contract.results).name
             for name, file in contract.drawn.items():
-                if not name.endswith(".png") or file in outdated:
+                if not name.endswith(".png"):
+                    continue
+                if file in outdated:
+                    made += self._committed(contract, name)
                     continue
                 scene = contract.scenes[name]
                 block = self.variants.get(folder, {}).get(scene)
                 about = self._about(scene, block) if block else self._chart(scene)
                 about |= self._measured(folder, scene) if block else {"telling": None}
-                about |= {"image": self._image(file), "file": f"{contract.folder}/{name}"}
+                about |= {"image": self._read(file), "file": f"{contract.folder}/{name}"}
                 made.append(about | {"id": f"{contract.folder}/{name}".replace("/", "-")})
                 self.shown |= dict.fromkeys([*contract.data[scene].values(), file])
-            found.append((contract.command, contract.folder, made))
+            for name in contract.measured:
+                made += self._committed(contract, name)
+            found.append((contract.command, made))
         return found
+
+    def _committed(self, contract, name):
+        """The committed picture of a name, in a list that is empty where there is none.
+
+        Its caption has the values of config.yaml: it has one only if it was made from them.
+        """
+        file, measured = f"{contract.folder}/{name}", name in contract.measured
+        if not (self.root / file).is_file():
+            return []
+        data = read_bytes(self.root / file)
+        scene = contract.scenes.get(name, name.removesuffix(".png"))
+        block = self.variants.get(Path(contract.results).name, {}).get(scene)
+        about = self._about(scene, block) if block else self._chart(scene)
+        about |= {"telling": None, "image": None, "id": file.replace("/", "-")}
+        wanted = known_sums(self.root, contract.folder).get(name)
+        same = measured or hashlib.sha256(data).hexdigest() == wanted
+        if not (same and data.startswith(_PNG)):
+            return [about | {"missing": f"{file} is not the committed one, nor made by this tree"}]
+        said = "no hash of measurements is kept" if measured else "as SHA256SUMS has it"
+        if block and not self._made_of(contract, scene):
+            about |= {"shows": "", "see": ""}
+            said += "; made from other values than config.yaml's"
+        said = f"{file}: the committed one ({said}), not made by this tree"
+        return [about | {"image": _image(data), "file": said}]
+
+    def _made_of(self, contract, scene):
+        """Whether the committed picture of a scene was made from the values in config.yaml."""
+        try:
+            scenes = manifest.read(self.root, contract.folder)["scenes"]
+            return scenes[scene]["config"] == contract.config[scene]
+        except (ContractError, KeyError, TypeError):
+            return False
 
     def claims(self):
         """The rows of CLAIMS.md, or none."""
@@ -174,7 +216,7 @@ class _Page:
 
     def _about(self, scene, block):
         kind = KINDS[block["picture"]]
-        caption = jinja2.Template(kind.caption()).render(s=block)
+        caption = jinja2.Template(kind.caption(), finalize=_written).render(s=block)
         shows, _, see = (" ".join(part.split()) for part in caption.partition("What to see:"))
         number = scene.removeprefix("fig")
         name = f"Figure {number}" if number.isdigit() and number != scene else scene
@@ -189,13 +231,12 @@ class _Page:
             "see": "",
         }
 
-    def _image(self, file):
-        """Its bytes as text, and its size in pixels."""
+    def _read(self, file):
+        """Read a drawing of this tree: its bytes as text, and its size in pixels."""
         data = read_bytes(self.root / file)
         if len(data) < 24:
             raise PictureError(f"{file}: damaged, or not a picture")
-        wide, high = struct.unpack(">II", data[16:24])
-        return {"data": base64.b64encode(data).decode(), "wide": wide, "high": high}
+        return _image(data)
 
     def _file(self, variant, scene):
         """Where a picture is published, and whether it is the committed one."""
@@ -209,6 +250,17 @@ class _Page:
             file_hash(self.root / drawn): "identical to the committed one",
         }.get(wanted, "not the committed one")
         return f"{folder}/{scene}.png: {same}"
+
+
+def _image(data):
+    """A PNG's bytes as text, and its size in pixels."""
+    wide, high = struct.unpack(">II", data[16:24])
+    return {"data": base64.b64encode(data).decode(), "wide": wide, "high": high}
+
+
+def _written(value):
+    """A value as a caption has it: whole numbers with commas."""
+    return f"{value:,}" if type(value) is int else value
 
 
 def _seconds(root, path):

@@ -44,7 +44,8 @@ class Box:
             raise ValueError(f"elevation {scene['view']['elevation']} is not between 0 and 90")
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
-        self.view = Projection(self.spans, scene["view"])
+        self.seen_from = scene["view"]
+        self.view = Projection(self.spans, self.seen_from)
         self.surface = Surface(**scene["ball"], energy=scene["energy"])
         cells = [None, None, *entries, ("grazing rim", style.RIM, "", False)]
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
@@ -59,8 +60,8 @@ class Box:
         """Draw small opaque dots of `size` points across, in the order given."""
         there = self.seen(x, y, z)
         across, up = self.view(x[there], y[there], z[there])
-        how = {"mew": 0} | how
-        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **how)
+        how = {"mew": 0, "marker": "o"} | how
+        self.sheet.draw(across, up, ls="none", ms=size, color=color, **how)
 
     def line(self, x, y, z, color, width):
         """Draw a line of `width` points, broken where a coordinate is NaN."""
@@ -74,6 +75,11 @@ class Box:
         for other in self.surface.before(self.view.eye, x, y, z):
             there &= ~(inside(self.spans, other) & self.surface.has(*other))
         return there
+
+    def refuse_hidden(self, x, y, z):
+        """Raise ValueError, one line, where the surface hides every point within the limits."""
+        if not self.seen(x, y, z).any():
+            raise ValueError(f"view {self.seen_from}: the energy surface hides all that is drawn")
 
     def _fit(self, rows):
         """Place the box on a sheet with room for labels and key, and return the sheet."""

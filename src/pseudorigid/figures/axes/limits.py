@@ -11,6 +11,10 @@ import numpy as np
 
 from ..canvas import style
 
+# How many times as large as the data limits may be: of a box or window, of a line's abscissa (a run
+# may be a short try-out of a longer one), of its ordinate (where it may be flat); and at least.
+_SPOT, _LINE, _FLAT, _LEAST = 1e3, 1e4, 1e6, 1e-12
+
 
 def of_window(low, high):
     """An axis for a window: its edges as limits, the shortest decimals near them as ticks."""
@@ -91,9 +95,44 @@ def _written(value):
     return Fraction(repr(value))
 
 
-def refuse_empty(axes, data):
-    """Raise ValueError, one line, where no row of `data` lies within the limits of `axes`."""
-    limits = [axis["limits"] for axis in axes.values()]
-    if not np.any(inside(limits, [data[name].values for name in axes])):
-        said = ", ".join(f"{name} {axis['limits']}" for name, axis in axes.items())
-        raise ValueError(f"nothing lies within the limits of axes: {said}")
+def refuse_empty(axes, values, joined=False):
+    """Refuse axes that show nothing of the data, or no more of it than a spot.
+
+    Parameters
+    ----------
+    axes : mapping
+        Name -> axis, with limits; may have more names than `values`.
+    values : mapping
+        Name -> ndarray, all of one shape.
+    joined : bool
+        Whether values that follow each other along the first dimension are joined by lines. Then
+        the first name is the abscissa, and along the others the data may be flat.
+
+    Raises
+    ------
+    ValueError
+        One line with the axis, its limits, and where the data lie.
+    """
+    shown = []
+    for name, value in values.items():
+        low, high = axes[name]["limits"]
+        known = value[np.isfinite(value)]
+        if known.size == 0:
+            raise ValueError(f"axes.{name}: there is nothing to be drawn")
+        least, most = float(known.min()), float(known.max())
+        size = max(abs(least), abs(most))
+        widest = (_FLAT if shown else _LINE) if joined else _SPOT
+        half = 0.5 * high - 0.5 * low  # the whole may overflow
+        why = {
+            "all data lie beyond them": high < least or most < low,
+            "too wide to show the data": half > 0.5 * widest * size > 0.0,
+            "too narrow to show the data": half < _LEAST * size,
+        }
+        for words in (words for words, wrong in why.items() if wrong):
+            where = f"the data lie from {least:.6g} to {most:.6g}"
+            raise ValueError(f"axes.{name}.limits [{low}, {high}]: {words}: {where}")
+        ends = (value[:-1], value[1:]) if joined else (value, value)
+        shown.append((np.minimum(*ends) <= high) & (np.maximum(*ends) >= low))
+    if not np.logical_and.reduce(shown).any():
+        said = ", ".join(f"axes.{name}.limits {axes[name]['limits']}" for name in values)
+        raise ValueError(f"nothing lies within {said} at once")

@@ -152,18 +152,20 @@ def corner(sheet, frame, text):
 def key(sheet, entries, top, columns, left=_KEY[0], width=_KEY[1], size=_SIZE):
     """Name the marks: entries of (text, colour, marker, hollow), in rows from the top left.
 
-    Without a marker it is a line, full or (hollow) dashed; None leaves a place empty.
+    Without a marker it is a line, full or (hollow) dashed. A fifth item is the size of the mark, or
+    the width of the line, in points. None leaves a place empty.
     """
     for i, entry in enumerate(entries):
         if entry is None:
             continue
-        text, color, marker, hollow = entry
+        text, color, marker, hollow, *points = entry
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * size * POINT
         if marker:
-            _mark(sheet, [x + 6], [y], color, 3.2, hollow, marker)
+            _mark(sheet, [x + 6], [y], color, *(points or [3.2]), hollow, marker)
         else:
-            sheet.draw([x - 8, x + 20], [y, y], lw=0.9, color=color, ls="--" if hollow else "-")
+            (thick,) = points or [0.9]
+            sheet.draw([x - 8, x + 20], [y, y], lw=thick, color=color, ls="--" if hollow else "-")
         sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=size)
 
 

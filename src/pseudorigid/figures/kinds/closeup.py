@@ -1,9 +1,13 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
+import numpy as np
+
 from ..axes.limits import complete, of_window, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
 from ..canvas.ragged import rows
+
+_DOT = 3.4  # points
 
 
 @style.pinned()
@@ -24,21 +28,25 @@ def draw(scene, manifolds):
     Raises
     ------
     ValueError
-        Nothing lies within the axes.
+        Axes that show nothing, or a window through which no branch passes.
     """
+    if np.isnan(manifolds["x"].values).all():
+        low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))
+        raise ValueError(f"window: no branch of this length passes x {low}, xdot {high}")
     scene = complete(
         scene,
         x=lambda: of_window(*map(float, manifolds.attrs["window_x"])),
         xdot=lambda: of_window(*map(float, manifolds.attrs["window_xdot"])),
     )
-    refuse_empty(scene["axes"], manifolds)
+    refuse_empty(scene["axes"], {name: manifolds[name].values for name in ("x", "xdot")})
     picture = plane(scene)
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
         picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
-    picture.dots(*saddle, style.VERMILION, 3.4, mew=0.5, mec="white")
+    picture.dots(*saddle, style.VERMILION, _DOT, mew=0.5, mec="white")
     picture.legend(
+        ("saddle", 32, {"color": style.VERMILION, "dots": _DOT}),
         ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )

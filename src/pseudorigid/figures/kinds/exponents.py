@@ -3,21 +3,22 @@
 import numpy as np
 
 from ...dynamics.variables import final_exponents
-from ..axes.limits import complete, of_data
+from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.panel import Axis, Panel
 from ..axes.plane import Plane
 from ..canvas import style
+from ..canvas.sheet import POINT
 
 _FROM = 0.25  # of the impacts: where the inset begins
-_LEAST = 150  # pixels between the first two exponents that have room for an inset
+_LEAST = 170  # pixels between the first two exponents that have room for an inset
 
 
 @style.pinned()
 def draw(scene, lyapunov):
     """The exponents' histories, one hue an orbit, named at their ends.
 
-    The largest ones have an inset below them, over the same impacts, with a line at each of its
-    ticks.
+    The largest ones have an inset below them, with a line at each of its ticks. It stands above its
+    own part of the impacts, with the same ticks.
 
     Parameters
     ----------
@@ -28,6 +29,11 @@ def draw(scene, lyapunov):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     greatest = exponent.max(axis=2)
@@ -37,10 +43,15 @@ def draw(scene, lyapunov):
         exponent=lambda: of_data(exponent),
         largest=lambda: of_data(greatest[greatest.shape[0] // 2 :], most=4),
     )
+    over = np.broadcast_to(impact[:, None, None], exponent.shape)
+    refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     picture = plane(scene)
     _, orbits, indices = exponent.shape
     ends = np.median(final_exponents(lyapunov), axis=0)
-    inset = _inset(picture, scene["axes"]["largest"], *ends[:2])
+    inset = _inset(picture, scene["axes"]["largest"], *ends[:2], last=impact[-1])
+    if inset:
+        later = impact >= inset.across.limits[0]
+        refuse_empty(scene["axes"], {"largest": exponent[later, :, 0]})
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
         there = ~np.isnan(exponent[:, orbit, 0])
@@ -58,16 +69,24 @@ class _Inset(Panel):
     size = 7.0
 
 
-def _inset(picture, largest, first, second):
-    """The panel between the first exponent and the second at the right, None without room."""
+def _inset(picture, largest, first, second, last):
+    """The panel between the first exponent and the second at the right.
+
+    None without room there, or where the last impact comes before its begin.
+    """
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
     if not high - low > _LEAST:
         return None
     start, end = picture.across.limits
-    across = Axis((start + _FROM * (end - start), end), ())
-    room = 0.2 * (high - low)
-    frame = left + _FROM * (right - left), low + room, right, high - room
+    start += _FROM * (end - start)
+    if last < start:
+        return None
+    outer = zip(picture.across.ticks, picture.across.labels, strict=True)
+    shown = {tick: label for tick, label in outer if start < tick < end}
+    across = Axis((start, end), [*shown], labels=[*shown.values()])
+    bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
+    frame = left + _FROM * (right - left), bottom, right, high - 0.2 * (high - low)
     return _Inset(picture.sheet, frame, across, Axis(**largest))
 
 

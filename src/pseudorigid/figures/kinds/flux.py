@@ -7,7 +7,7 @@ from ..axes.panel import Panel, corner, key
 from ..axes.raster import linear, wider
 from ..axes.section import NAME, Section
 from ..canvas import style
-from ..canvas.sheet import Sheet
+from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _WIDE = 150, 825  # pixels
 _INNER, _OUTER = style.PURPLE, style.ORANGE
@@ -26,11 +26,12 @@ def draw(scene, flux):
     Returns
     -------
     Figure
-        Above: the section with both regions. Below, left: the outer branches at a lobe. Below,
-        right: the distance of the inner unstable branch from the stable one, which are a line to
-        the eye.
+        Above: the section with both regions, whose edges are pieces of unstable and stable
+        branches, and the crossings of these on y = 0. Below, left: the outer branches near theirs,
+        where they close in two lobes of one area. Below, right: how far the inner unstable branch
+        lies from the stable one near theirs, since both are one line to the eye.
     """
-    sheet = Sheet(style.COLUMN, 1650)
+    sheet = Sheet(style.COLUMN, 1725)
     top = sheet.high - 75
     above = _LEFT, top - _WIDE, _LEFT + _WIDE, top
     _regions(sheet, above, flux)
@@ -38,13 +39,23 @@ def draw(scene, flux):
     entries = [
         ("edge of the inner region", _INNER, "", False),
         ("edge of the outer region", _OUTER, "", False),
-        ("stable", style.STABLE, "", False),
-        ("unstable", style.UNSTABLE, "", False),
         ("grazing rim", style.BLACK, "", False),
+        ("crossing, and its lobe's area", style.FRAME, "o", False),
     ]
     key(sheet, entries, top - _WIDE - 130, 2, _LEFT + 10, _WIDE)
-    _outer_lobe(sheet, (_LEFT, 105, 505, 420), flux)
-    _inner_lobe(sheet, (680, 105, 1005, 420), flux)
+    entries = [
+        ("stable branch", style.STABLE, "", False),
+        ("unstable branch", style.UNSTABLE, "", False),
+    ]
+    key(sheet, entries, 568, 2, _LEFT + 10, _WIDE)
+    panels = (
+        (_outer_lobe, (_LEFT, 105, 505, 405), "Outer branches at the crossing"),
+        (_inner_lobe, (680, 105, 1005, 405), "Inner: unstable less stable"),
+    )
+    for draw_lobe, panel, title in panels:
+        draw_lobe(sheet, panel, flux)
+        up = panel[3] + 18 * POINT
+        sheet.text(panel[0], up, title, ha="left", va="bottom", size=7.0)
     return sheet.figure
 
 
@@ -57,7 +68,7 @@ def _regions(sheet, frame, flux):
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
         panel.line(x, y, color=hue, lw=1.1)
         digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
-        text = rf"lobe ${digits}\times 10^{{{int(power)}}}$"
+        text = rf"area ${digits}\times 10^{{{int(power)}}}$"
         at = float(flux["crossing_x"].values[side].max())
         shift = (4.0, 0.0) if side else (-4.0, 0.0)
         panel.note(at, 0.0, text, ha="left" if side else "right", shift=shift)
@@ -68,7 +79,7 @@ def _outer_lobe(sheet, frame, flux):
     x, y = flux["branch_x"].values[1], flux["branch_y"].values[1]
     high = np.abs(y).max()
     across = linear(*wider(x.min(), x.max(), 0.06, 0.06), 3, "$x$")
-    up = linear(*wider(-high, high, 0.06, 0.06), 5, "$y$, outer")
+    up = linear(*wider(-high, high, 0.06, 0.06), 5, "$y$")
     panel = Panel(sheet, frame, across, up)
     panel.line(x, -y, color=style.STABLE, lw=1.0)
     panel.line(x, y, color=style.UNSTABLE, lw=1.0)
@@ -83,7 +94,7 @@ def _inner_lobe(sheet, frame, flux):
     power = int(f"{float(np.abs(apart).max()):e}".partition("e")[2])
     apart = apart / float(f"1e{power}")
     most = 1.1 * float(np.abs(apart).max())
-    up = linear(-most, most, 5, rf"$\Delta x$ / $10^{{{power}}}$, inner")
+    up = linear(-most, most, 5, rf"Difference of $x$ / $10^{{{power}}}$")
     panel = Panel(sheet, frame, linear(-half, half, 3, "$y$"), up)
     panel.line([-half, half], [0.0, 0.0], color=style.STABLE, lw=1.0)
     panel.line(at, apart, color=style.UNSTABLE, lw=1.0)

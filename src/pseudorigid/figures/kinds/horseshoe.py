@@ -3,12 +3,13 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
-from ..axes.panel import Axis, Panel, corner
+from ..axes.limits import refuse_empty
+from ..axes.panel import Axis, Panel, corner, key
 from ..canvas import style
 from ..canvas.ragged import rows
 from ..canvas.sheet import POINT, Sheet
 
-_HIGH = 1425
+_HIGH = 1500
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
 _SIZE = 8.0  # points: text
 
@@ -33,7 +34,15 @@ def draw(scene, manifolds, horseshoe):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show none of the sets, or nothing of the image.
     """
+    refuse_empty(scene["axes"], {name: horseshoe[name].values for name in "xy"})
+    for name in "pq":
+        refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
     sheet = Sheet(style.COLUMN, _HIGH)
     x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
     _tangle(Panel(sheet, _ABOVE, x, y), manifolds, horseshoe)
@@ -54,14 +63,16 @@ def _tangle(panel, manifolds, horseshoe):
         (chain == 0.0, style.BLACK, 3.6),
     ):
         panel.dots(x[those], y[those], hue, size=size)
-    sizes = (("saddles", 46, style.VERMILION), ("leaving", 46, style.BLUE),
-             ("middle", 42, style.BLACK), ("returning", 48, style.GREEN))  # fmt: skip
-    _, _, at, top = panel.frame
-    for text, width, hue in reversed(sizes):
-        at -= width * POINT
-        up = top + 9 * POINT
-        panel.sheet.draw([at], [up], ls="none", marker="o", ms=3.2, color=hue, mew=0)
-        panel.sheet.text(at + 4 * POINT, up, text, ha="left", va="center", size=_SIZE)
+    entries = (
+        ("at the saddles", style.VERMILION, "o", False, 3.6),
+        ("middle set", style.BLACK, "o", False, 3.6),
+        ("stable", style.pale(style.STABLE), "", False),
+        ("on the way out", style.BLUE, "o", False, 2.6),
+        ("on the way back", style.GREEN, "o", False, 2.6),
+        ("unstable", style.pale(style.UNSTABLE), "", False),
+    )
+    left, _, right, _ = panel.frame
+    key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)
 
 
 def _relation(panel, horseshoe):
@@ -70,6 +81,11 @@ def _relation(panel, horseshoe):
     panel.line(*square, color=style.BLACK, lw=1.0)
     for edge, wide in ((2, 0.8), (3, 0.8), (0, 2.0), (1, 2.0)):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=wide)
-    for up, gap, text in ((1.0, 5.5, "the middle set"), (0.0, 6.5, "image of the set before it")):
+    texts = (
+        (1.0, 5.5, "the middle set"),
+        (0.0, 6.5, "image of the set before it"),
+        (0.0, -6.5, "(heavy: its two ends)"),
+    )
+    for up, gap, text in texts:
         (x,), (y,) = panel.place(0.0, up)
         panel.sheet.text(x, y + gap * POINT, text, ha="center", va="center", size=_SIZE)

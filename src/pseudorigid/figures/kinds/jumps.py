@@ -13,6 +13,7 @@ _WIDE = 825  # pixels of the large panel
 _AT = 150  # its left edge
 _SMALL = 270  # pixels of a small panel
 MAP, INVERSE = style.VERMILION, style.BLUE
+_SEA = "#d4d4d4"
 
 
 @style.pinned()
@@ -44,10 +45,12 @@ def draw(scene, jumps, orbits):
     entries = [
         ("the map jumps", MAP, "", False),
         ("its inverse jumps", INVERSE, "", False),
+        ("regular orbits", style.BACKDROP, "o", False),
         ("grazing rim", style.BLACK, "", False),
         ("symmetry lines", style.PURPLE, "", True),
+        ("chaotic orbit", _SEA, "o", False),
     ]
-    key(sheet, entries, frame[1] - 128, 2, _AT + 10, _WIDE)
+    key(sheet, entries, frame[1] - 128, 3, _AT - 50, _WIDE + 60)
     corner(sheet, frame, style.setting(scene))
     _births(sheet, jumps)
     return sheet.figure
@@ -57,7 +60,7 @@ def _orbits(panel, orbits, sea):
     x, y = chart(panel.k, *states_of(orbits))
     spans = rows(orbits)
     for index in sorted(range(len(spans)), key=lambda i: (i not in sea, i)):
-        hue, size = (style.GRID, 0.7) if index in sea else (style.BACKDROP, 0.9)
+        hue, size = (_SEA, 0.7) if index in sea else (style.BACKDROP, 0.9)
         panel.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
 

@@ -14,7 +14,7 @@ _CRITICAL = 0.25
 
 @style.pinned()
 def draw(scene, last_curve):
-    """Return the Figure of residues and of orbits, one hue a noble rotation number.
+    """Return the Figure of residues and of orbits, one hue for each sequence of convergents.
 
     Parameters
     ----------
@@ -28,14 +28,20 @@ def draw(scene, last_curve):
         Above: the residues of the convergents against their period. Below: what becomes of an orbit
         that starts at the last convergent, in the plane (x, y).
     """
-    sheet = Sheet(style.COLUMN, 1500)
+    sheet = Sheet(style.COLUMN, 1575)
     _residues(sheet, (_LEFT, 1030, _RIGHT, 1425), last_curve)
     _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
     corner(sheet, (_LEFT, 105, _RIGHT, 760), style.setting(scene))
-    names = [f"rotation number {number:.6f}" for number in last_curve["rotation"].values]
-    entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
-    key(sheet, entries, 855, 2, _LEFT, _RIGHT - _LEFT)
+    names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
+    _key(sheet, names, sheet.high - 29)
+    periods = last_curve["period"].values[:, -1]
+    _key(sheet, [f"orbit from period {period:.0f}" for period in periods], 850)
     return sheet.figure
+
+
+def _key(sheet, names, top):
+    entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
+    key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
 def _residues(sheet, frame, last_curve):
@@ -52,7 +58,7 @@ def _residues(sheet, frame, last_curve):
         above = last_curve["residue"].values[i] > 0.0
         panel.dots(periods[i][above], size[i][above], style.HUES[i])
         panel.dots(periods[i][~above], size[i][~above], style.HUES[i], hollow=True)
-    panel.note(periods.max(), _CRITICAL, "1/4", shift=(2, 4))
+    panel.note(periods.max(), _CRITICAL, "critical: 1/4", shift=(0, 5), ha="right")
     corner(sheet, frame, "hollow: negative")
 
 

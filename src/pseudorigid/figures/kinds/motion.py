@@ -1,6 +1,8 @@
 """A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
 
-from ..axes.limits import complete, of_data
+import numpy as np
+
+from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
 
@@ -21,6 +23,11 @@ def draw(scene, motion):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show nothing of the lines.
     """
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
     scene = complete(
@@ -28,6 +35,8 @@ def draw(scene, motion):
         t=lambda: of_data([0.0, scene["duration"]], room=0.0),
         displacement=lambda: of_data(-x, u),
     )
+    both = {"t": [*t, np.nan, *t], "displacement": [*-x, np.nan, *u]}
+    refuse_empty(scene["axes"], {name: np.array(both[name]) for name in both}, joined=True)
     picture = plane(scene)
     mass = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}

@@ -29,16 +29,17 @@ def draw(scene, orbits):
     Raises
     ------
     ValueError
-        A sea that the scene does not have, or nothing within the axes.
+        A sea that the scene does not have, axes that show nothing, or a view that does.
     """
     scene = complete_box(scene, orbits)
-    refuse_empty(scene["axes"], orbits)
+    refuse_empty(scene["axes"], {name: orbits[name].values for name in style.NAMES})
     spans = rows(orbits)
     sea = set(scene["sea"])
     if not sea <= set(range(len(spans))):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")
     entries = [("chaotic orbit", style.SEA, "o", False)] if sea else []
     box = Box(scene, entries)
+    box.refuse_hidden(*(orbits[name].values for name in style.NAMES))
     others = [index for index in range(len(spans)) if index not in sea]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(others)}
     for index in sorted(sea) + others:

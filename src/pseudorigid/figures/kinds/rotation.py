@@ -11,6 +11,7 @@ from ..canvas.sheet import Sheet
 _LEFT, _RIGHT = 135, 1005
 _STARTS = "Start on $y=0$, section radii from the centre"
 _HIGH = 0.0125  # half the height of the lowest panel
+_HUES = (*style.HUES, style.SEA)
 
 
 @style.pinned()
@@ -31,7 +32,14 @@ def draw(scene, rotation):
         by how much the rotation number differs from the fixed point's at all energies, as far as
         the main island reaches.
     """
-    sheet = Sheet(style.COLUMN, 1950)
+    sheet = Sheet(style.COLUMN, 2025)
+    entries = [
+        ("regular", style.BLUE, "o", False),
+        ("chaotic", style.SEA, "o", False),
+        ("fixed point", style.VERMILION, "o", False),
+        ("islands", style.VERMILION, "", False, 1.6),
+    ]
+    key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
     _first_energy(sheet, scene, rotation)
     _detail(sheet, (_LEFT, 715, _RIGHT, 1065), rotation)
     _energies(sheet, (_LEFT, 105, _RIGHT, 515), rotation)
@@ -47,7 +55,7 @@ def _first_energy(sheet, scene, rotation):
     above = _LEFT, 1565, _RIGHT, 1875
     panel = Panel(sheet, above, across.blank(), linear(*limits, 5, "Rotation number"))
     shown = ~good & (turns > limits[0]) & (turns < limits[1])
-    panel.dots(place[shown], turns[shown], style.BACKDROP, size=1.6)
+    panel.dots(place[shown], turns[shown], style.SEA, size=1.6)
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     panel.dots([at], [fixed], style.VERMILION, size=3.4)
     corner(sheet, above, style.setting(scene))
@@ -63,7 +71,7 @@ def _detail(sheet, frame, rotation):
     )
     good = regular(grown, rotation.attrs["detail_impacts"])
     across = linear(place[0], place[-1], 4, _STARTS)
-    limits = wider(turns[good].min(), turns[good].max(), 0.05, 0.1)
+    limits = wider(turns[good].min(), turns[good].max(), 0.05, 0.2)
     panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     for p, q, first, last in plateaus(place[good], turns[good]):
@@ -93,8 +101,7 @@ def _energies(sheet, frame, rotation):
     for number, (energy, place, change) in enumerate(curves):
         shown = np.abs(change) < _HIGH
         cut = shown.size if shown.all() else int(np.argmin(shown))
-        hue = style.HUES[number % len(style.HUES)]
-        dashed = number >= len(style.HUES)
+        hue, dashed = _HUES[number % len(_HUES)], number >= len(_HUES)
         panel.line(place[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
     deep = -(-len(entries) // 2)

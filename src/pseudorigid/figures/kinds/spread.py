@@ -57,7 +57,7 @@ def _lengths(sheet, frame, spread):
         panel.line([length] * 2, values[[0, last]], color=style.VERMILION, lw=0.7)
         panel.line([length] * 2, values[[last // 4, 3 * last // 4]], color=style.VERMILION, lw=2.4)
         panel.dots([length], [values.mean()], style.BLACK, size=2.0)
-    corner(sheet, frame, "range, quartiles, mean")
+    corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
 def _short_runs(sheet, frame, spread, paper_runs):
@@ -93,4 +93,4 @@ def _regular(sheet, frame, spread):
         one = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
         panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
-    corner(sheet, frame, "dashes: $\\ln\\,n/n$")
+    corner(sheet, frame, "one colour an orbit; dashes: $\\ln\\,n/n$")

@@ -7,8 +7,11 @@ from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
 from ..canvas.ragged import rows
+from ..canvas.sheet import POINT
 
-_BACKDROP, _SADDLE, _END = 0.5, 3.6, 2.6  # points
+_BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
+_REACH = 2.5  # points along a line, to either side of a fold's tip
+_SHARP = 0.5  # of the reach: how near to each other the two sides of a sharp fold are there
 _WORDS = dict(enumerate(("one", "two", "three", "four", "five", "six"), 1))
 # Stable branches first and broader: both show where they all but coincide.
 _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
@@ -18,8 +21,9 @@ _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 def draw(scene, orbits, manifolds, periodic):
     """A hyperbolic orbit's branches over a backdrop of orbits.
 
-    Stable branches are green, unstable ones blue; a line ends in an open dot where it was
-    not followed further, or where the map jumps. What the surface hides is not drawn.
+    Stable branches are green, unstable ones blue. An open dot marks the end of a line that is not
+    followed further, an open square a line that the map's jump interrupts, and a small full dot a
+    fold so sharp that the line seems to end there. What the surface hides is not drawn.
 
     Parameters
     ----------
@@ -35,10 +39,10 @@ def draw(scene, orbits, manifolds, periodic):
     Raises
     ------
     ValueError
-        Nothing lies within the axes, or no orbit has that type.
+        Axes or a view that show none of the branches, or no orbit of that type.
     """
     scene = complete_box(scene, orbits, manifolds)
-    refuse_empty(scene["axes"], manifolds)
+    refuse_empty(scene["axes"], {name: manifolds[name].values for name in style.NAMES})
     saddles = states_of(of_type(periodic, scene["type"]))
     count = saddles.shape[1]
     entries = [
@@ -46,9 +50,13 @@ def draw(scene, orbits, manifolds, periodic):
         ("unstable", style.UNSTABLE, "", False),
         (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o", False),
         ("sea and islands", style.BACKDROP, "o", False),
-        ("end of a line", style.UNSTABLE, "o", True),
+        ("not followed on", style.FRAME, "o", True),
+        ("sharp fold", style.FRAME, "o", False, _TIP),
     ]
+    if Box(scene).seen(*states_of(manifolds)[:, _jumps(manifolds)]).any():
+        entries.append(("jump of the map", style.FRAME, "s", True))
     box = Box(scene, entries)
+    box.refuse_hidden(*states_of(manifolds))
     box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds)
     box.points(*saddles, "white", _SADDLE + 1.2)
@@ -58,13 +66,59 @@ def draw(scene, orbits, manifolds, periodic):
 
 def _branches(box, manifolds):
     spans, state = rows(manifolds), states_of(manifolds)
-    ends = []
+    marks, every, jumps = [], np.array(box.view(*state)), _jumps(manifolds)
     for stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
             line = state[:, span]
             box.line(*line, hue, width)
-            gap = np.isnan(line[0])
-            end = ~gap & (np.append(gap[1:], True) | np.insert(gap[:-1], 0, False))
-            ends.append((*line[:, end], hue))
-    for end in ends:
-        box.points(*end, _END, mfc="white", mew=0.6)
+            tips = _tips(every[:, span], every)
+            how = {"mfc": "white", "mew": 0.6}
+            marks.append((line[:, tips], hue, _TIP, {}))
+            marks.append((line[:, jumps[span]], hue, _END, how | {"marker": "s"}))
+            marks.append((line[:, [-1]], hue, _END, how))
+    for at, hue, size, how in marks:
+        box.points(*at, hue, size, **how)
+
+
+def _jumps(manifolds):
+    """Whether each vertex is next to a jump of the map, which interrupts its line."""
+    gap = np.isnan(manifolds["x"].values)
+    return ~gap & (np.append(gap[1:], False) | np.insert(gap[:-1], 0, False))
+
+
+def _tips(line, every):
+    """Where a line on the sheet turns back so sharply that it seems to end.
+
+    Parameters
+    ----------
+    line, every : ndarray, shape (2, n)
+        In pixels, NaN where lines are interrupted: this line, and all of them.
+
+    Returns
+    -------
+    list of int
+        Vertices of the line with its two sides close together and no line going on beyond.
+    """
+    reach, tips = _REACH * POINT, []
+    every = every[:, ~np.isnan(every[0])]
+    for some in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):
+        place = some[~np.isnan(line[0, some])]
+        if place.size == 0:
+            continue
+        piece = line[:, place]
+        steps = np.sqrt((np.diff(piece) ** 2).sum(axis=0))
+        along = np.concatenate([[0.0], np.cumsum(steps)])
+        before, after = (
+            np.array([np.interp(along + shift, along, part) for part in piece])
+            for shift in (-reach, reach)
+        )
+        beyond = 2.0 * piece - 0.5 * (before + after)  # as far again as the sides come from
+        inner = (along >= reach) & (along <= along[-1] - reach)
+        apart = np.where(inner, np.sqrt(((after - before) ** 2).sum(axis=0)), np.inf)
+        sharp = np.concatenate([[False], apart < _SHARP * reach, [False]])
+        for start, stop in np.flatnonzero(np.diff(sharp)).reshape(-1, 2):
+            tip = start + int(np.argmin(apart[start:stop]))
+            away = ((every - beyond[:, [tip]]) ** 2).sum(axis=0)
+            if not (away < _SHARP * reach * reach).any():
+                tips.append(int(place[tip]))
+    return tips

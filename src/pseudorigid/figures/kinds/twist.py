@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..axes.limits import complete, of_data
+from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
 
@@ -23,6 +23,11 @@ def draw(scene, twist):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        Axes that show nothing of the line.
     """
     energy, values = twist["energy"].values, twist["twist"].values
     scene = complete(
@@ -30,6 +35,7 @@ def draw(scene, twist):
         energy=lambda: of_data([0.0, *energy], room=0.0),
         twist=lambda: of_data(values),
     )
+    refuse_empty(scene["axes"], {"energy": energy, "twist": values}, joined=True)
     names = ("Energy $E$", r"Twist $\tau_1$ of the fixed point")
     plane = Plane(scene, ("energy", "twist"), names, energy=False)
     (left, right), (bottom, _) = plane.across.limits, plane.up.limits

@@ -15,9 +15,10 @@ class Horseshoe(OfBranches):
 
     The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its {{
     s.connection }} connection, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g
-    }}; dots, far larger than the sets. Above, over the manifolds: at the saddles (red) and along
-    the connection. Below: the middle set as a square, and across it the image of the set before
-    it.
+    }}; dots, far larger than the sets. Above, over the manifolds (pale lines: stable green,
+    unstable blue): at the saddles (red) and along the connection, on the way out to the middle set
+    (black) and back from it. Below: the middle set as a square, and across it the image of the set
+    before it.
 
     What to see: the image crosses the square from side to side, its heavy ends lie beyond, and it
     touches neither top nor bottom. Each set covers the next in that way.

@@ -35,6 +35,6 @@ class Motion(OfPeriodicOrbit):
         return Motion.about_orbit(periodic, block) | {
             "time": f"{t[0]:g} to {t[-1]:g}",
             "time of one period": f"{float(orbit['total_time']):.6f}",
-            "impacts drawn": f"{motion.sizes['impact']}",
+            "impacts drawn": f"{motion.sizes['impact']:,}",
             "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
         }

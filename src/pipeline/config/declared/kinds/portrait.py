@@ -41,7 +41,7 @@ class Portrait(OnSurface, OfOrbits):
         """How many orbits and impacts, their energy, and how near they come to grazing."""
         speed = float((orbits["xdot"] + orbits["udot"]).min())
         return {
-            "orbits": f"{orbits.sizes['orbit']}",
+            "orbits": f"{orbits.sizes['orbit']:,}",
             "impacts": f"{orbits.sizes['point']:,}",
             **measured_energy(block, orbits),
             "least speed of contact": f"{speed:.2g}",

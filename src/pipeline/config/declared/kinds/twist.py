@@ -8,7 +8,9 @@ class Twist(Scene):
     """the fixed point's twist coefficient against the energy
 
     The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for k
-    = {{ s.ball.k }}, g = {{ s.ball.g }}: doubles rounded from enclosures.
+    = {{ s.ball.k }}, g = {{ s.ball.g }}. At {{ s.energies|length }} energies from
+    {{ s.energies|first }} to {{ s.energies|last }} it is enclosed, and rounded to a double;
+    straight lines join these values.
 
     What to see: where it is not zero, Moser's theorem gives invariant curves around the point.
     Positive means that the rotation number falls away from the point. A zero is proved at the ring,
