@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
+from ..axes.limits import complete, of_data
 from ..axes.panel import Axis, Panel, corner
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -24,7 +25,7 @@ def draw(scene, manifolds, horseshoe):
     Parameters
     ----------
     scene : dict
-        Its axes are x, y, p and q.
+        Its axes x, y, p and q, where it gives none, are those of the data.
     manifolds : xarray.Dataset
         Of that stage.
     horseshoe : xarray.Dataset
@@ -34,6 +35,14 @@ def draw(scene, manifolds, horseshoe):
     -------
     matplotlib.figure.Figure
     """
+    line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    scene = complete(
+        scene,
+        x=lambda: of_data(line_x, horseshoe["x"].values),
+        y=lambda: of_data(line_y, horseshoe["y"].values),
+        p=lambda: of_data(horseshoe["image_p"].values),
+        q=lambda: of_data([-1.0, 1.0]),
+    )
     sheet = Sheet(style.COLUMN, _HIGH)
     x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
     _tangle(Panel(sheet, _ABOVE, x, y), manifolds, horseshoe)

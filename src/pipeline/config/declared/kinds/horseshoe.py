@@ -24,11 +24,13 @@ class Horseshoe(OfBranches):
     """
 
     stages = ("manifolds", "horseshoe")
+    framed_by = ("period", "type", "branches", "connection")
     telling = "sets"
 
     connection: Side
     """along which branches the orbit is connected with itself"""
-    axes: axes_of("x", "y", "p", "q")
+    type: Annotated[Literal["hyperbolic"], Field(description="hyperbolic")]
+    axes: axes_of("x", "y", "p", "q") = None
 
     @staticmethod
     def numbers(block, periodic, manifolds, horseshoe):
