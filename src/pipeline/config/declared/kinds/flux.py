@@ -38,5 +38,11 @@ class Flux(Scene):
 
     @staticmethod
     def numbers(block, flux):
-        """Areas of the lobes in (x, y)."""
-        return {"lobes": listing(flux, "{} {:.10g}", "side", "area")}
+        """Areas of the lobes in (x, y), or why there are none."""
+        here = flux.dropna("side", subset=["area"])
+        missing = {
+            f"no {side} lobes": flux.attrs[f"missing_{side}"]
+            for side in flux["side"].values
+            if f"missing_{side}" in flux.attrs
+        }
+        return {"lobes": listing(here, "{} {:.10g}", "side", "area")} | missing
