@@ -17,6 +17,7 @@ from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
 LOGS = []  # snakemake's own, of the runs of this process, from the root
+REASONS = {}  # result -> why it could not be made in a run of this process
 _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
 _SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
@@ -151,6 +152,7 @@ def _run(targets, forced, computes, arguments) -> int:
         return 1
     if told and (handler := steps.LogHandler.last):
         LOGS.extend([handler.log] if handler.log else [])
+        REASONS.update(handler.reasons)
         if status and not handler.failed:
             print(*handler.errors, sep="\n", file=sys.stderr)
     return status

@@ -1,7 +1,7 @@
 """Rotation number and exponent against the start."""
 
 from ..fields import Between, Energy, listed, whole
-from ..scene import Scene, listing
+from ..scene import Scene, listing, not_elliptic
 
 
 class Rotation(Scene):
@@ -27,6 +27,15 @@ class Rotation(Scene):
     """a part of y = 0 over which as many starts lie again"""
     detail_impacts: whole(100, 10_000_000)
     """impacts of each orbit there"""
+
+    @classmethod
+    def faults(cls, block):
+        """Rotation numbers are about an elliptic fixed point."""
+        faults = [*super().faults(block)]
+        yield from faults
+        if not faults:
+            yield from not_elliptic(block, "energy")
+            yield from not_elliptic(block, "energies")
 
     @staticmethod
     def numbers(block, rotation):

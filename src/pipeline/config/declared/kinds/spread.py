@@ -28,7 +28,7 @@ class Spread(OfRecords):
     """stretches into which each is cut"""
     regular: listed(Fraction, "a list of fractions")
     """starts of regular orbits"""
-    regular_impacts: whole(2, 10_000_000)
+    regular_impacts: whole(16, 10_000_000)
     """impacts of each of them"""
     cells: whole(2, 1000)
     """cells to a side of the grid over the section"""

@@ -3,7 +3,7 @@
 import math
 
 from ..fields import Energy, axes_of, listed, rising
-from ..scene import Scene
+from ..scene import Scene, fixed_point_trace, not_elliptic
 
 CLOSE = 1e-9  # of a trace to one that belongs to a root of unity
 
@@ -37,34 +37,16 @@ class Twist(Scene):
         for mark in block["marks"]:
             if mark not in block["energies"]:
                 yield ("marks",), mark, "one of energies"
-        for i, energy in enumerate(block["energies"] if not faults else ()):
-            trace = _trace(block["ball"]["k"], energy / block["ball"]["g"] ** 2)
-            if not trace > -2:
-                what = "an energy at which the fixed point is elliptic; here it is not"
-                yield ("energies", i), energy, what
-            elif min(abs(trace - root) for root in (-2, -1, 0, 2)) < CLOSE:
-                what = "an energy at which no power of the multiplier up to the fourth is 1"
-                yield ("energies", i), energy, what
+        if not faults:
+            yield from not_elliptic(block, "energies")
+            for i, energy in enumerate(block["energies"]):
+                trace = fixed_point_trace(block["ball"], energy)
+                if min(abs(trace - root) for root in (-1, 0)) < CLOSE:
+                    what = "an energy at which no power of the multiplier up to the fourth is 1"
+                    yield ("energies", i), energy, what
 
     @staticmethod
     def numbers(block, twist):
         """Where it vanishes."""
         zero = float(twist["zero"])
         return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
-
-
-def _trace(k, energy):
-    """The trace at the fixed point at energy E/g^2, as in `pseudorigid.dynamics.fixed_point`.
-
-    That module compiles code when it is imported, which takes too long for a check.
-    """
-
-    def bent(theta):
-        return 1 - theta / math.tan(theta)
-
-    low, high = 0.0, math.pi
-    while (theta := (low + high) / 2) not in (low, high):
-        below = ((1 + k) * theta * theta + bent(theta) ** 2 - 1) / (2 * k) < energy
-        low, high = (theta, high) if below else (low, theta)
-    shear = bent(theta) * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
-    return 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
