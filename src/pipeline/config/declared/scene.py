@@ -31,6 +31,8 @@ class Scene(fields.Block):
     framed_by: ClassVar[tuple[str, ...]] = ()
     # The quantity of `numbers` that stands for the figure in a list.
     telling: ClassVar[str]
+    # Another scene of the kind than the committed one, small: YAML, its fields without `picture`.
+    example: ClassVar[str]
     # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
 
@@ -213,8 +215,13 @@ def not_elliptic(block, name) -> Iterator[Fault]:
     energies = block[name] if isinstance(block[name], list) else [block[name]]
     for i, energy in enumerate(energies):
         if not fixed_point_trace(block["ball"], energy) > -2:
+            low, high = -(block["ball"]["g"] ** 2) / (2 * block["ball"]["k"]), energy
+            for _ in range(40):
+                middle = (low + high) / 2
+                elliptic = fixed_point_trace(block["ball"], middle) > -2
+                low, high = (middle, high) if elliptic else (low, middle)
             place = (name, i) if isinstance(block[name], list) else (name,)
-            yield place, energy, "an energy at which the fixed point is elliptic; here it is not"
+            yield place, energy, f"an energy below {low:.6g}, where the fixed point is elliptic"
 
 
 def fixed_point_trace(ball, energy) -> float:

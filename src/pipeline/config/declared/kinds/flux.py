@@ -16,6 +16,16 @@ class Flux(Scene):
 
     stages = ("flux",)
     telling = "lobes"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.001
+    period: 6
+    distance: 0.01
+    grid: 100
+    between: [0.8, 0.9]
+    orbits: 8
+    impacts: 500
+    """
 
     period: whole(2, 12, 2)
     """of the hyperbolic orbit"""

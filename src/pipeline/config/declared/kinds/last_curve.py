@@ -17,6 +17,14 @@ class LastCurve(Scene):
 
     stages = ("last_curve",)
     telling = "last residues"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    convergents: 4
+    between: [-0.3, 0.3]
+    impacts: 2000
+    drawn: 1000
+    """
 
     nobles: listed(
         listed(whole(0, 1000), "a continued fraction"), "a list of 1 to 8 continued fractions", 1, 8

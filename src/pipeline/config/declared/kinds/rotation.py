@@ -16,6 +16,15 @@ class Rotation(Scene):
 
     stages = ("rotation",)
     telling = "at the fixed point"
+    example = """
+    ball: {k: 0.1, g: 0.02}
+    energy: 0.01
+    energies: [0.001, 0.005]
+    starts: 80
+    impacts: 1000
+    detail: [-0.3, -0.2]
+    detail_impacts: 1000
+    """
 
     energies: listed(Energy, "a list of energies", 1, 20)
     """further energies, drawn with the first"""

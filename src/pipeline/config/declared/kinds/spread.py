@@ -17,6 +17,21 @@ class Spread(OfRecords):
 
     stages = ("spread", "lyapunov")
     telling = "long-run exponent"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.05
+    between: [0.2, 0.6]
+    orbits: 8
+    length: 2000
+    blocks: 20
+    regular: [-0.6]
+    regular_impacts: 1024
+    cells: 10
+    visits: 1000
+    starts: [0.3, 0.5]
+    impacts: 500
+    records: 20
+    """
 
     between: Between
     """the part of y = 0 on which chaotic orbits start"""

@@ -22,6 +22,12 @@ class Twist(Scene):
     stages = ("twist",)
     framed_by = ("energies",)
     telling = "zero of the twist"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    energies: [0.0005, 0.001, 0.002, 0.003, 0.004, 0.005]
+    marks: [0.002]
+    """
 
     energies: listed(Energy, "a list of energies in rising order", 2, 1000, rising)
     """where the coefficient is computed"""
