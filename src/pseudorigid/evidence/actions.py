@@ -221,17 +221,20 @@ class Heteroclinic:
     ValueError
         Where Newton's method does not find the crossing.
     ArithmeticError
-        Where the working precision does not enclose a time of flight.
+        Where the working precision does not enclose a time of flight or the crossing.
     """
 
     def __init__(self, saddle, sign, parameter, impacts):
+        small = arb(2) ** -_CROSSED
         for _ in range(_NEWTON):
             self._follow(saddle, sign, parameter, impacts)
             step = (self.points[-1][1] / self.tangent[1]).mid()
             parameter = (parameter - step).mid()
-            if abs(step) < abs(parameter) * arb(2) ** -_CROSSED:
+            if abs(step) < abs(parameter) * small:
                 break
         else:
+            if not abs(self.points[-1][1] / self.tangent[1]).rad() < abs(parameter) * small:
+                raise ArithmeticError("the crossing is not enclosed: more bits are needed")
             raise ValueError("Newton's method does not find the crossing with y = 0")
         self._follow(saddle, sign, parameter, impacts)
         self.parameter, self.impacts = parameter, impacts
@@ -300,7 +303,7 @@ def lobe(saddle, sign, nearer):
     ValueError
         A branch that does not meet y = 0, as far as can be seen.
     ArithmeticError
-        Where the working precision does not enclose a time of flight.
+        Where the working precision does not enclose a time of flight or the crossing.
 
     References
     ----------

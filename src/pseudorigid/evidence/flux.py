@@ -82,6 +82,9 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         the stable branch. Attributes: section, its area; multiplier, of the orbit. Areas are those
         of (x, y), which the map keeps, eq. (42), in omega R^2.
 
+        A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
+        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it.
+
     Raises
     ------
     ValueError
@@ -125,7 +128,7 @@ def _no_side(side):
     """A side without lobes, as a row of _VARIABLES."""
     sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
     row = {}
-    for name, (dims, _) in _VARIABLES.items():
+    for name, (dims, *_) in _VARIABLES.items():
         row[name] = math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan)
     return (*(row | {"side": side, "digits": "", "saddle": -1, "target": -1}).values(),)
 
