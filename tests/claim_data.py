@@ -8,6 +8,7 @@ import xarray as xr
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.dynamics.variables import attributes_of
 from pseudorigid.evidence.clusters import clusters
 from pseudorigid.evidence.flux import flux
 from pseudorigid.evidence.jumps import jumps
@@ -29,14 +30,14 @@ def atlas(ks, energies, starts, impacts):
         name: (
             ("k", "energy"),
             np.array([[cell[name] for cell in row] for row in rows]),
-            {"long_name": words, "units": "1"},
+            attributes_of(words),
         )
         for name, (words, _) in VARIABLES.items()
         if name != "chains"
     }
     config = json.dumps({"starts": starts, "impacts": impacts})
     axes = {"k": ks, "energy": energies}
-    axes = {name: (name, axis, {"long_name": name, "units": "1"}) for name, axis in axes.items()}
+    axes = {name: (name, axis, attributes_of(name)) for name, axis in axes.items()}
     return xr.Dataset(data, coords=axes, attrs={"g": 0.04, "config": config})
 
 

@@ -1,4 +1,4 @@
-"""A real Slurm on this machine: munged, slurmctld and slurmd of one node, in a folder of its own.
+"""A real Slurm of two nodes on this machine: munged, slurmctld, two slurmd, in their own folder.
 
 Debian's packages slurm-wlm and munge have all of it. Its daemons need root.
 """
@@ -20,7 +20,6 @@ SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
 SlurmdUser=root
 SlurmctldPort={ports[0]}
-SlurmdPort={ports[1]}
 AuthType=auth/munge
 AuthInfo=socket={folder}/munge.socket
 CredType=cred/munge
@@ -39,14 +38,16 @@ SlurmdTimeout=5
 KillWait=2
 MinJobAge=300
 StateSaveLocation={folder}/state
-SlurmdSpoolDir={folder}/spool
+SlurmdSpoolDir={folder}/spool.%n
 SlurmctldPidFile={folder}/slurmctld.pid
-SlurmdPidFile={folder}/slurmd.pid
+SlurmdPidFile={folder}/slurmd.%n.pid
 SlurmctldLogFile={folder}/slurmctld.log
-SlurmdLogFile={folder}/slurmd.log
-NodeName={host} NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000 State=UNKNOWN
-PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
+SlurmdLogFile={folder}/slurmd.%n.log
+NodeName=one NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=1 RealMemory=4000
+NodeName=two NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=1 RealMemory=4000
+PartitionName=main Nodes=one,two Default=YES MaxTime=INFINITE State=UP
 """
+NODES = ("one", "two")
 
 
 def missing():
@@ -57,27 +58,27 @@ def missing():
     return None if os.geteuid() == 0 else "the daemons of Slurm need root"
 
 
-class Node:
+class Cluster:
     """The running daemons; a context manager that ends them."""
 
     def __enter__(self):
         self.folder = Path(tempfile.mkdtemp(prefix="slurm-"))
         self.folder.chmod(0o755)  # of munge's socket
-        for name in ("state", "spool"):
+        for name in ("state", *(f"spool.{node}" for node in NODES)):
             (self.folder / name).mkdir()
         key = self.folder / "munge.key"
         key.write_bytes(secrets.token_bytes(128))
         key.chmod(0o600)
         host = socket.gethostname().split(".")[0]
         config = self.folder / "slurm.conf"
-        config.write_text(CONFIG.format(folder=self.folder, host=host, ports=free_ports(2)))
+        config.write_text(CONFIG.format(folder=self.folder, host=host, ports=free_ports(3)))
         # The plugin clears SLURM_CONF in jobs, where srun then looks into /etc.
         srun = self.folder / "bin" / "srun"
         srun.parent.mkdir()
         srun.write_text(f'#!/bin/sh\nSLURM_CONF={config} exec {shutil.which("srun")} "$@"\n')
         srun.chmod(0o755)
         path = f"{srun.parent}:{os.environ['PATH']}"
-        self.environment = os.environ | {"SLURM_CONF": str(config), "PATH": path}
+        self.environment = {"SLURM_CONF": str(config), "PATH": path}
         self.running = {}
         try:
             names = ("key-file", "socket", "pid-file", "log-file", "seed-file")
@@ -85,27 +86,33 @@ class Node:
             self.start("munged", "--foreground", "--force", *files)
             wait((self.folder / "munge.socket").exists, 10, "munged")
             self.start("slurmctld", "-D")
-            self.start("slurmd", "-D")
-            wait(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%t"), 30, "the node")
+            for node in NODES:
+                self.start_node(node)
+            wait(lambda: self.states() == dict.fromkeys(NODES, "idle"), 30, "the nodes")
         except BaseException:
             self.__exit__()
             raise
         return self
 
     def __exit__(self, *_):
-        if "slurmd" in self.running:  # a job outlives the daemon
+        if self.running.keys() & set(NODES):  # a job outlives the daemon
             self.ask("scancel", "--user", "root")
             wait(lambda: not self.jobs("R,CG"), 20, "the end of the jobs")
         for name in list(self.running)[::-1]:
             self.stop(name)
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start(self, name, *arguments):
+    def start_node(self, node):
+        """Start the daemon of a node."""
+        self.start("slurmd", "-D", "-N", node, name=node)
+
+    def start(self, program, *arguments, name=None):
         """Start a daemon in the foreground of a session of its own."""
+        name = name or program
         with open(self.folder / f"{name}.out", "a", encoding="utf-8") as out:
             self.running[name] = subprocess.Popen(
-                [shutil.which(name), *arguments],
-                env=self.environment,
+                [shutil.which(program), *arguments],
+                env=os.environ | self.environment,
                 stdout=out,
                 stderr=out,
                 start_new_session=True,
@@ -124,13 +131,20 @@ class Node:
     def ask(self, *command):
         """What a command of Slurm prints."""
         result = subprocess.run(
-            command, env=self.environment, capture_output=True, text=True, check=False
+            command, env=os.environ | self.environment, capture_output=True, text=True, check=False
         )
         return result.stdout
 
     def jobs(self, state="R"):
-        """The numbers of the jobs in a state."""
-        return self.ask("squeue", "-h", "-t", state, "-o", "%i").split()
+        """The jobs in a state: number -> the node it is or was on."""
+        lines = self.ask("squeue", "-h", "-t", state, "-o", "%i %N").splitlines()
+        return {number: node for number, _, node in (line.partition(" ") for line in lines)}
+
+    def states(self):
+        """The state of each node."""
+        return dict(
+            line.split() for line in self.ask("sinfo", "-h", "-N", "-o", "%N %T").splitlines()
+        )
 
 
 def free_ports(count):

@@ -5,8 +5,10 @@ import pytest
 import xarray as xr
 
 from pipeline.checks.compare import cycles, exponents, norms
+from pipeline.checks.compare import orbits as apart
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.orbits import scene_orbits
 
 NAMES = ("one", "two")
 NAMED = "paper, low, doubled"  # what can be compared
@@ -20,8 +22,8 @@ def test_the_norms_are_those_of_the_definition():
     a, b = np.array([3.0, 4.0]), np.array([3.0, 4.5])
     lines = norms.table(dataset(x=a, same=a), dataset(x=b, same=a), NAMES)
     assert len(lines) == 2
-    name, first, second, relative, largest = lines[1].split()
-    assert name == "x"
+    name, count, first, second, relative, largest = lines[1].split()
+    assert (name, count) == ("x", "2")
     assert float(first) == pytest.approx(np.sqrt(12.5), rel=1e-5)
     assert float(second) == pytest.approx(np.sqrt((9 + 20.25) / 2), rel=1e-5)
     assert (float(relative), float(largest)) == (0.1, 0.5)
@@ -30,16 +32,37 @@ def test_the_norms_are_those_of_the_definition():
 def test_other_shapes_gaps_and_lonely_variables_are_said():
     a, b = dataset(x=[1.0, 2.0]), dataset(x=[1.0, 2.0, 3.0], y=[1.0])
     lines = norms.table(a, b, NAMES)
-    assert "2 | 3 values" in lines[1]
+    assert lines[0].split()[:2] == ["variable", "values"]
+    assert lines[1].split()[:4] == ["x", "2", "|", "3"]
     assert "in two only" in lines[2]
     gap = norms.table(dataset(x=[1.0, np.nan]), dataset(x=[2.0, np.nan]), NAMES)
     assert gap[1].split()[-2:] == ["1", "1"]
     assert norms.table(a, a, NAMES) == ["the same data"]
 
 
+def test_a_summary_is_one_line_that_names_the_variable_that_differs_most():
+    a = dataset(x=[3.0, 4.0], y=[1.0], n=[1], z=[1.0, 2.0], same=[5.0])
+    b = dataset(x=[3.0, 4.5], y=[1.01], n=[9], z=[1.0], same=[5.0])
+    line = "4 of 5 variables differ, x the most: by 0.1 of its norm; "
+    line += "1 of other lengths or in one only"
+    assert norms.summary(a, b, NAMES) == line
+    assert norms.summary(a, a, NAMES) == "the same data"
+
+
+def test_of_orbits_the_first_impact_that_is_apart_is_told():
+    ball = Ball(k=0.2, g=0.04)
+    near = [scene_orbits(ball, 0.01, [0.3], [100]) for _ in range(2)]
+    for data in near:
+        data.attrs |= {"k": 0.2, "g": 0.04, "energy": 0.01}
+    assert apart.summary(*near) == ["all 1 orbits stay within 0 section radii"]
+    near[1]["x"][41] += 0.1
+    line = "1 of 1 orbits are apart by more than 0.001 section radii, the first from impact 42 on"
+    assert apart.summary(*near) == [line]
+
+
 def test_nothing_and_zero_have_norms():
     lines = norms.table(dataset(x=[0.0]), dataset(x=[2.0]), NAMES)
-    assert lines[1].split() == ["x", "0", "2", "-", "2"]
+    assert lines[1].split() == ["x", "1", "0", "2", "-", "2"]
 
 
 def orbits(energy, k=0.2, g=0.04, period=6):
@@ -85,7 +108,7 @@ def test_what_is_missing_is_made_and_everything_is_said(variants):
     said = (variants.path / "said of paper and low").read_text().partition("\npaper | low\n")[2]
     assert "  energy: 0.01 | 0.0017\n" in said
     assert "  cannot exist in low: no elliptic orbit of period 6 at energy 0.0017" in said
-    assert "  motion      variable " in said
+    assert "  motion      5 of 5 variables differ, " in said
     assert "    period 1: kept: elliptic (rotation 0.179) | elliptic (rotation 0.1281)" in said
     assert "    period 6: lost: elliptic (rotation 0.1794)" in said
     assert "  impacts   3 of 60 " in said

@@ -74,7 +74,7 @@ def test_a_key_of_an_axis(moved):
     axes = {"impact": {"limits": [0, 200000], "ticks": [0]}}
     axes["exponent"] = {"limits": [-0.5, 0.5], "ticks": [0]}
     moved.edit("fig7", axes=axes)
-    assert verified(moved).wrong["fig7.png"][0].startswith("config: axes.exponent.limits: ")
+    assert verified(moved).wrong["fig7.png"][0].startswith("config: axes.exponent.limits[0]: ")
 
 
 def test_a_misspelt_key_is_one_line(moved):

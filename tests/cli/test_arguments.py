@@ -87,6 +87,7 @@ def test_the_version_is_ours_and_snakemakes(capsys):
     assert re.fullmatch(rf"pseudorigid \S+, snakemake {version('snakemake')}\n", out)
 
 
+FIGURES = "fig2, fig3, fig4, fig5, fig6, fig7 or fig8"
 WRONG = {
     "verfy": "reproduce: no word or figure verfy: did you mean verify?",
     "fig33": "reproduce: no word or figure fig33: did you mean fig3?",
@@ -94,7 +95,10 @@ WRONG = {
     "help verfy": "reproduce: no word verfy: did you mean verify?",
     "help verify fig3": "reproduce help: no argument fig3",
     "variant lower-energi": "reproduce: no variant lower-energi: did you mean lower-energy?",
-    "variant lower-energy fig99": "reproduce: no figure fig99: did you mean fig8?",
+    "variant lower-energy fig99": f"reproduce: no figure fig99: did you mean {FIGURES}?",
+    "fig": f"reproduce: no word or figure fig: did you mean {FIGURES}?",
+    "show --help": "reproduce: no word or figure show",
+    "verfy -h": "reproduce: no word or figure verfy: did you mean verify?",
     "compare paper douled fig2": "reproduce: no variant douled: did you mean doubled?",
     "sweep plan": "reproduce: no sweep plan: did you mean plane?",
     "accept fig3": "reproduce accept: no argument fig3",

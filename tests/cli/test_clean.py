@@ -34,6 +34,7 @@ FILES = {
     "results/gone/figures/fig9.png": True,  # of a variant that config.yaml no longer has
     "results/report/report.html": True,
     "results/compare/paper..near/fig3.png": True,
+    "results/paper/differences/fig3.png": True,
     "results/paper/notes.txt": False,
     "results/paper/figures/mine.png": False,
     "results/mine/orbits.nc": False,
@@ -52,7 +53,7 @@ def test_all_that_was_made_goes_and_only_that(tree):
     assert left(tree) == {name for name, goes in FILES.items() if not goes}
     assert not list((tree.path / "results").rglob("*.json"))
     assert not (tree.path / "results" / "gone").exists()  # empty folders go too
-    assert result.stdout.startswith("deleted 10 files, ")
+    assert result.stdout.startswith("deleted 11 files, ")
     assert tree.run("clean", "--yes").stdout == "nothing to delete\n"
 
 
@@ -80,7 +81,7 @@ def test_it_asks(tree):
             check=False,
         )
         assert said.returncode == status
-        assert "delete 5 files, 0.0 MB, in results/paper? [y/N]" in said.stderr
+        assert "delete 6 files, 0.0 MB, in results/paper? [y/N]" in said.stderr
     assert before - left(tree) == {
         name for name, goes in FILES.items() if goes and name.startswith("results/paper/")
     }

@@ -73,7 +73,7 @@ def refusals(part, block):
          "10000000, not 8005016005"),
         ("scenes", TANGLE, {"branches": {"inner": {"length": 4167}}}, "branches.inner.length: 4167 "
          "is not allowed: expected at most 10000000 times resolution.distance, shared by 24 "
-         "branches = 4166.67"),
+         "branches = 4166.666666666667"),
         ("sweeps", SWEEP, {"k": {"from": 0.01, "to": 0.3, "count": 1001}}, "energy: [1.0, "
          "1.00800800801, 1.01601601602, 1.02402402402, 1.0320... is not allowed: expected axes "
          "with at most 1000000 cells, here 1001 times 1000"),

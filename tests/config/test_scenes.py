@@ -189,7 +189,7 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_portrait.impacts", [6_000_000, 6_000_000], ["at most 10000000 impacts"]),
         ("scenes.a_portrait.impacts", ["1e3", 1], ["impacts[0]: '1e3'", "write 1000"]),
         ("scenes.a_portrait.sea", [2], ["sea: 2", "from 0 to 1"]),
-        ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "elevation < 90"]),
+        ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "from 0.1 to 89.9"]),
         ("scenes.a_tangle.branches", {}, ["branches: {}"]),
         ("scenes.a_tangle.branches", {"upper": {"length": 1}}, ["branches.upper: unknown"]),
         ("scenes.a_tangle.branches.outer.length", 0, ["outer.length: 0", "positive"]),
@@ -237,3 +237,11 @@ def test_what_is_said_to_be_written_instead_is_taken(path, value, advice):
     assert line.partition("; this is text to YAML, write ")[2] == advice
     if advice:
         config.check(changed(path, yaml.safe_load(advice)))
+
+
+def test_a_bound_is_printed_with_all_its_digits():
+    document = good()
+    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.01}, "energy": 0.15}
+    assert "a number below k/2 - g = 0.14, " in complaint(document)
+    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.0100000003}}
+    assert "a number below k/2 - g = 0.1399999997, " in complaint(document)

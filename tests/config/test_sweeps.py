@@ -46,7 +46,10 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
         ({"energy": RANGE | {"count": 1}}, ["sweeps.a.energy.count: 1", "from 2"]),
         ({"energy": RANGE | {"count": 0}}, ["sweeps.a.energy.count: 0", "from 2"]),
         ({"energy": RANGE | {"to": 0.1}}, ["sweeps.a.energy.to: 0.1", "above from = 0.1"]),
-        ({"energy": RANGE | {"spacing": "lg"}}, ["sweeps.a.energy.spacing: 'lg'", "even or log"]),
+        (
+            {"energy": RANGE | {"spacing": "lg"}},
+            ["sweeps.a.energy.spacing: 'lg'", "one of even, log"],
+        ),
         (
             {"energy": {"from": 0, "to": 1, "count": 3, "spacing": "log"}},
             ["sweeps.a.energy.from: 0", "> 0"],
@@ -81,3 +84,9 @@ def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, words):
 
 def test_sweeps_may_be_left_out():
     assert config.check(good())["sweeps"] == {}
+
+
+def test_a_sweep_named_like_a_block_of_another_is_refused():
+    given = good() | {"sweeps": {"s": SMALL, "s_0000": SMALL, "t_0000": SMALL}}
+    line = "sweeps: 's_0000' is not allowed: expected a name that no block of the sweep s has"
+    assert complaint(given) == line

@@ -2,9 +2,15 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
+from pipeline.checks.compare import exponents
+from pipeline.config.declared.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
+from pseudorigid.dynamics.variables import final_exponents
+from pseudorigid.evidence.spread import stretches
+from pseudorigid.figures.kinds.exponents import draw
 
 BALL = Ball(0.2, 0.04)
 
@@ -162,3 +168,43 @@ def test_a_state_off_the_section_is_refused_and_nan_stays_nan():
     found = lyapunov_spectrum(BALL, ([0.1, np.nan], 0.1, 0.1), 10)["exponent"].values
     assert np.all(np.isfinite(found[:, 0]))
     assert np.all(np.isnan(found[:, 1]))
+
+
+def test_the_largest_exponent_is_the_largest_by_value():
+    """Exponents come in the order of the frame, which 100 impacts at this energy do not sort."""
+    starts = np.linspace(-0.99, 0.99, 40).tolist()
+    found = scene_exponents(BALL, 0.001, starts, 100, 4)
+    last = found["exponent"].values[-1]
+    assert np.any(last[:, 0] < last.max(axis=1))
+    assert np.array_equal(final_exponents(found), np.sort(last, axis=1)[:, ::-1])
+
+    block = {"energy": 0.001, "ball": {"k": 0.2, "g": 0.04}}
+    numbers = KINDS["exponents"].numbers(block, found)
+    ours = [float(text) for text in numbers["largest exponent"].split(", ")]
+    assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
+    line = exponents.table(found, found, ("one", "other"))[1]
+    assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
+
+    blocks = xr.Dataset({"exponent": (("block", "orbit", "index"), last[None])})
+    long = stretches(blocks.assign_attrs(block_impacts=100), 100)
+    assert np.array_equal(long, last.max(axis=1))
+
+
+def test_the_inset_of_the_picture_has_the_largest_exponents():
+    values = np.array([[[-0.5, 0.52, 0.0]], [[-0.5, 0.49, 0.0]], [[-0.5, 0.5, 0.0]]])
+    data = xr.Dataset({"exponent": (("impact", "orbit", "index"), values)})
+    data = data.assign_coords(impact=[10, 20, 30])
+    figure = draw({"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}, data)
+    heights = [line.get_ydata() for line in figure.artists if hasattr(line, "get_ydata")]
+    # the two straight lines of the others are drawn by their ends
+    own, inset = (np.ptp(height) for height in heights if len(height) == 3)
+    assert inset > 5.0 * own
+
+
+def test_no_largest_exponent_is_minus_zero():
+    found = scene_exponents(BALL, -0.00399999999999999, [0.3], 1000, 2)
+    last = found["exponent"].values[-1, 0]
+    assert last[0] < 0.0 < last.max() < 5e-5
+    numbers = KINDS["exponents"].numbers({}, found)
+    assert numbers["largest exponent"] == "0.0000"
+    assert "-0.0000" not in numbers["all three of an orbit, at the end"]

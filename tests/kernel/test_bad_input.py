@@ -18,14 +18,10 @@ BAD = (math.nan, math.inf, -math.inf)
 @pytest.mark.parametrize("bad", BAD)
 @pytest.mark.parametrize("place", range(3))
 def test_what_is_not_finite(place, bad):
-    """NaN in every number, or, where v + w < 0, the words for that: at once, and for inverses."""
+    """NaN in every number, at once, and for inverses."""
     for others in ((0.1, 0.2, 0.3), (math.inf,) * 3, (math.nan,) * 3):
         state = [*others]
         state[place] = bad
-        if state[1] + state[2] < 0.0:
-            with pytest.raises(ValueError, match="xdot"):
-                BALL.impact(*state)
-            continue
         assert np.isnan(BALL.impact(*state)).all()
         assert np.isnan(BALL.inverse_impact(*state)).all()
         assert np.isnan(BALL.jacobian(*state)).all()

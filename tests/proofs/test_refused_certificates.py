@@ -3,19 +3,26 @@
 import dataclasses
 import re
 from fractions import Fraction
+from math import atan2, pi, tan
 
 import pytest
 from certificates import numbers
+from flint import arb, ctx
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.proofs import THEOREMS, Surface
-from pseudorigid.proofs.checks import jump, periodic
-from pseudorigid.proofs.checks.certificate import NotProvedError
+from pseudorigid.proofs import THEOREMS, Surface, prove_horseshoe
+from pseudorigid.proofs.checks import horseshoe, jump, periodic
+from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
+from pseudorigid.proofs.checks.hsets import HSet
+from pseudorigid.proofs.enclosure.surface import ball_of
+from pseudorigid.proofs.search import jump as jumps
+from pseudorigid.proofs.search import known
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
 BALL = Ball(k=0.2, g=0.04)
 TWISTS = [n for n in THEOREMS if n.startswith("twist-") and n != "twist-zero"]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 
 
 def refused(name, text):
@@ -141,7 +148,7 @@ def test_a_band_without_a_zero_of_the_twist_is_refused():
 def test_the_map_is_not_proved_smooth_above_its_threshold():
     text = THEOREMS["diffeomorphism"].text()
     for other in ("1/100", "11/6249", "11/6251"):
-        assert "product" in refused("diffeomorphism", text.replace("11/6250", other))
+        assert "not 11/6250" in refused("diffeomorphism", text.replace("11/6250", other))
     with pytest.raises(NotProvedError, match="no flight touches the floor"):
         at = Surface("1/5", "1/25", "11/6250")
         text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
@@ -160,6 +167,201 @@ def test_more_fixed_points_are_not_excluded_where_there_are_three():
     text = propose_only_fixed_point(k, g, energy)
     with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
         periodic.check_only_fixed_point(text, k, g, energy)
+
+
+# ---- certificates that are consistent and prove less than the statement
+
+
+def replaced(text, field, rows):
+    """The certificate with other rows of a field."""
+    lines = "".join(f"  [{', '.join(row)}],\n" for row in rows)
+    return re.sub(rf"^{field} = \[\n.*?^\]", f"{field} = [\n{lines}]", text,
+                  flags=re.DOTALL | re.MULTILINE)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("energy", "roots"),
+    [("-3/1000", ("1/10", "3/10")), ("0.00129", ("-0.03", "0.43")), ("0", ("0", "0.4")),
+     ("-0.004", ("0.2", "0.2"))],
+)  # fmt: skip
+def test_the_map_is_not_proved_smooth_below_a_lower_energy_only(energy, roots):
+    text = THEOREMS["diffeomorphism"].text().replace("11/6250", energy)
+    text = re.sub("roots = .*", f'roots = ["{roots[0]}", "{roots[1]}"]', text)
+    assert f"not {Fraction(11, 6250)}" in refused("diffeomorphism", text)
+
+
+def test_one_fixed_point_up_to_a_lower_energy_is_refused():
+    ball = Fraction(1, 5), Fraction(1, 25)
+    text = propose_only_fixed_point(*ball, Fraction(1, 100))
+    assert periodic.check_only_fixed_point(text, *ball, Fraction(1, 100))
+    assert "up to 1/100" in refused("one-fixed-point", text)
+
+
+@pytest.mark.parametrize("name", [*ORBITS, *TWISTS])
+def test_an_orbit_elsewhere_shorter_or_longer_is_refused(name):
+    theorem = THEOREMS[name]
+    text, points = theorem.text(), numbers(theorem.text(), "points")
+    period = theorem.bounds["period"]
+    (low, high), xdot = theorem.bounds["window"]
+    elsewhere = (low + 1, high + 1), xdot
+    with pytest.raises(NotProvedError, match="window"):
+        theorem.checker(text, **theorem.bounds | {"window": elsewhere})
+    for rows in (points + points, points[:-1] or points * 2):
+        assert f"points, not {period}" in refused(name, replaced(text, "points", rows))
+    ((x, y),) = known.points(theorem.bounds["surface"], 1, "elliptic")
+    refused(name, replaced(text, "points", [[repr(x), repr(y)]] * period))
+    smaller = theorem.bounds["radius"] / 2
+    assert "as stated" in refused(name, re.sub("radius = .*", f'radius = "{smaller}"', text))
+
+
+def test_the_boxes_are_those_around_the_orbit_s_own_points(monkeypatch):
+    sizes = []
+    prove = periodic.prove
+
+    def watched(surface, centres, radius):
+        sizes.append(radius)
+        return prove(surface, centres, radius)
+
+    monkeypatch.setattr(periodic, "prove", watched)
+    theorem = THEOREMS["six-elliptic"]
+    orbit = theorem.prove(theorem.text()).parts["orbit"]
+    assert orbit.radius == theorem.bounds["radius"]
+    rows = numbers(theorem.text(), "points")
+    with ctx.workprec(256):
+        off = max(
+            abs(value - arb(middle)).upper()
+            for point, centre in zip(orbit.points, rows, strict=True)
+            for value, middle in zip(point, centre, strict=True)
+        )
+        assert 0 < off < ball_of(sizes[0] - orbit.radius)
+
+
+STRONGER = [
+    *((name, "radius", lambda radius: radius * Fraction(101, 100)) for name in [*ORBITS, *TWISTS]),
+    *((name, "window", lambda window: tuple((low, low) for low, _ in window))
+      for name in [*ORBITS, *TWISTS, *HORSESHOES]),
+    *((name, "crossing", lambda sides: (sides[0] + Fraction(1, 1000), sides[1] + 1))
+      for name in HORSESHOES),
+    *((name, "entropy", lambda entropy: entropy * Fraction(102, 100)) for name in HORSESHOES),
+    ("one-fixed-point", "energy", lambda energy: energy * Fraction(101, 100)),
+    ("diffeomorphism", "energy", lambda energy: energy * Fraction(101, 100)),
+    ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
+    ("twist-zero", "width", lambda width: width / 2),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "bound", "change"), STRONGER)
+def test_a_stronger_statement_is_not_proved_by_the_same_certificate(name, bound, change):
+    theorem = THEOREMS[name]
+    stronger = theorem.bounds | {bound: change(theorem.bounds[bound])}
+    assert dataclasses.replace(theorem, bounds=stronger).check().verdict == "not proved"
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_every_number_of_a_statement_is_given_to_its_checker(name):
+    """A statement prints the bounds that its checker is given, and names of the paper."""
+    theorem = THEOREMS[name]
+    given = []
+    for value in theorem.bounds.values():
+        stack = [value]
+        while stack:
+            one = stack.pop()
+            if isinstance(one, Surface):
+                stack += [one.energy]
+            elif isinstance(one, tuple):
+                stack += one
+            elif isinstance(one, (int, Fraction)):
+                given += [str(one), f"{float(one):g}"]
+    text = re.sub(r"y = 0|eq\. \(31\)|k/2|g\^2/?|\(2k\)|\(1 \+", "", theorem.statement)
+    for number in re.findall(r"(?<![\w^])-?\d[\d./]*(?:e-?\d+)?", text):
+        assert number in given, number
+
+
+def test_a_longer_chain_is_refused_for_its_entropy():
+    six = symmetric_orbits(BALL, 0.01, 6).isel(orbit=1)
+    surface = THEOREMS["horseshoe-outer"].bounds["surface"]
+    text, _ = prove_horseshoe(surface, six, side="outer", steps=72, size=3e-5, room=1.06)
+    assert "entropy is not proved" in refused("horseshoe-outer", text)
+
+
+@pytest.mark.parametrize("margin", ["-1.0", "nan", "inf", "-inf", '"-1e-9"'])
+def test_margins_that_are_negative_or_no_number_are_refused(margin):
+    text = THEOREMS["horseshoe-outer"].text()
+    rows = [[margin, margin] for _ in numbers(text, "margins")]
+    assert "margin" in refused("horseshoe-outer", replaced(text, "margins", rows))
+
+
+@pytest.mark.parametrize("margin", [-0.004, 0.0, float("nan"), float("inf")])
+def test_a_finding_with_a_margin_that_is_not_positive_is_refused(margin):
+    with pytest.raises(NotProvedError, match="the margin room"):
+        Finding({}, {"beyond": 1.0, "room": margin})
+
+
+def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period():
+    surface = Surface("1/3", "1/25", "1/10")
+    near = known.ball(surface)
+    found = symmetric_orbits(near, 0.1, 3)
+    saddles = [i for i in range(found.sizes["orbit"]) if "hyper" in found["type"].values[i]]
+    points = known.chart(near, found.isel(orbit=saddles[0]))
+    centres = [[Fraction(a) for a in point] for point in points]
+    radius = Fraction(1, 10**9)
+    assert len(periodic.prove(surface, centres, radius).points) == 3
+    with pytest.raises(NotProvedError, match="period may be shorter"):
+        periodic.prove(surface, centres * 2, radius)
+
+
+@pytest.mark.parametrize("centre", [0.7, 0.785, 0.79, 1.2, 1.5707])
+def test_the_angle_is_the_acute_one_also_where_it_may_be_right(centre):
+    """The angle between (x, y) and (x, -y), for all slopes of a wide ball."""
+    sides = (arb(1), arb(0)), (arb(0), arb(1))
+    tangents = [tan(min(centre + off, 1.57)) for off in (-0.1, -0.03, 0.04, 0.1)]
+    slope = arb(tangents[0]).union(arb(tangents[-1]))
+    angle = horseshoe._crossing(HSet("M_0", (arb(0), arb(0)), *sides), slope)
+    for tangent in tangents:
+        half = atan2(tangent, 1.0)
+        assert angle.overlaps(arb(min(2 * half, pi - 2 * half), 1e-12))
+
+
+def test_a_band_of_no_width_or_backwards_is_refused():
+    text = THEOREMS["twist-zero"].text()
+    for width in ("0", "-1e-13", "nan", "inf"):
+        reason = refused("twist-zero", re.sub("width = .*", f"width = {width}", text))
+        assert "wide" in reason or "width" in reason
+    smaller = re.sub("radius = .*", "radius = 1e-3", text)
+    assert "as stated" in refused("twist-zero", smaller)
+
+
+def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeypatch):
+    theorem = THEOREMS["jump-set"]
+    coarse = theorem.text().replace("radius = 1e-28", "radius = 1e-27")
+    assert "not at most" in refused("jump-set", coarse)
+    # another point of the curve is as good: the statement is about the one that is printed
+    other = jumps.propose(theorem.bounds["surface"], "-0.05", "1e-28")
+    assert theorem.check(other).digits["point x"] != theorem.check().digits["point x"]
+    assert theorem.check(other).verdict == "proved"
+    for speed in ("0.2", "-0.2", "nan"):
+        assert refused("jump-set", theorem.text().replace("speed = 0.02", f"speed = {speed}"))
+    whole = jump.curve
+    monkeypatch.setattr(jump, "curve", lambda surface, count: whole(surface, count)[:-2])
+    assert "longer than 0.4048" in refused("jump-set", theorem.text())
+
+
+@pytest.mark.parametrize("number", ["1e-999999999", "1e999999999", '"1e400"', "1e400", "1_0.5",
+                                    "true", "0x10", '"1/0"', "[1]"])  # fmt: skip
+@pytest.mark.parametrize("name", ["six-elliptic", "twist-zero", "jump-set"])
+def test_a_number_out_of_bounds_is_one_line(name, number):
+    refused(name, re.sub("radius = .*", f"radius = {number}", THEOREMS[name].text()))
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_a_ball_or_energy_of_too_many_digits_is_one_line(name):
+    text = THEOREMS[name].text()
+    for field in ("k", "g", "energy", "energy_up_to", "energy_below"):
+        for number in ("1e-999", "1e999", "1e-9999", "1e9999"):
+            other = re.sub(rf'^{field} = ".*"$', f'{field} = "{number}"', text, flags=re.MULTILINE)
+            if other != text:
+                reason = refused(name, other)
+                assert "digits" in reason or "not an exact number" in reason
 
 
 def leading_digits(text, fields):

@@ -115,7 +115,9 @@ def test_impacts_of_an_orbit_are_proved_and_errors_small():
     result = impacts.prove_impacts("1/5", "1/25", *states)
     assert result.verdict == "proved"
     assert 0 < result.margins["worst error"] < 1e-12
-    assert result.line().startswith("impacts: each of 600 impacts computed is the first one")
+    assert result.line().startswith(
+        "impacts: each of 600 impacts computed is the first one, to within 1e-06"
+    )
 
 
 def test_impacts_of_periodic_orbits_and_of_states_are_proved(six):
@@ -124,6 +126,12 @@ def test_impacts_of_periodic_orbits_and_of_states_are_proved(six):
     states = np.array([one[name].values for name in ("x", "xdot", "udot")])
     found = impacts.of_states(BALL, states)
     assert impacts.prove_impacts("1/5", "1/25", *found).verdict == "proved"
+
+
+def test_no_impacts_prove_nothing():
+    none = np.empty((3, 0))
+    result = impacts.prove_impacts("1/5", "1/25", none, none, np.empty(0))
+    assert (result.verdict, result.reason) == ("not proved", "there are no impacts")
 
 
 def test_a_missed_impact_is_seen():

@@ -2,6 +2,7 @@
 
 import re
 import time
+from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -10,7 +11,7 @@ from certificates import numbers
 from flint import arb, ctx
 from judge import exact_map
 
-from pseudorigid import Ball
+from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, search_certificate
 from pseudorigid.proofs.checks import jump
 
@@ -137,9 +138,20 @@ def test_the_twist_is_that_of_measured_rotation_numbers(name, energy, results):
     frame = beta, beta * ((a + d) / 2 - a) / b
     actions, angles = zip(*(frequency(energy, fixed, frame, q) for q in (0.002, 0.006)),
                           strict=True)  # fmt: skip
+    turn = np.arccos((a + d) / 2)
+    assert angles[0] == pytest.approx(-turn, rel=1e-3)  # clockwise: the rotation number falls
     slope = (angles[1] - angles[0]) / (actions[1] - actions[0])
     stated = float(results[name].digits["twist"][1:].split()[0])
     assert slope == pytest.approx(stated, rel=0.02)
+
+
+def test_the_rotation_number_has_a_minimum_below_the_zero_of_the_twist():
+    """In turns, as a positive number, along y = 0 from the fixed point at E = 0.026."""
+    found = symmetric_orbits(BALL, 0.026, 1).isel(orbit=0)
+    fixed = found["x"].values[0]
+    turns = [-frequency(0.026, fixed, (1.0, 0.0), q)[1] / (2 * np.pi) for q in (0.04, 0.09, 0.13)]
+    assert turns[1] == pytest.approx(0.226881, abs=1e-6)
+    assert turns[1] < min(turns[0], turns[2]) - 5e-5
 
 
 def test_one_sided_images_are_those_of_nearby_orbits(results):
@@ -169,6 +181,21 @@ def test_the_jump_set_s_polygon_lies_where_flights_just_touch():
                 after = BALL.impact(*BALL.state_xy(float(x) + dx, float(y) + dy, 0.01))
                 sides.add(bool(after[1] + after[2] < 0.02))
             assert sides == {True, False}
+
+
+def test_the_length_of_the_jump_set_is_one_lower_bound_everywhere(results):
+    theorem = THEOREMS["jump-set"]
+    bound = f"{float(theorem.bounds['length']):g}"
+    assert "length" not in results["jump-set"].digits
+    root = Path(__file__).resolve().parents[2]
+    for text in (
+        theorem.statement,
+        *((root / n).read_text() for n in ("README.md", "docs/proofs.md")),
+    ):
+        assert f"longer than {bound}" in text
+    with ctx.workprec(jump.BITS):
+        few, many = (jump._polygon(theorem.bounds["surface"], count) for count in (400, 1600))
+        assert arb(bound) < few < many < arb("0.404858179457")  # computed: CLAIMS.md
 
 
 def test_coverings_hold_for_points_in_doubles():
@@ -208,15 +235,16 @@ def test_the_time_is_that_of_the_check():
     assert 0 < result.seconds <= time.perf_counter() - begin
 
 
-def test_the_twist_of_the_search_is_found_another_way():
+@pytest.mark.parametrize("name", ["twist-six", "twist-ten", "twist-twelve"])
+def test_the_twist_of_the_search_is_found_another_way(name):
     """The closed formula and the normal form: two derivations, one number."""
     from pseudorigid.proofs.search import known
     from pseudorigid.proofs.search import twist as formula
     from pseudorigid.proofs.search.periodic import polished
 
-    theorem = THEOREMS["twist-six"]
+    theorem = THEOREMS[name]
     found = theorem.prove(theorem.text()).digits["twist"]
     surface = theorem.bounds["surface"]
     with ctx.workprec(160):
-        points = polished(surface, known.points(surface, 6, "elliptic"))
+        points = polished(surface, known.points(surface, theorem.bounds["period"], "elliptic"))
         assert abs(formula.estimate(surface, points) - found) < arb("1e-25")

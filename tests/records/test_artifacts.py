@@ -25,7 +25,7 @@ def saved(dataset, path, **attributes):
 
 
 def variable(dims, values, **attrs):
-    return dims, values, {"long_name": "something", "units": "1"} | attrs
+    return dims, values, {"long_name": "something", "units": "1", "scale": "R"} | attrs
 
 
 def dataset():
@@ -57,7 +57,8 @@ def test_round_trip_keeps_values_types_and_attributes(tmp_path):
     assert (back.attrs["stage"], back.attrs["k"], back.attrs["g"]) == ("orbits", 0.2, 0.04)
     assert (back.attrs["energy"], back.attrs["period"]) == (0.01, 6)
     assert back.attrs["resolution"] == 1e-3
-    assert back.attrs["Conventions"] == "CF-1.11"
+    assert {name: back.attrs[name] for name in artifacts.ABOUT} == artifacts.ABOUT
+    assert back.attrs["Conventions"] == "CF-1.11" and "Papadopoulos" in back.attrs["references"]
     assert back["row_size"].attrs["sample_dimension"] == "point"
     assert list(back.attrs["window_x"]) == [0.21, 0.2116]
 
@@ -108,6 +109,7 @@ def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
         (lambda d: d["x"].attrs.pop("long_name"), "x has no long_name"),
         (lambda d: d["x"].attrs.update(units="m"), "x has units 'm'"),
         (lambda d: d["x"].attrs.pop("units"), "x has units None"),
+        (lambda d: d["x"].attrs.pop("scale"), "x has no scale"),
         (lambda d: d.update({"x": variable("point", np.ones(5, bool))}), "x has dtype bool"),
         (lambda d: d.update({"row_size": variable("orbit", np.array([2, 2]))}), "adds up to 4"),
     ],

@@ -179,6 +179,23 @@ def test_a_file_in_the_place_of_a_folder_is_named(tree):
     assert (result.returncode, result.stdout) == (1, line)
 
 
+@pytest.mark.parametrize("place", [".snakemake", ".snakemake/metadata"])
+def test_a_file_in_the_place_of_a_folder_of_snakemakes_is_named(tree, place):
+    (tree.path / place).parent.mkdir(exist_ok=True)
+    (tree.path / place).touch()
+    line = f"reproduce: {place}: a file stands in a folder's place, move it away\n"
+    for arguments in ((), ("-n",)):
+        result = tree.run(*arguments)
+        assert (result.returncode, result.stdout) == (1, line)
+
+
+def test_settings_of_a_users_shell_that_numba_refuses_do_not_reach_a_run(done):
+    (done.path / "results" / "paper" / "motion_fig3.nc").unlink()
+    settings = {"NUMBA_NUM_THREADS": "0", "NUMBA_OPT": "none", "NUMBA_THREADING_LAYER": "none"}
+    result = done.run("fig3", **settings)
+    assert result.returncode == 0, result.stdout
+
+
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):
     run = tree.start("-n", stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert run.stdout.readline()

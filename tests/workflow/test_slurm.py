@@ -1,4 +1,4 @@
-"""Sweeps on a real Slurm of one node: ./reproduce test -m slurm, as root on Debian."""
+"""Sweeps on a real Slurm of two nodes: ./reproduce test -m slurm, as root on Debian."""
 
 import hashlib
 import signal
@@ -16,11 +16,11 @@ QUICK = ("--slurm-init-seconds-before-status-checks", "1", "--seconds-between-st
 
 
 @pytest.fixture(scope="module")
-def node():
+def cluster():
     pytest.importorskip("snakemake_executor_plugin_slurm")
     if reason := slurm_node.missing():
         pytest.skip(reason)
-    with slurm_node.Node() as running:
+    with slurm_node.Cluster() as running:
         yield running
 
 
@@ -46,12 +46,12 @@ def hashes(tree):
     return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
-def begin(tree, node):
-    """The sweep on Slurm, started."""
+def begin(tree, cluster):
+    """The sweep on Slurm, started: the tree's own code runs, on the head and in the jobs."""
     profile = tree.path / "workflow" / "profiles" / "slurm"
     return subprocess.Popen(
         tree.command("sweep", "--profile", str(profile), *QUICK),
-        env=node.environment,
+        env=tree.environment() | cluster.environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -70,52 +70,53 @@ def finish(process, seconds=300):
     return process.returncode, output
 
 
-def test_the_same_bytes(node, local, tmp_path):
+def test_the_same_bytes(cluster, local, tmp_path):
     tree = small_tree(tmp_path)
-    status, output = finish(begin(tree, node))
+    status, output = finish(begin(tree, cluster))
     assert status == 0, output
     assert hashes(tree) == local
-    assert len(node.jobs("CD")) >= len(SWEEP["k"]) * len(SWEEP["energy"])
+    done = cluster.jobs("CD")
+    assert len(done) >= len(SWEEP["k"]) * len(SWEEP["energy"])
+    assert set(done.values()) == set(slurm_node.NODES)
     assert "6 of 6 cells" in output
 
 
-def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(node, local, tmp_path):
+def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(cluster, local, tmp_path):
     tree = small_tree(tmp_path)
-    process = begin(tree, node)
-    slurm_node.wait(lambda: node.jobs("R"), 60, "a job")
-    victim = node.jobs("R")[0]
-    node.ask("scancel", victim)
+    process = begin(tree, cluster)
+    slurm_node.wait(lambda: cluster.jobs("R"), 60, "a job")
+    victim = next(iter(cluster.jobs("R")))
+    cluster.ask("scancel", victim)
     status, output = finish(process)
     assert status != 0
-    assert victim in node.jobs("CA")
+    assert victim in cluster.jobs("CA")
     made = hashes(tree)
     assert made != local
     assert all(local[name] == value for name, value in made.items())
-    status, output = finish(begin(tree, node))
+    status, output = finish(begin(tree, cluster))
     assert status == 0, output
     assert hashes(tree) == local
 
 
-def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(node, local, tmp_path):
+def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(cluster, local, tmp_path):
     tree = small_tree(tmp_path)
-    process = begin(tree, node)
-    slurm_node.wait(lambda: node.jobs("R"), 60, "a job")
-    node.stop("slurmd", signal.SIGKILL)
-    slurm_node.wait(
-        lambda: "down" in node.ask("sinfo", "-h", "-o", "%T"), 120, "a node that is down"
-    )
+    process = begin(tree, cluster)
+    slurm_node.wait(lambda: cluster.jobs("R"), 60, "a job")
+    node = next(iter(cluster.jobs("R").values()))
+    cluster.stop(node, signal.SIGKILL)
+    slurm_node.wait(lambda: "down" in cluster.states()[node], 120, "a node that is down")
     process.send_signal(signal.SIGKILL)  # the run goes with it
     process.communicate()
     assert hashes(tree) != local
-    node.start("slurmd", "-D")
-    node.ask("scancel", "--user", "root")
+    cluster.start_node(node)
+    cluster.ask("scancel", "--user", "root")
     slurm_node.wait(
-        lambda: "idle" in node.ask("sinfo", "-h", "-o", "%t") and not node.jobs("R,PD,CG"),
+        lambda: cluster.states()[node] == "idle" and not cluster.jobs("R,PD,CG"),
         120,
         "the node again",
     )
     assert all(local[name] == value for name, value in hashes(tree).items())
-    status, output = finish(begin(tree, node))
+    status, output = finish(begin(tree, cluster))
     assert status == 0, output
     assert hashes(tree) == local
     assert not list((tree.path / "results/sweep").rglob("*.part"))

@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from project import ROOT
 
 from pipeline.cli import running
 from pipeline.cli.folder import MisuseError
@@ -32,6 +33,21 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
         check=False,
     )
     assert (bare.returncode, bare.stderr) == (1, lines)
+    assert not (tree.path / "results").exists()
+
+
+def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
+    """As when a job of a cluster finds another checkout's packages first."""
+    result = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--cores", "1"],
+        cwd=tree.path,
+        env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    line = f"reproduce: this is {tree.path}, but the code of {ROOT} runs: use ./reproduce here\n"
+    assert (result.returncode, result.stderr) == (1, line)
     assert not (tree.path / "results").exists()
 
 
@@ -109,7 +125,7 @@ case "$*" in
 *sys.version_info\\[:2]*) echo 3 11 ;;
 '-m venv '*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python"; echo "command = $*" >"$3/pyvenv.cfg" ;;
 *'-m pip '*) [ ! -e "$SLOW" ] || { touch "$SLOW.begun"; exec sleep 60; } ;;
-*'-m pipeline'*) echo handed over ;;
+*'-m pipeline'*) echo "handed over$PYTHONWARNINGS" ;;
 esac
 """
 
@@ -125,7 +141,9 @@ class SetUp:
         path = f"{folder / 'bin'}:{os.environ['PATH']}"
         self.how = {
             "args": [str(tree.path / "reproduce")],
-            "env": os.environ | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)},
+            "env": os.environ
+            | {"PATH": path, "SLOW": str(self.slow), "TMPDIR": str(folder)}
+            | {"PYTHONWARNINGS": "error"},  # must not reach what runs
             "text": True,
         }
         self.folder = folder

@@ -8,10 +8,13 @@ from pipeline.config import ConfigError, expected, load, places
 from pipeline.config.declared import study as parts
 from pipeline.config.declared.kinds import KINDS
 from pipeline.config.declared.stages import STAGES
+from pipeline.records import sources
 from pipeline.records.record import record_path
 from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
+if not ROOT.samefile(sources.ROOT):
+    sys.exit(f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here")
 
 # Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
 sys.executable = shlex.quote(sys.executable)

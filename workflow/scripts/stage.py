@@ -53,4 +53,5 @@ with one_line_errors(snakemake), recorded(snakemake):
     if "scan" in method:
         dataset.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
     about = {"stage": snakemake.rule, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
+    about["title"] = artifacts.title_of(compute)
     artifacts.save(dataset, snakemake.output[0], block, **about)

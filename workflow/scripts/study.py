@@ -47,4 +47,5 @@ with one_line_errors(snakemake), recorded(snakemake):
         dataset.attrs |= machine()
     ball = {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
     about = {} if part == "verdicts" else ball  # verdicts are on cells of many
-    artifacts.save(dataset, snakemake.output[0], {"part": part}, stage="study", **about)
+    about |= {"stage": "study", "title": f"Methods compared: {part}"}
+    artifacts.save(dataset, snakemake.output[0], {"part": part}, **about)

@@ -11,7 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from ..records.artifacts import ArtifactError, canonical_values, load
-from ..records.differences import differing_block, differing_files, differing_package
+from ..records.differences import (
+    differing_block,
+    differing_files,
+    differing_keys,
+    differing_package,
+)
 from ..records.files import FileError, file_hash
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
@@ -86,8 +91,9 @@ class Comparison:
                     f"(value {block * manifest.BLOCK:,} of {int(np.prod(new['shape'])):,})"
                     + self._size_of_difference(path, name, dataset)
                 )
-        words = differing_block(before["attributes"], after["attributes"])
-        return words and f"{path}: attribute {words.partition(':')[0]} differs"
+        names = [name for name, *_ in differing_keys(before["attributes"], after["attributes"])]
+        verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
+        return f"{path}: {verb.format(', '.join(names))}" if names else None
 
     def _size_of_difference(self, path, name, dataset):
         if self.against is None:

@@ -46,8 +46,12 @@ def _any(name, text):
 
 
 def _one(name, text, metavar=None):
-    # argparse would refuse one that is missing; the word does, and says which there are
     return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
+
+
+# Arguments that must be given. argparse would only say that one is missing: the word itself
+# refuses, and says which names there are.
+REQUIRED = ("variant", "a", "b")
 
 
 def _switch(name, text):
@@ -70,6 +74,7 @@ WORDS = {
         _one("a", "a variant of config.yaml, or paper"),
         _one("b", "another one"),
         _any("figure", FIGURES),
+        _switch("--all", "a line for each variable and each orbit that differs"),
     ),
     "sweep": Making("grids over k and E/g^2, into results/sweep/", *_SWEPT),
     "atlas": Making("their pictures, into more_figures/atlas/", *_SWEPT, module="sweep"),
@@ -160,6 +165,8 @@ def read(arguments):
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Given(word=word, options=rest)
     own, options = _split(WORDS.get(word, NO_WORD), rest if word else arguments)
+    if not word and {"-h", "--help"} & set(own):
+        _refuse_unknown("figure", [name for name in own if not name.startswith("-")])
     given = _parser(word).parse_args(own, Given())
     if word == "help":
         if given.word not in (None, *WORDS):
@@ -181,22 +188,26 @@ def main(arguments):
     are called as their certificates.
     """
     given = read(arguments)
+    for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
+        names = getattr(given, argument, None) or []
+        _refuse_unknown(argument, [names] if isinstance(names, str) else names, given.word)
+    return GO_ON
+
+
+def _refuse_unknown(argument, names, word=None):
+    """Refuse the first name that is nowhere in config.yaml's text and so cannot be meant."""
     try:
         text = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
     except OSError:  # which is said when it is read in earnest
-        return GO_ON
+        return
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    known, near = [*words, *OTHERS], keys if given.word else [*keys, *WORDS]
-    if given.word == "prove":
+    known, near = [*words, *OTHERS], keys if word else [*keys, *WORDS]
+    if word == "prove":
         known = near = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
-    figure = "figure" if given.word else "word or figure"
-    kinds = {"a": "variant", "b": "variant", "figure": figure}
-    for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
-        names = getattr(given, argument, None) or []
-        for name in [names] if isinstance(names, str) else names:
-            if "/" not in name and name not in known:
-                refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
-    return GO_ON
+    kinds = {"a": "variant", "b": "variant", "figure": "figure" if word else "word or figure"}
+    for name in names:
+        if "/" not in name and name not in known:
+            refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
 
 
 def explained(parser, message):
@@ -212,9 +223,16 @@ def explained(parser, message):
 
 
 def hint(name, known):
-    """The end of a line about an unknown name: which was meant."""
-    near = difflib.get_close_matches(str(name), list(known), 1, 0.6)
-    return f": did you mean {near[0]}?" if near else ""
+    """The end of a line about an unknown name: the nearest names, where some are near."""
+    near = difflib.get_close_matches(str(name), list(dict.fromkeys(known)), 20, 0.6)
+    if not near:
+        return ""
+
+    def ratio(other):
+        return difflib.SequenceMatcher(None, other, str(name)).ratio()
+
+    best = sorted(other for other in near if ratio(other) == ratio(near[0]))
+    return f": did you mean {' or '.join(filter(None, [', '.join(best[:-1]), best[-1]]))}?"
 
 
 def refuse(message, program="./reproduce"):
@@ -258,6 +276,10 @@ def _parser(name):
         parser.epilog = "\n".join(["words:", *lines, "", more, SNAKEMAKE])
     for key, how in word.arguments:
         parser.add_argument(key, **how)
+    usage = parser.format_usage().partition(": ")[2].strip()
+    for metavar in [how["metavar"] for key, how in word.arguments if key in REQUIRED]:
+        usage = usage.replace(f"[{metavar}]", metavar)
+    parser.usage = usage
     return parser
 
 

@@ -17,7 +17,7 @@ from .folder import MisuseError
 from .telling import states
 
 
-def make(checked, variant, options, named=None, others=()) -> int:
+def make(checked, variant, options, named=None, others=(), brief=False) -> int:
     """Make the figures of a variant, or some of its files, and say what became of them.
 
     A figure whose periodic orbit does not exist is left out, and the rest is made.
@@ -34,6 +34,8 @@ def make(checked, variant, options, named=None, others=()) -> int:
         Those of its files, as published, that are meant.
     others : list of str
         Further results to make.
+    brief : bool
+        Whether files that were current already are left out of the table.
 
     Returns
     -------
@@ -76,7 +78,9 @@ def make(checked, variant, options, named=None, others=()) -> int:
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
     publish(good)
     more = _missed_impacts(variants, variant, {wanted[path][0] for path in good})
-    table(places.PUBLISHED.get(variant), rows, more)
+    shown = {path: row for path, row in rows.items() if not (brief and row[1] == "current")}
+    if shown:
+        table(places.PUBLISHED.get(variant), shown, more)
     if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
     return status

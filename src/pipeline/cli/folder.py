@@ -105,14 +105,19 @@ def say(*lines: str) -> None:
         print(f"reproduce: {line}", file=sys.stderr, flush=True)
 
 
-def set_environment() -> None:
-    """The tree's own packages wherever the folder was moved, and caches that need no home folder.
+NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
 
-    Settings of snakemake's own that a user's shell may have do not reach a run.
+
+def set_environment() -> None:
+    """Set the tree's own packages, wherever the folder was moved, and caches beside them.
+
+    Settings of snakemake and numba that a user's shell may have do not reach a run, apart from
+    those that say for which processor numba compiles, whether it does, and where it keeps that.
     """
     caches = ROOT / ".venv" / "cache"
-    for name in [name for name in os.environ if name.startswith("SNAKEMAKE_")]:
-        del os.environ[name]
+    for name in [name for name in os.environ if name.startswith(("SNAKEMAKE_", "NUMBA_"))]:
+        if name not in NUMBA_SETTINGS:
+            del os.environ[name]
     os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
     os.environ.pop("MPLBACKEND", None)  # nothing here opens a window

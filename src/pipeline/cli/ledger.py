@@ -44,6 +44,7 @@ def derive(checked) -> None:
     from pseudorigid.proofs.derivations import derivations
 
     about = {"stage": "derivations", **ball, "energy": float(energy)}
+    about["title"] = artifacts.title_of(derivations)
     with recorded(DERIVATIONS, *made):
         artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
 

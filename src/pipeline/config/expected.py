@@ -1,5 +1,6 @@
 """What each result should have been made from, by this config and this tree."""
 
+from functools import cache
 from typing import NamedTuple
 
 from pseudorigid.sweep import grid
@@ -21,19 +22,23 @@ class Expected(NamedTuple):
 
 def of_scenes(variants, variant=places.PAPER) -> dict[str, Expected]:
     """Each result of a variant's scenes, from the root, after those that it is made from."""
-    serves = places.served(variants)
-    found = {}
-    for scene, block in variants[variant].items():
+    return _of_scenes(variants, [variant])
+
+
+def _of_scenes(variants, names) -> dict[str, Expected]:
+    """Each result of the scenes of some variants, after those that it is made from."""
+    serves, code, found = places.served(variants), cache(sources.code), {}
+    for variant, (scene, block) in ((v, item) for v in names for item in variants[v].items()):
         for stage, parameters in places.stages(block).items():
             inputs = [serves[variant, scene, name] for name in STAGES[stage].inputs]
-            code = sources.code("stage.py", STAGES[stage].maker(parameters)[0])
-            found[serves[variant, scene, stage]] = Expected(parameters, code, inputs)
+            files = code("stage.py", STAGES[stage].maker(parameters)[0])
+            found[serves[variant, scene, stage]] = Expected(parameters, files, inputs)
         kind = block["picture"]
-        code = sources.code("draw.py", f"pseudorigid.figures.kinds.{kind}")
+        files = code("draw.py", f"pseudorigid.figures.kinds.{kind}")
         inputs = [serves[variant, scene, stage] for stage in KINDS[kind].stages]
         for extension in block["formats"]:
             path = places.drawn(scene, extension, variant)
-            found[path] = Expected(places.drawing(block), code, inputs)
+            found[path] = Expected(places.drawing(block), files, inputs)
     return found
 
 
@@ -47,8 +52,8 @@ def needed(expected, wanted) -> list[str]:
 
 
 def of_variants(variants) -> dict[str, Expected]:
-    """The same of every variant: they share some."""
-    return {path: made for name in variants for path, made in of_scenes(variants, name).items()}
+    """Each result of all variants, which share some."""
+    return _of_scenes(variants, variants)
 
 
 def of_all(checked) -> dict[str, Expected]:

@@ -36,12 +36,16 @@ def drawing(block: dict) -> dict:
 
 
 def served(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
-    """(variant, scene, stage) -> the artifact: that of the first with the same parameters."""
+    """The dataset of each stage of each scene: (variant, scene, stage) -> its path.
+
+    A variant shares a scene's dataset with the first variant that gives this scene the same
+    parameters. Scenes of other names never share: a scene that is added changes no path.
+    """
     first, serves = {}, {}
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
             for stage, parameters in stages(block).items():
-                key = stage, json.dumps(parameters, sort_keys=True)
+                key = scene, stage, json.dumps(parameters, sort_keys=True)
                 path = first.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
                 serves[variant, scene, stage] = path
     return serves

@@ -12,7 +12,7 @@ from .declared.fields import Axis, BallBlock, Block, Scan
 from .declared.kinds import KINDS
 from .declared.scene import Scene
 from .declared.stages import STAGES, behind
-from .declared.sweep import Sweep
+from .declared.sweep import SPAN_MEANINGS, Span, Sweep
 from .declared.variant import Prove, Variant
 
 HEAD = """\
@@ -28,6 +28,7 @@ Or `{exact: true}`: the orbits of the starts as they are written, in portraits a
 backdrops, every number a rounded true value."""
 REQUEST = "Scenes that are made on request: `./reproduce claims`, `./reproduce prove --pictures`."
 EXAMPLE = "Another small one, under `scenes:`, for example:"
+SPAN = "Instead of a list, `k` and `energy` may be a mapping with these fields:"
 AXES = "limits and ticks of each axis; without them those of the data"
 
 
@@ -53,7 +54,8 @@ def page() -> str:
     parts += ["## variants", "A variant replaces values of the paper's scenes:"]
     parts += [_table(Variant, Variant.model_fields)]
     parts += ["## sweeps", "A sweep is a grid over k and E/g^2:"]
-    parts += [_table(Sweep, Sweep.model_fields), "## claims, proofs", REQUEST]
+    parts += [_table(Sweep, Sweep.model_fields), SPAN]
+    parts += [_table(Span, Span.model_fields), "## claims, proofs", REQUEST]
     parts += ["## prove", "`./reproduce prove --impacts`:", _table(Prove, Prove.model_fields)]
     return "\n\n".join(parts) + "\n"
 
@@ -79,7 +81,7 @@ def _stages() -> str:
 
 def _rows(model, names, place=""):
     """A line for each field, and below it those of the mapping that it is."""
-    meanings = {"axes": AXES} | _meanings(model)
+    meanings = {"axes": AXES} | (SPAN_MEANINGS if model is Span else _meanings(model))
     for name in names:
         field = model.model_fields[name]
         default = "" if field.default is None else f"`{field.default}`"

@@ -20,6 +20,30 @@ class ArtifactError(ValueError):
     """A dataset that cannot be saved, or a file that is no artifact; the message names it."""
 
 
+# Global attributes of every file, beside its title.
+ABOUT = {
+    "Conventions": "CF-1.11",
+    "references": (
+        "E. Kanso and P. Papadopoulos, Dynamics of pseudo-rigid ball impact on rigid foundation"
+    ),
+    "source": "pseudorigid, from the parameters in the attribute config",
+}
+
+
+def title_of(function):
+    """The title of the datasets that a function returns: the first line of its docstring.
+
+    Parameters
+    ----------
+    function : callable
+
+    Returns
+    -------
+    str
+    """
+    return function.__doc__.partition("\n")[0].rstrip(".")
+
+
 def save(dataset, path, config, **attributes):
     """Save a dataset as netCDF-4, whole or not at all.
 
@@ -28,12 +52,12 @@ def save(dataset, path, config, **attributes):
     Parameters
     ----------
     dataset : xarray.Dataset
-        Every variable needs `long_name` and, strings apart, units "1".
+        Every variable needs `long_name` and, strings apart, units "1" and a scale.
     path : path
     config : dict
         The block of configuration behind the data, stored as canonical JSON.
     **attributes : str or number
-        Global ones beside the dataset's own.
+        Global ones beside the dataset's own and those of ABOUT.
 
     Raises
     ------
@@ -42,7 +66,7 @@ def save(dataset, path, config, **attributes):
     FileError
         A file that cannot be written.
     """
-    attributes |= {"config": canonical_json(config), "Conventions": "CF-1.11"}
+    attributes |= {"config": canonical_json(config)} | ABOUT
     dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
     _check(dataset, path)
     with replacing(path) as part:
@@ -200,6 +224,8 @@ def _check(dataset, path):
             raise ArtifactError(f"{path}: variable {name} has no long_name")
         if not text and units != "1":
             raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
+        if not text and not variable.attrs.get("scale"):
+            raise ArtifactError(f"{path}: variable {name} has no scale")
 
 
 def _write(dataset, path):

@@ -4,7 +4,9 @@ import json
 
 
 def differing_keys(before, after, place=""):
-    """The differences of two blocks.
+    """Compare two blocks of config key by key.
+
+    Of a list that differs, the first differing entry is told, and both lengths if they differ.
 
     Parameters
     ----------
@@ -15,7 +17,7 @@ def differing_keys(before, after, place=""):
     Yields
     ------
     str, object, object
-        Dotted key, value before, value after; 1 and 1.0 differ, and true and 1.
+        Dotted key, as `starts[2].x`, value before, value after; 1 and 1.0 differ, and true and 1.
     """
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
@@ -24,13 +26,20 @@ def differing_keys(before, after, place=""):
                 yield where, before.get(key, "nothing"), after.get(key, "nothing")
             else:
                 yield from differing_keys(before[key], after[key], where)
+    elif isinstance(before, list) and isinstance(after, list):
+        for i, (old, new) in enumerate(zip(before, after, strict=False)):
+            if different := list(differing_keys(old, new, f"{place}[{i}]")):
+                yield from different
+                break
+        if len(before) != len(after):
+            yield f"{place}: number of entries", len(before), len(after)
     # 1 and 1.0 differ as text and as data, true and 1 too.
     elif json.dumps(before) != json.dumps(after):
         yield place, before, after
 
 
 def differing_block(before, after, was="then", now="now"):
-    """Words about the first key that differs between two blocks.
+    """Describe every key that differs between two blocks of config.
 
     Parameters
     ----------
@@ -42,9 +51,9 @@ def differing_block(before, after, was="then", now="now"):
     -------
     str or None
     """
-    for key, old, new in differing_keys(before, after):
-        return f"{key}: {brief(old)} {was}, {brief(new)} {now}"
-    return None
+    different = differing_keys(before, after)
+    words = [f"{key}: {brief(old)} {was}, {brief(new)} {now}" for key, old, new in different]
+    return "; ".join(words) or None
 
 
 def differing_files(before, after):
@@ -69,7 +78,7 @@ def differing_files(before, after):
 
 
 def differing_package(before, after, was="then"):
-    """Words about the first package whose version differs.
+    """Describe every package whose version differs.
 
     Parameters
     ----------
@@ -82,16 +91,17 @@ def differing_package(before, after, was="then"):
     -------
     str or None
     """
+    words = []
     for name in sorted({*before, *after}):
         if before.get(name) != after.get(name):
             here = f"{after[name]} here" if after.get(name) else "not installed here"
-            return f"{name} {before.get(name)} {was}, {here}"
-    return None
+            words.append(f"{name} {before.get(name)} {was}, {here}")
+    return "; ".join(words) or None
 
 
 def brief(value):
-    """A value as JSON, shortened to a part of a line."""
-    text = json.dumps(value)
+    """Shorten a value to a part of a line: text as it is, all else as JSON."""
+    text = value if isinstance(value, str) else json.dumps(value)
     return text if len(text) <= 40 else text[:37] + "..."
 
 

@@ -7,31 +7,7 @@ import numpy as np
 
 from ..kernel.law import rebound, transfer
 from .ensemble import ImpactMap
-
-
-def whole_number(name, value):
-    """A number that must be whole, as an int.
-
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : int or float
-
-    Returns
-    -------
-    int
-        At least 1.
-
-    Raises
-    ------
-    ValueError
-        For anything else.
-    """
-    number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if number and 1 <= value < math.inf and value == int(value):
-        return int(value)
-    raise ValueError(f"{name} = {value!r} is not allowed: a whole number, at least 1")
+from .reading import coordinates, not_allowed, number, whole_number
 
 
 @dataclass(frozen=True)
@@ -41,7 +17,8 @@ class Ball:
     A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on
     the section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast,
     and return numbers for scalars and arrays of the broadcast shape otherwise; each element has
-    the bits of the scalar call. Input that is NaN or infinite gives NaN.
+    the bits of the scalar call, and is NaN where the input is not finite. `help(pseudorigid)` says
+    what counts as a number. Balls are equal if k, g and the way of `map` are.
 
     Parameters
     ----------
@@ -76,17 +53,16 @@ class Ball:
 
     k: float
     g: float
-    map: ImpactMap = field(default_factory=ImpactMap, compare=False, repr=False)
+    map: ImpactMap = field(default_factory=ImpactMap)
 
     def __post_init__(self):
         for name, most, allowed in (("k", 1.0, "0 < k <= 1"), ("g", math.inf, "g > 0, finite")):
-            value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
-                raise ValueError(f"{name} = {value!r} is not a number")
-            if not (0.0 < value <= most and value < math.inf):
-                raise ValueError(f"{name} = {float(value)!r} is not allowed: {allowed}")
-            object.__setattr__(self, name, float(value))
+            value = number(name, getattr(self, name), allowed, lambda v, most=most: 0.0 < v <= most)
+            object.__setattr__(self, name, value)
+        if not isinstance(self.map, ImpactMap):
+            raise not_allowed("map", self.map, "an ImpactMap")
 
+    @np.errstate(over="ignore", invalid="ignore")
     def energy(self, x, xdot, udot):
         """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2.
 
@@ -99,7 +75,7 @@ class Ball:
         float or array
             In m omega^2 R^2.
         """
-        x, xdot, udot = _floats(x, xdot, udot)
+        x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
@@ -113,6 +89,7 @@ class Ball:
         """
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
+    @np.errstate(over="ignore")
     def section(self, energy):
         """The section along y = 0: x from centre - radius to centre + radius.
 
@@ -120,12 +97,14 @@ class Ball:
 
         Parameters
         ----------
-        energy : float
+        energy : float or array
             In m omega^2 R^2.
 
         Returns
         -------
-        centre, radius : float
+        centre : float
+            In R.
+        radius : float or array
             In R.
 
         Raises
@@ -133,12 +112,15 @@ class Ball:
         ValueError
             An energy below the lowest.
         """
+        (energy,) = coordinates(energy=energy)
         square = (2.0 * energy + self.g * self.g / self.k) / self.k
-        if not 0.0 <= square < math.inf:
+        off = (square < 0.0) | np.isinf(square)
+        if np.any(off):
             lowest = self.energy_bounds()[0]
-            raise ValueError(f"energy = {energy!r} is not allowed: finite, at least {lowest:.6g}")
-        return self.g / self.k, math.sqrt(square)
+            raise not_allowed("energy", float(energy[off][0]), f"finite, at least {lowest:.6g}")
+        return self.g / self.k, _plain(np.sqrt(square))
 
+    @np.errstate(over="ignore", invalid="ignore")
     def state(self, x, xdot, energy, branch=1):
         """The state with this energy, eq. (29).
 
@@ -157,17 +139,17 @@ class Ball:
         ValueError
             The energy surface has no such point with xdot + udot >= 0, or another branch.
         """
-        if branch not in (1, -1):
-            raise ValueError(f"branch = {branch!r} is not allowed: 1 or -1")
-        x, xdot, energy = _floats(x, xdot, energy)
+        branch = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
+        x, xdot, energy = coordinates(x=x, xdot=xdot, energy=energy)
         square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
-        if not np.all(square >= 0.0):
+        if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, xdot and energy: too little kinetic energy")
         udot = branch * np.sqrt(square)
-        if not np.all(xdot + udot >= 0.0):
+        if not np.all((xdot + udot >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, xdot and energy on the section, eq. (22)")
         return _plain(x), _plain(xdot), _plain(udot)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def state_xy(self, x, y, energy):
         """The state at a point of the canonical chart, in which the map keeps areas.
 
@@ -185,11 +167,11 @@ class Ball:
         ValueError
             A point outside the section's disk.
         """
-        x, y, energy = _floats(x, y, energy)
+        x, y, energy = coordinates(x=x, y=y, energy=energy)
         k = self.k
         # s = xdot + udot from 2E + 2 g x - k x^2 = (y^2 + k s^2)/(1 + k)
         square = ((1.0 + k) * (2.0 * energy + 2.0 * self.g * x - k * x * x) - y * y) / k
-        if not np.all(square >= 0.0):
+        if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, y and energy: the point is outside the section")
         s = np.sqrt(square)
         return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
@@ -201,7 +183,7 @@ class Ball:
         ----------
         fraction : float or array
             From -1 to 1.
-        energy : float
+        energy : float or array
             In m omega^2 R^2.
 
         Returns
@@ -213,9 +195,9 @@ class Ball:
         ValueError
             A fraction beyond the rim, or an energy below the lowest.
         """
+        f, energy = coordinates(fraction=fraction, energy=energy)
         centre, radius = self.section(energy)
-        (f,) = _floats(fraction)
-        if not np.all(np.abs(f) <= 1.0):
+        if not np.all((np.abs(f) <= 1.0) | np.isnan(f)):
             raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
         # in the chart s^2 = (1 + k) (radius^2 - (x - centre)^2); so nothing cancels at the rim
         udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
@@ -323,8 +305,11 @@ class Ball:
         tuple
             Two rows of two numbers; the determinant is 1, eq. (42).
         """
+        x, xdot, udot = self.on_section(x, xdot, udot)
+        if x.shape:
+            raise ValueError(f"one state is needed, not an array of shape {x.shape}")
         k, g = self.k, self.g
-        s, y = xdot + udot, xdot - k * udot
+        s, y = float(xdot + udot), float(xdot - k * udot)
         # the derivatives of s by x and y, and with them those of the state, a column each
         unit = np.array([0.0, 1.0])
         slope = np.array([(1.0 + k) * (g - k * x), -y]) / (k * s)
@@ -349,8 +334,8 @@ class Ball:
         ValueError
             Where xdot + udot < 0, eq. (22).
         """
-        x, xdot, udot = _floats(x, xdot, udot)
-        if np.any(xdot < -udot):  # a sum would warn of inf - inf
+        x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
+        if np.any(xdot < -udot):  # a sum could overflow
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
@@ -376,10 +361,6 @@ class Ball:
         tau = np.empty(columns[0].size)
         loop(*columns, self.k, self.g, 1, tau)
         return tuple(_plain(a.reshape(shape)) for a in (*columns, tau))
-
-
-def _floats(*values):
-    return np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
 
 
 def _plain(array):

@@ -3,7 +3,6 @@
 And, state by state, the way back and the Jacobian.
 """
 
-import math
 import os
 from concurrent.futures import ThreadPoolExecutor
 
@@ -11,6 +10,7 @@ import numba
 import numpy as np
 
 from ..kernel import impact, lanes
+from .reading import not_allowed, number
 
 WORTH = 20_000  # impacts, half a millisecond, that a thread does at least
 
@@ -77,17 +77,32 @@ class ImpactMap:
     ------
     ValueError
         A step or tolerance out of range.
+
+    Notes
+    -----
+    Maps with the same `scan` are equal, whatever they counted.
     """
 
     def __init__(self, scan=None):
         if scan is not None:
-            scan = tuple(float(value) for value in scan)
-            for name, value in zip(("step", "tolerance"), scan, strict=True):
-                if not 0.0 < value < math.inf:
-                    raise ValueError(f"{name} = {value!r} is not allowed: above 0, finite")
+            try:
+                step, tolerance = scan
+            except (TypeError, ValueError):
+                raise not_allowed("scan", scan, "None, or (step, tolerance)") from None
+            named = ("step", step), ("tolerance", tolerance)
+            scan = tuple(number(*pair, "above 0, finite", lambda v: v > 0.0) for pair in named)
         self.how = scan
         self.impacts = 0
         self.missed = 0
+
+    def __repr__(self):
+        return "ImpactMap()" if self.certified else f"ImpactMap(scan={self.how})"
+
+    def __eq__(self, other):
+        return self.how == other.how if isinstance(other, ImpactMap) else NotImplemented
+
+    def __hash__(self):
+        return hash(self.how)
 
     @property
     def certified(self):

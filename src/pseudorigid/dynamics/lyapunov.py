@@ -12,13 +12,13 @@ import xarray as xr
 
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
-from ..kernel.impact import transfer
+from ..kernel.impact import step_with_flight, tangent, transfer
 from ..kernel.lanes import FEW
 from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
-from .ball import whole_number
 from .ensemble import shared
+from .reading import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
-from .variables import orbit_dims
+from .variables import attributes_of, orbit_dims
 
 
 def lyapunov_spectrum(ball, state, impacts, records=400):
@@ -27,8 +27,8 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Parameters
     ----------
     ball : Ball
-    state : (x, xdot, udot)
-        Just before an impact, scalars or arrays that broadcast.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, as for `orbit`.
     impacts : int
         How many impacts, at least 1.
     records : int
@@ -37,9 +37,12 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     Returns
     -------
     xarray.Dataset
-        exponent, dims (impact, ..., index), largest first, nats an impact; its last entry the final
-        value. `impact` holds the number of impacts. A state of one dimension has the dim `orbit`,
-        of more `orbit_0`, ... NaN from a grazing impact on, where the map has no derivative.
+        exponent, dims (impact, ..., index), nats an impact; its last entry is the final value.
+        `index` counts the vectors of the frame, in the order in which they are orthogonalized. The
+        values tend to falling order, but those of a finite orbit need not be in it: the largest
+        exponent is `exponent.max("index")`. `impact` holds the number of impacts. A state of one
+        dimension has the dim `orbit`, of more `orbit_0`, ... NaN from a grazing impact on, where
+        the map has no derivative.
 
     Raises
     ------
@@ -60,11 +63,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     """
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
-    state = ball.on_section(*state)
+    state = ball.on_section(*state_of(state))
     shape = state[0].shape
     dims = orbit_dims(shape)
-    at = (np.arange(1, records + 1) * impacts) // records
-    out = np.empty((state[0].size, records, 3))
+    try:
+        at = (np.arange(1, records + 1) * impacts) // records
+        out = np.empty((state[0].size, records, 3))
+    except (MemoryError, ValueError):
+        raise not_allowed("records", records, "fewer: memory is short") from None
 
     def some(x, v, w, out):
         return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)
@@ -74,14 +80,14 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     exponent = (
         ("impact", *dims, "index"),
         np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
-        {"long_name": "Lyapunov exponent an impact", "units": "1"},
+        attributes_of("Lyapunov exponent an impact, of each vector of the frame"),
     )
-    attributes = {"long_name": "number of impacts", "units": "1"}
+    attributes = attributes_of("number of impacts")
     return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})
 
 
 def scene_exponents(ball, energy, starts, impacts, records):
-    """`lyapunov_spectrum` of a scene.
+    """Lyapunov exponents of the orbits of a scene, and how they converge.
 
     Parameters
     ----------
@@ -211,29 +217,67 @@ def _spectrum(x, v, w, k, g, at, out, how):
 
 
 @jit
+def _orthonormal(a, b, c):
+    """Gram and Schmidt's method on three vectors: the three lengths, then the three directions."""
+    p, a0, a1, a2 = _unit(*a)
+    q, b0, b1, b2 = _unit(*_without(a0, a1, a2, *b))
+    r, c0, c1, c2 = _unit(*_without(b0, b1, b2, *_without(a0, a1, a2, *c)))
+    return p, q, r, (a0, a1, a2), (b0, b1, b2), (c0, c1, c2)
+
+
+@jit
+def _one(x, v, w, k, g, at, out, how):
+    """Write the exponents of one orbit after each of `at` impacts to out (m, 3).
+
+    The frame stays in the processor's registers, which is faster for few orbits than `_group`.
+    """
+    head, low = transfer(k)
+    a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    p = q = r = 1.0
+    sums = np.zeros(3)
+    missed, done = 0, 0
+    for m in range(at.size):
+        while done < at[m]:
+            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
+                x, v, w, k, g, head, low, how
+            )
+            missed += late
+            a = tangent(*a, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            b = tangent(*b, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            c = tangent(*c, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            one, two, three, a, b, c = _orthonormal(a, b, c)
+            p, q, r = p * one, q * two, r * three
+            done += 1
+            if done == at[m] or not (_held(p) & _held(q) & _held(r)):
+                sums[0], sums[1], sums[2] = sums[0] + log(p), sums[1] + log(q), sums[2] + log(r)
+                p = q = r = 1.0
+        for j in range(3):
+            out[m, j] = sums[j] / done
+    return missed
+
+
+@jit
 def _group(x, v, w, k, g, at, out, how):
+    """Write the exponents of at most GROUP orbits after each of `at` impacts to out (n, m, 3)."""
     n = x.size
+    missed, done = 0, 0
+    if n < FEW:
+        for i in range(n):
+            missed += _one(x[i], v[i], w[i], k, g, at, out[i], how)
+        return missed
     head, low = transfer(k)
     states, flights = room()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
     for i in range(n):
         frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
         frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
-    missed, done = 0, 0
     for m in range(at.size):
         while done < at[m]:
             impacts = min(STRETCH, at[m] - done)
             missed += stretch(x, v, w, k, g, impacts, states, flights, how)
-            if n < FEW:  # one after the other
-                for i in range(n):
-                    for row in range(0, impacts * GROUP, GROUP):
-                        one = frames[i:], 1, k, g, head, low, states[i:], flights[i:], row
-                        if _advance(*one):
-                            _collect(total, frames, i)
-            else:
-                for row in range(0, impacts * GROUP, GROUP):
-                    if _advance(frames, n, k, g, head, low, states, flights, row):
-                        _collect_far(total, frames, n)
+            for row in range(0, impacts * GROUP, GROUP):
+                if _advance(frames, n, k, g, head, low, states, flights, row):
+                    _collect_far(total, frames, n)
             done += impacts
         for i in range(n):
             _collect(total, frames, i)

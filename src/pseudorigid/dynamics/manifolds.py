@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 
 from .branch import Branch
+from .reading import coordinates, not_allowed, number, one_of
 from .tracing import traced
-from .variables import NAMES, of_rows, of_type, states_of, variables
+from .variables import NAMES, of_rows, of_type, variables
 
 MOST_IN_ALL = 10_000_000  # points of a scene
 _STATES = {name: NAMES[name] for name in ("x", "xdot", "udot")}
@@ -84,8 +85,21 @@ def trace_manifold(
     >>> sorted(branch.data_vars)
     ['udot', 'x', 'xdot']
     """
-    points = states_of(orbit).astype(float)
-    _check(ball, energy, points, saddle, side, length, distance, bend, window)
+    points = _points(orbit)
+    energy = number("energy", energy)
+    _check_orbit(ball, energy, points)
+    indices = range(points.shape[1])
+    allowed = f"an index from 0 to {indices[-1]}"
+    saddle = int(number("saddle", saddle, allowed, indices.__contains__))
+    one_of("side", side, ("inner", "outer"))
+    if not isinstance(stable, (bool, np.bool_)):
+        raise not_allowed("stable", stable, "True or False")
+    length, distance = (
+        number(name, value, "above 0", lambda v: v > 0.0)
+        for name, value in (("length", length), ("distance", distance))
+    )
+    bend = number("bend", bend, "between 0 and 180 degrees", lambda v: 0.0 < v < 180.0)
+    window = None if window is None else _edges(window)
     branch = Branch(ball, energy, points, saddle, side, stable)
     vertices = traced(branch, length, distance, bend, window)
     attributes = {"start_error": branch.start_error()}
@@ -94,27 +108,33 @@ def trace_manifold(
     return xr.Dataset(variables("vertex", vertices, _STATES), attrs=attributes)
 
 
-def _check(ball, energy, points, saddle, side, length, distance, bend, window):
-    if points.ndim != 2:
+def _points(orbit):
+    """Read one orbit's states, (3, n)."""
+    if not (hasattr(orbit, "data_vars") and all(name in orbit for name in _STATES)):
+        raise not_allowed("orbit", orbit, "a Dataset with x, xdot and udot")
+    if any(orbit[name].dims != ("point",) or not orbit[name].size for name in _STATES):
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
-    off = np.abs(ball.energy(*points) - energy) > 1e-9 * ball.k * ball.section(energy)[1] ** 2
-    own = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
-    most = points.shape[1] - 1
-    for name, value, good, allowed in (
-        ("energy", energy, not np.any(off), own),
-        ("saddle", saddle, saddle in range(most + 1), f"an index from 0 to {most}"),
-        ("side", side, side in ("inner", "outer"), "'inner' or 'outer'"),
-        ("length", length, 0.0 < length < np.inf, "above 0"),
-        ("distance", distance, 0.0 < distance < np.inf, "above 0"),
-        ("bend", bend, 0.0 < bend < 180.0, "between 0 and 180 degrees"),
-        ("window", window, _is_window(window), "(x_low, x_high, xdot_low, xdot_high)"),
-    ):
-        if not good:
-            raise ValueError(f"{name} = {value!r} is not allowed: {allowed}")
+    return np.stack(coordinates(**{name: orbit[name].values for name in _STATES}))
 
 
-def _is_window(window):
-    return window is None or (len(window) == 4 and window[0] < window[1] and window[2] < window[3])
+def _check_orbit(ball, energy, points):
+    """Refuse an orbit of another energy."""
+    off = np.abs(ball.energy(*points) - energy)
+    if not np.all(off <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
+        own = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
+        raise not_allowed("energy", energy, own)
+
+
+def _edges(window):
+    """Read a window."""
+    allowed = "(x_low, x_high, xdot_low, xdot_high)"
+    try:
+        x_low, x_high, xdot_low, xdot_high = (number("window", edge) for edge in window)
+    except (TypeError, ValueError):
+        raise not_allowed("window", window, allowed) from None
+    if not (x_low < x_high and xdot_low < xdot_high):
+        raise not_allowed("window", window, allowed)
+    return x_low, x_high, xdot_low, xdot_high
 
 
 def scene_manifolds(

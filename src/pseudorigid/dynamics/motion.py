@@ -7,7 +7,7 @@ import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
-from .variables import of_type, variables
+from .variables import LENGTH, TIME, of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
 SAMPLES = 200
@@ -29,7 +29,7 @@ def _flights(ball, orbit):
 
 
 def scene_motion(ball, energy, periodic, period, type, duration):
-    """`motion` of a scene: along the orbit of this period and type among those found.
+    """Motion in time along a periodic orbit of given period and type.
 
     Parameters
     ----------
@@ -123,7 +123,9 @@ def motion(ball, orbit, duration):
         for column, values in zip(columns, (time + t, position, strain), strict=True):
             column.append(values)
         time += tau
-    names = {"t": "time", "position": "position of the mass centre, downwards", "strain": "strain"}
+    about = "position of the mass centre, downwards", LENGTH
+    names = {"t": ("time", TIME), "position": about, "strain": "strain"}
     data = variables("sample", [np.concatenate(c) for c in columns], names)
-    names = {"impact_t": "time of impact", "impact_position": "position at impact, downwards"}
+    about = "position at impact, downwards", LENGTH
+    names = {"impact_t": ("time of impact", TIME), "impact_position": about}
     return xr.Dataset(data | variables("impact", [np.array(c) for c in impacts], names))

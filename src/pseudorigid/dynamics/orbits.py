@@ -3,9 +3,9 @@
 import numpy as np
 import xarray as xr
 
-from .ball import whole_number
+from .reading import not_allowed, one_of, state_of, whole_number
 from .starts import start_state, start_variables
-from .variables import orbit_dims, variables
+from .variables import attributes_of, orbit_dims, variables
 
 
 def orbit(ball, state, impacts, keep="all"):
@@ -14,10 +14,11 @@ def orbit(ball, state, impacts, keep="all"):
     Parameters
     ----------
     ball : Ball
-    state : (x, xdot, udot)
-        Just before an impact, scalars or arrays that broadcast.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, scalars or arrays that broadcast. A Dataset stands for its last
+        state along `impact` or `point`, of each orbit in it: so an orbit is continued.
     impacts : int
-        How many impacts, at least 1.
+        How many impacts, at least 1, counted from that state.
     keep : {"all", "last"}
         "last" for the final state alone, in memory that does not grow with `impacts`.
 
@@ -31,7 +32,7 @@ def orbit(ball, state, impacts, keep="all"):
     Raises
     ------
     ValueError
-        A state with xdot + udot < 0, impacts < 1, or another `keep`.
+        A state with xdot + udot < 0, impacts < 1 or too many to keep, or another `keep`.
 
     Examples
     --------
@@ -39,23 +40,34 @@ def orbit(ball, state, impacts, keep="all"):
     >>> ball = Ball(k=0.2, g=0.04)
     >>> orbit(ball, ball.start([0.5, -0.2], 0.01), 3)["x"].dims
     ('impact', 'orbit')
+    >>> five = orbit(ball, ball.start(0.5, 0.01), 5)
+    >>> rest = orbit(ball, orbit(ball, ball.start(0.5, 0.01), 3), 2)
+    >>> bool(np.all(rest["x"].values == five["x"].values[3:]))
+    True
     """
-    if keep not in ("all", "last"):
-        raise ValueError(f"keep = {keep!r} is not allowed: 'all' or 'last'")
+    one_of("keep", keep, ("all", "last"))
     impacts = whole_number("impacts", impacts)
-    columns, shape = ball.columns(*state)
+    columns, shape = ball.columns(*state_of(state))
     dims = orbit_dims(shape)
     if keep == "last":
         tau = np.empty(columns[0].size)
         ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
         values = [a.reshape(shape) for a in (*columns, tau)]
-        return xr.Dataset(variables(dims, values), coords={"impact": impacts})
-    out = np.empty((columns[0].size, impacts, 4))
+        return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
+    try:
+        out = np.empty((columns[0].size, impacts, 4))
+    except (MemoryError, ValueError):
+        raise not_allowed("impacts", impacts, "fewer, or keep='last': memory is short") from None
     ball.map.history(*columns, ball.k, ball.g, out)
     values = [a.reshape(impacts, *shape) for a in out.T]
     return xr.Dataset(
-        variables(("impact", *dims), values), coords={"impact": np.arange(1, impacts + 1)}
+        variables(("impact", *dims), values),
+        coords={"impact": _impact("impact", np.arange(1, impacts + 1))},
     )
+
+
+def _impact(dims, values):
+    return dims, values, attributes_of("number of impacts")
 
 
 def scene_orbits(ball, energy, starts, impacts):
@@ -124,6 +136,6 @@ def ragged_orbits(pieces, starts, states, impacts):
     data["row_size"] = (
         "orbit",
         np.asarray(impacts, dtype=np.int64),
-        {"long_name": "number of impacts", "units": "1", "sample_dimension": "point"},
+        attributes_of("number of impacts") | {"sample_dimension": "point"},
     )
     return xr.Dataset(data)

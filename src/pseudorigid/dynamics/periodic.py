@@ -13,8 +13,8 @@ import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
-from .ball import whole_number
-from .variables import NAMES, variables
+from .reading import number, whole_number
+from .variables import NAMES, TIME, variables
 
 # Cells into which a symmetry line is divided; each sign change between neighbours is followed. Of
 # periods up to 12 of the paper's ball, at energies 0.0017, 0.01 and 0.03, ten times as many cells
@@ -34,7 +34,7 @@ NEWTON_STEPS = 5  # three were the most that helped, over those energies and per
 
 
 def symmetric_orbits(ball, energy, period):
-    """All symmetric orbits of prime period `period` that the resolution of the search shows.
+    """All symmetric orbits of a prime period that the resolution of the search shows.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def symmetric_orbits(ball, energy, period):
     >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
     ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """
-    period = whole_number("period", period)
+    period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
     seen, orbits, found = _Points(SAME * radius), 0, []
     for line in _lines(ball, energy, period):
@@ -95,7 +95,7 @@ def symmetric_orbits(ball, energy, period):
                 found.append((trace, _follow(ball, first, period)))
     found.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
     points = np.array([p for _, p in found]).reshape(len(found), 4, period)
-    names = NAMES | {"tau": "time of flight to the next point"}
+    names = NAMES | {"tau": ("time of flight to the next point", TIME)}
     data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
     attrs = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
     attrs |= {"resolution": RESOLUTION, "unsolved": orbits - len(found)}
@@ -134,7 +134,7 @@ def _stability(traces, tau):
         "trace": "trace of the Jacobian of P^n on the energy surface",
         "multiplier": "multiplier of largest modulus; the modulus, 1, of elliptic orbits",
         "rotation_number": "argument of the multiplier over 2 pi",
-        "total_time": "sum of the times of flight",
+        "total_time": ("sum of the times of flight", TIME),
     }
     values = traces, _multiplier(traces), _rotation_number(traces), tau.sum(axis=1)
     return variables("orbit", values, names) | {

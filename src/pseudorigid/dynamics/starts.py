@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from .variables import LENGTH, RADIUS, SPEED, attributes_of
+
 
 def start_state(ball, energy, start):
     """The state (x, xdot, udot) of a start.
@@ -49,14 +51,10 @@ def start_variables(starts, states):
         start_xdot.
     """
     fractions = [np.nan if isinstance(start, dict) else start for start in starts]
-    text = "start along y = 0, in section radii from the centre"
-    data = {"start": ("orbit", np.asarray(fractions, dtype=float), _about(text))}
+    about = attributes_of("start along y = 0, in section radii from the centre", RADIUS)
+    data = {"start": ("orbit", np.asarray(fractions, dtype=float), about)}
     if any(isinstance(start, dict) for start in starts):
-        for i, name in enumerate(("x", "xdot")):
+        for i, (name, scale) in enumerate((("x", LENGTH), ("xdot", SPEED))):
             values = np.array([state[i] for state in states], dtype=float)
-            data[f"start_{name}"] = ("orbit", values, _about(f"{name} of the start"))
+            data[f"start_{name}"] = ("orbit", values, attributes_of(f"{name} of the start", scale))
     return data
-
-
-def _about(text):
-    return {"long_name": text, "units": "1"}

@@ -2,11 +2,15 @@
 
 import numpy as np
 
+# Scales: a number of a dataset times its scale is the quantity. R is the ball's radius, omega the
+# frequency of its stretching and m its mass.
+LENGTH, SPEED, RATE, TIME = "R", "omega R", "omega", "1/omega"
+ENERGY, AREA, RADIUS = "m omega^2 R^2", "omega R^2", "section radius"
 NAMES = {
-    "x": "position at impact, downwards",
-    "xdot": "velocity of the mass centre just before impact",
-    "udot": "strain rate just before impact",
-    "tau": "time of flight since the previous impact",
+    "x": ("position at impact, downwards", LENGTH),
+    "xdot": ("velocity of the mass centre just before impact", SPEED),
+    "udot": ("strain rate just before impact", RATE),
+    "tau": ("time of flight since the previous impact", TIME),
 }
 
 
@@ -18,16 +22,17 @@ def variables(dims, values, names=NAMES):
     dims : str or tuple of str
         The same of all.
     values : iterable of array
-    names : dict of str to str
-        Name and meaning of each, in the order of `values`.
+    names : dict
+        Name and meaning of each, or (meaning, scale), in the order of `values`.
 
     Returns
     -------
     dict
         {name: (dims, array, attributes)}.
     """
-    pairs = zip(names.items(), values, strict=True)
-    return described({name: (dims, array, meaning) for (name, meaning), array in pairs})
+    about = {name: (text,) if isinstance(text, str) else text for name, text in names.items()}
+    pairs = zip(about.items(), values, strict=True)
+    return described({name: (dims, array, *text) for (name, text), array in pairs})
 
 
 def described(table):
@@ -36,7 +41,8 @@ def described(table):
     Parameters
     ----------
     table : dict
-        {name: (dims, values, meaning)}.
+        {name: (dims, values, meaning)}, or (dims, values, meaning, scale) of what is no pure
+        number.
 
     Returns
     -------
@@ -44,12 +50,29 @@ def described(table):
         {name: (dims, array, attributes)}.
     """
     found = {}
-    for name, (dims, values, meaning) in table.items():
+    for name, (dims, values, *about) in table.items():
         array = np.asarray(values)
         words = array.dtype.kind in "OU"
-        attributes = {"long_name": meaning} | ({} if words else {"units": "1"})
+        attributes = {"long_name": about[0]} if words else attributes_of(*about)
         found[name] = dims, array.astype(object) if words else array, attributes
     return found
+
+
+def attributes_of(meaning, scale="1"):
+    """The attributes of a variable: what it means, and its scale.
+
+    Parameters
+    ----------
+    meaning : str
+    scale : str
+        What the numbers are multiples of; "1" for pure numbers.
+
+    Returns
+    -------
+    dict
+        long_name, units ("1": all numbers are dimensionless) and scale.
+    """
+    return {"long_name": meaning, "units": "1", "scale": scale}
 
 
 def of_rows(table, rows):
@@ -58,7 +81,8 @@ def of_rows(table, rows):
     Parameters
     ----------
     table : dict
-        {name: (dims, meaning)}; the first of the dims counts the rows.
+        {name: (dims, meaning)} or {name: (dims, meaning, scale)}; the first of the dims counts
+        the rows.
     rows : sequence of tuple
 
     Returns
@@ -67,7 +91,7 @@ def of_rows(table, rows):
         {name: (dims, array, attributes)}.
     """
     columns = zip(table.items(), zip(*rows, strict=True), strict=True)
-    return described({name: (dims, column, text) for (name, (dims, text)), column in columns})
+    return described({name: (dims, column, *text) for (name, (dims, *text)), column in columns})
 
 
 def states_of(dataset):
@@ -119,7 +143,7 @@ def of_type(orbits, kind, period=None):
 
 
 def final_exponents(lyapunov):
-    """The exponents of each orbit at its last record.
+    """The exponents of each orbit at its last record, sorted by value.
 
     Parameters
     ----------
@@ -129,9 +153,9 @@ def final_exponents(lyapunov):
     Returns
     -------
     ndarray, shape (orbit, index)
-        Nats an impact.
+        Nats an impact, the largest of each orbit first.
     """
     exponent = lyapunov["exponent"].values
     there = ~np.isnan(exponent[:, :, 0])
     last = exponent.shape[0] - 1 - np.argmax(there[::-1], axis=0)
-    return exponent[last, np.arange(exponent.shape[1])]
+    return np.sort(exponent[last, np.arange(exponent.shape[1])], axis=1)[:, ::-1]

@@ -13,7 +13,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import chart, described, of_rows
+from ..dynamics.variables import ENERGY, TIME, chart, described, of_rows
 from ..kernel import impact as kernel
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
@@ -29,9 +29,9 @@ _FROM, _TO = ", 95 % interval from", ", 95 % interval to"
 _OF_CUTS = {
     "count": ("cut", "clusters"),
     "cluster_impacts": ("cut", "mean number of impacts in a cluster"),
-    "cluster_time": ("cut", "mean time from a cluster's first impact to its last"),
-    "period": ("cut", "mean time from a cluster's first impact to the next one's"),
-    "period_error": ("cut", "standard error of that mean, between orbits"),
+    "cluster_time": ("cut", "mean time from a cluster's first impact to its last", TIME),
+    "period": ("cut", "mean time from a cluster's first impact to the next one's", TIME),
+    "period_error": ("cut", "standard error of that mean, between orbits", TIME),
     "correlation": (("cut", "lag", "first", "then"), _LINEAR),
     "correlation_low": (("cut", "lag", "first", "then"), _LINEAR + _FROM),
     "correlation_high": (("cut", "lag", "first", "then"), _LINEAR + _TO),
@@ -98,14 +98,14 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     time, energies, least, most = _strains(out, ball.k)
     error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
     data = {
-        "bin_edge": ("edge", edges, "flight time"),
+        "bin_edge": ("edge", edges, "flight time", TIME),
         "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
-        "time": ("orbit", time, "length of the orbit in time"),
-        "strain_energy": ("orbit", energies, "mean in time of the strain energy"),
+        "time": ("orbit", time, "length of the orbit in time", TIME),
+        "strain_energy": ("orbit", energies, "mean in time of the strain energy", ENERGY),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
         "largest_strain": ("orbit", most, "largest stretch"),
-        "energy_error": ("orbit", error, _DRIFT),
-        "cut": ("cut", np.asarray(cuts, dtype=float), "cut"),
+        "energy_error": ("orbit", error, _DRIFT, ENERGY),
+        "cut": ("cut", np.asarray(cuts, dtype=float), "flight time that parts two clusters", TIME),
         "lag": ("lag", np.arange(1, lags + 1), "clusters later"),
     }
     chosen = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))

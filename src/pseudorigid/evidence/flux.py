@@ -14,7 +14,7 @@ from flint import ctx
 from ..dynamics.manifolds import trace_manifold
 from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
-from ..dynamics.variables import chart, of_rows, of_type, states_of
+from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 from .actions import Law, Saddle, first_crossing, lobe
 from .polygon import Polygon
 from .sea import sea_states
@@ -27,23 +27,23 @@ _LONGEST = 16.0  # section radii, of a branch
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 _VARIABLES = {
     "side": ("side", "which branch"),
-    "area": ("side", "area of a lobe, by differences of action"),
-    "area_error": ("side", "its error"),
-    "digits": ("side", "area of a lobe, in decimals"),
-    "lobe_polygon": ("side", "area of that lobe between the traced lines"),
-    "region": ("side", "area closed in"),
-    "carried_out": ("side", "area that an impact carries out, counted"),
-    "carried_in": ("side", "area that an impact carries in, counted"),
+    "area": ("side", "area of a lobe, by differences of action", AREA),
+    "area_error": ("side", "its error", AREA),
+    "digits": ("side", "area of a lobe in omega R^2, in decimals"),
+    "lobe_polygon": ("side", "area of that lobe between the traced lines", AREA),
+    "region": ("side", "area closed in", AREA),
+    "carried_out": ("side", "area that an impact carries out, counted", AREA),
+    "carried_in": ("side", "area that an impact carries in, counted", AREA),
     "sea_inside": ("side", "share of the sea's impacts that are inside"),
     "sea_out": ("side", "share of the sea's impacts that leave"),
     "saddle": ("side", "index of the point that the branch leaves"),
     "target": ("side", "index of the point whose stable branch it meets"),
-    "crossing_x": (("side", "crossing"), "x where a primary orbit meets y = 0"),
+    "crossing_x": (("side", "crossing"), "x where a primary orbit meets y = 0", LENGTH),
     "sine": (("side", "crossing"), "sine of the angle from the unstable branch to the stable one"),
-    "outline_x": (("side", "corner"), "x on the region's edge"),
-    "outline_y": (("side", "corner"), "y on the region's edge"),
-    "branch_x": (("side", "vertex"), "x on the unstable branch"),
-    "branch_y": (("side", "vertex"), "y on that branch"),
+    "outline_x": (("side", "corner"), "x on the region's edge", LENGTH),
+    "outline_y": (("side", "corner"), "y on the region's edge", SPEED),
+    "branch_x": (("side", "vertex"), "x on the unstable branch", LENGTH),
+    "branch_y": (("side", "vertex"), "y on that branch", SPEED),
 }
 
 

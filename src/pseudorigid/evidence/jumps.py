@@ -11,12 +11,13 @@ import math
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import chart, described
+from ..dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
 from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
+_PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
 _HALVED = "by how much it differs from what half as many sides give"
 
 
@@ -72,16 +73,16 @@ def jumps(ball, energy, energies, sides):
     flight_x, flight_y = _symmetric_flights(ball, energy, sides)
     curve, line = ("energy", "point"), ("half_time", "branch")
     data = {
-        "rim_x": (curve, curves[0], "x of grazing states that leave the floor"),
-        "rim_y": (curve, curves[1], "y of these states"),
-        "x": (curve, curves[2], "x of their next impact, where the inverse jumps"),
-        "y": (curve, curves[3], "y of their next impact"),
-        "energy": ("energy", levels, "energy"),
-        "radius": ("energy", radii, "the section's radius along y = 0"),
-        "length": ("energy", length, "length of the curve in (x, y)"),
-        "length_error": ("energy", error, _HALVED),
-        "flight_x": (line, flight_x, "x on the symmetry line Fix RP"),
-        "flight_y": (line, flight_y, "y on that line"),
+        "rim_x": (curve, curves[0], "x of grazing states that leave the floor", LENGTH),
+        "rim_y": (curve, curves[1], "y of these states", SPEED),
+        "x": (curve, curves[2], "x of their next impact, where the inverse jumps", LENGTH),
+        "y": (curve, curves[3], "y of their next impact", SPEED),
+        "energy": ("energy", levels, "energy", ENERGY),
+        "radius": ("energy", radii, "the section's radius along y = 0", LENGTH),
+        "length": ("energy", length, "length of the curve in (x, y)", _PLANE),
+        "length_error": ("energy", error, _HALVED, _PLANE),
+        "flight_x": (line, flight_x, "x on the symmetry line Fix RP", LENGTH),
+        "flight_y": (line, flight_y, "y on that line", SPEED),
     }
     first = ball.g * ball.g * (1.0 + 0.5 * ball.k)
     return xr.Dataset(described(data), attrs={"first_energy": first})

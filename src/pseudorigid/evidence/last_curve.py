@@ -12,7 +12,7 @@ import xarray as xr
 
 from ..dynamics.follow import angle
 from ..dynamics.orbits import orbit
-from ..dynamics.variables import chart, of_rows, states_of
+from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
 from .rotation import LOCKED, regular
@@ -31,14 +31,14 @@ _CONVERGENT = ("noble", "convergent")
 _VARIABLES = {
     "turns": (_CONVERGENT, "turns around the fixed point"),
     "period": (_CONVERGENT, "impacts in which it makes them"),
-    "place": (_CONVERGENT, "the orbit's point on y = 0, in section radii"),
+    "place": (_CONVERGENT, "the orbit's point on y = 0, in section radii", RADIUS),
     "residue": (_CONVERGENT, "Greene's residue"),
-    "closure": (_CONVERGENT, "by how much the orbit misses its start, in section radii"),
+    "closure": (_CONVERGENT, "by how much the orbit misses its start, in section radii", RADIUS),
     "rotation": ("noble", "noble rotation number"),
     "orbit_rotation": ("noble", "rotation number of the orbit there"),
     "orbit_exponent": ("noble", "Lyapunov exponent of the orbit there"),
-    "x": (("noble", "impact"), "position at impact, downwards"),
-    "y": (("noble", "impact"), "xdot - k udot just before impact"),
+    "x": (("noble", "impact"), "position at impact, downwards", LENGTH),
+    "y": (("noble", "impact"), "xdot - k udot just before impact", SPEED),
 }
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from ..dynamics.variables import described, variables
+from ..dynamics.variables import ENERGY, RADIUS, described, variables
 from .winding import fixed, winding
 
 # ln of a tangent vector's growth over a chaotic orbit's second half, at least; over a regular one's
@@ -11,7 +11,7 @@ from .winding import fixed, winding
 GROWN = 6.0
 LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
 _ORBITS = {
-    "place": "start along y = 0, in section radii from the centre",
+    "place": ("start along y = 0, in section radii from the centre", RADIUS),
     "rotation": "rotation number around the fixed point",
     "exponent": "Lyapunov exponent an impact",
 }
@@ -68,8 +68,13 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     at, about = zip(*centres, strict=True)
     data |= described(
         {
-            "energy": ("energy", levels, "energy"),
-            "fixed_place": ("energy", at, "the fixed point, in section radii from the centre"),
+            "energy": ("energy", levels, "energy", ENERGY),
+            "fixed_place": (
+                "energy",
+                at,
+                "the fixed point, in section radii from the centre",
+                RADIUS,
+            ),
             "fixed_rotation": ("energy", about, "rotation number of the fixed point"),
         }
     )

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.lyapunov import lyapunov_spectrum
-from ..dynamics.variables import chart, described
+from ..dynamics.variables import RADIUS, chart, described
 from .sea import sea_states
 
 # Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
@@ -44,10 +44,10 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     -------
     xarray.Dataset
         exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
-        impact, largest first. regular_exponent (length, island, index): over the first `length`
-        impacts. entered_any, entered_all (visit): cells entered by at least one of the orbits, by
-        each of them; entered_least: by the orbit that enters fewest. start (orbit), regular_start
-        (island), and the attribute block_impacts, the impacts of a block.
+        impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over
+        the first `length` impacts. entered_any, entered_all (visit): cells entered by at least one
+        of the orbits, by each of them; entered_least: by the orbit that enters fewest. start
+        (orbit), regular_start (island), and the attribute block_impacts, the impacts of a block.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def spread(ball, energy, between, orbits, length, blocks, regular, regular_impac
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
-        "start": ("orbit", start, "start along y = 0, in section radii"),
+        "start": ("orbit", start, "start along y = 0, in section radii", RADIUS),
     }
     data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
     data |= _entered(ball, energy, states, cells, visits)
@@ -92,7 +92,7 @@ def _regular(ball, energy, starts, impacts):
     found = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
     return {
         "length": ("length", lengths, "number of impacts"),
-        "regular_start": ("island", starts, "start along y = 0, in section radii"),
+        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), found, "exponent of a regular orbit"),
     }
 
@@ -130,7 +130,7 @@ def _cell(place, cells):
 
 
 def stretches(dataset, length):
-    """Largest exponents over all stretches of `length` impacts of the sea's orbits.
+    """The largest exponent of each stretch of `length` impacts of the sea's orbits.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def stretches(dataset, length):
     ndarray, shape (stretches,)
         Nats an impact.
     """
-    block = dataset["exponent"].values[:, :, 0]
+    block = dataset["exponent"].values
     count = length // int(dataset.attrs["block_impacts"])
     whole = block[: block.shape[0] // count * count]
-    return whole.reshape(-1, count, block.shape[1]).mean(axis=1).ravel()
+    return whole.reshape(-1, count, *block.shape[1:]).mean(axis=1).max(axis=-1).ravel()

@@ -6,6 +6,7 @@ million impacts. A failure is a wrong root as in `work.is_wrong`.
 
 import numpy as np
 
+from ..dynamics.variables import LENGTH
 from ..proofs import judge
 from . import states
 from .methods.counted import OURS, engine_method, scan_method
@@ -128,7 +129,12 @@ def orbits(impacts=MILLION):
         "evaluations": ("method", evaluations, "evaluations an impact"),
         "drift": (("method", "record"), drift, "largest relative error of the energy"),
         "record": ("record", records, "number of impacts"),
-        "apart": (("method", "impact"), apart, "median distance in x from the judge's orbit"),
+        "apart": (
+            ("method", "impact"),
+            apart,
+            "median distance in x from the judge's orbit",
+            LENGTH,
+        ),
         "impact": ("impact", np.arange(1, AGREE_IMPACTS + 1), "number of impacts"),
         "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
     }

@@ -9,7 +9,7 @@ What counts as error depends on the kind of picture, which names its measure:
               the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of
               an impact: across a branch errors shrink by 1/m each impact, along it they do not
               show
-    exponents the change of the largest exponent, averaged over the orbits
+    exponents the change of a tangent vector's exponent, averaged over the orbits
 
 A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the
 energy says. The mean exponent of a long orbit does not.
@@ -38,6 +38,7 @@ from .work import dataset, is_wrong, proved_times
 
 # The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
 METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
+_AXIS = "unit of the axis"  # a scale: of a position R, of a time 1/omega, of an exponent 1
 # The scatter between orbits of an exponent after 2e5 impacts, whatever the method: an error
 # below that of their mean does not show.
 SCATTER = 0.004
@@ -96,14 +97,19 @@ def figure_errors(scenes, measures, artifacts):
     each = ("scene", "method")
     variables = {
         "scene": ("scene", list(scenes), "scene"),
-        "error": (each, error, "error of the picture in pixels"),
+        "error": (each, error, "error of the picture in pixels", "pixel"),
         "missed": (each, missed, "impacts flown past"),
         "evaluations": (each, evaluations, "evaluations an impact"),
         "impacts": ("scene", impacts, "impacts computed for the comparison"),
-        "pixel": ("scene", pixel, "a pixel in units of the axis"),
-        "line": ("scene", stroke * DPI / 72 * pixel, "width of a line or dot in units of the axis"),
-        "digit": ("scene", digit, "last digit of the axis' labels"),
-        "limit": ("scene", limit, "error that the picture can hide, in pixels"),
+        "pixel": ("scene", pixel, "a pixel in units of the axis", _AXIS),
+        "line": (
+            "scene",
+            stroke * DPI / 72 * pixel,
+            "width of a line or dot in units of the axis",
+            _AXIS,
+        ),
+        "digit": ("scene", digit, "last digit of the axis' labels", _AXIS),
+        "limit": ("scene", limit, "error that the picture can hide, in pixels", "pixel"),
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
         "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
     }
@@ -127,7 +133,7 @@ def _exponents(block):
     _, pixel = _pixels(exponents.plane(block))
     means = []
     for method in METHODS:
-        found = map(partial(_largest_exponent, ball, method), states, impacts)
+        found = map(partial(_vector_exponent, ball, method), states, impacts)
         means.append(sum(found) / len(states))
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
@@ -231,8 +237,8 @@ def _next_states(ball, columns, tau):
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
 
 
-def _largest_exponent(ball, method, state, impacts):
-    """The largest exponent along the method's own orbit, by one tangent vector."""
+def _vector_exponent(ball, method, state, impacts):
+    """The exponent of one tangent vector, which tends to the largest, on the method's orbit."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = np.column_stack((state, track[:3, :-1]))
     return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts

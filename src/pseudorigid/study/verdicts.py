@@ -25,6 +25,7 @@ from ..dynamics import fixed_point
 from ..dynamics.ensemble import threads
 from ..dynamics.follow import CENTRE, SIZE, VECTOR, begin, follow
 from ..dynamics.variables import described, of_rows
+from ..sweep.blocks import AXES
 from ..sweep.cell import even
 from ..sweep.verdict import THRESHOLD, judge, means, windows
 
@@ -100,8 +101,8 @@ def verdicts(cells=36, orbits=128):
 
 _EACH = ("set", "method", "length")
 _CELL = {
-    "k": (("set", "cell"), "Euler inertia"),
-    "energy": (("set", "cell"), "energy over g^2"),
+    "k": (("set", "cell"), *AXES["k"]),
+    "energy": (("set", "cell"), *AXES["energy"]),
     "regular": (("set", "cell"), "true share of regular orbits"),
     "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
     "exponent_error": (("set", "cell"), "its standard error"),

@@ -62,9 +62,9 @@ def measured(methods, count=200, repetitions=5):
     ]
     low, middle, high = np.quantile(seconds, (0.25, 0.5, 0.75), axis=0)
     variables = {
-        "seconds_low": (EACH, low, "lower quartile of seconds a flight"),
-        "seconds": (EACH, middle, "median of seconds a flight"),
-        "seconds_high": (EACH, high, "upper quartile of seconds a flight"),
+        "seconds_low": (EACH, low, "lower quartile of seconds a flight", "s"),
+        "seconds": (EACH, middle, "median of seconds a flight", "s"),
+        "seconds_high": (EACH, high, "upper quartile of seconds a flight", "s"),
     }
     return data.assign(described(variables))
 

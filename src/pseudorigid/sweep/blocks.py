@@ -5,13 +5,14 @@ from itertools import groupby
 import numpy as np
 import xarray as xr
 
+from ..dynamics.variables import attributes_of
 from .cell import PERIODS, VARIABLES, cells
 
-AXES = {"k": "Euler inertia", "energy": "energy over g^2"}
+AXES = {"k": ("Euler inertia", "m R^2"), "energy": ("energy over g^2", "m (gravity/omega)^2")}
 
 
 def compute(block):
-    """The cells of a block.
+    """Regular and chaotic motion in some cells of a grid over k and E/g^2.
 
     Parameters
     ----------
@@ -30,18 +31,22 @@ def compute(block):
         name: (
             ("cell", "period") if name == "chains" else "cell",
             np.array([one[name] for one in found], kind),
-            _about(text),
+            attributes_of(text),
         )
         for name, (text, kind) in VARIABLES.items()
     }
     for i, (name, text) in enumerate(AXES.items()):
-        data[name] = ("cell", np.array([one[i] for one in block["cells"]], float), _about(text))
-    data["period"] = ("period", np.arange(1, PERIODS + 1), _about("islands of a chain"))
+        data[name] = (
+            "cell",
+            np.array([one[i] for one in block["cells"]], float),
+            attributes_of(*text),
+        )
+    data["period"] = ("period", np.arange(1, PERIODS + 1), attributes_of("islands of a chain"))
     return xr.Dataset(data)
 
 
 def join(sweep, blocks):
-    """A sweep from its blocks.
+    """Regular and chaotic motion over a grid of k and E/g^2, joined from its blocks.
 
     Parameters
     ----------
@@ -68,9 +73,7 @@ def join(sweep, blocks):
         for name, variable in joined.variables.items()
         if name in VARIABLES
     }
-    data |= {axis: (axis, np.array(sweep[axis]), _about(text)) for axis, text in AXES.items()}
+    data |= {
+        axis: (axis, np.array(sweep[axis]), attributes_of(*text)) for axis, text in AXES.items()
+    }
     return xr.Dataset(data | {"period": joined.variables["period"]})
-
-
-def _about(text):
-    return {"long_name": text, "units": "1"}

@@ -20,11 +20,12 @@ from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import cell
 
 from ...config.declared.stages import STAGES
+from ...records.artifacts import ABOUT
 
 NEAR = 1e-9  # of numbers that one map gives twice
 SOME = 8  # entries of a sample
 # What a file has besides what its stage returns.
-SAVED = {"k", "g", "energy", "stage", "config", "Conventions"}
+SAVED = {"k", "g", "energy", "stage", "config", "title", *ABOUT}
 SHORT = 4096  # impacts of an orbit that is followed again
 
 

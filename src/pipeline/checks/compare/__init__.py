@@ -4,12 +4,12 @@ Nothing is computed here: both must have their results.
 """
 
 from ...config import places
-from ...records.artifacts import load
+from ...records.artifacts import canonical_json, load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
 
 
-def compare(root, variants, names, absent, scenes):
+def compare(root, variants, names, absent, scenes, everything):
     """Print what differs between two variants and save their figures side by side.
 
     Parameters
@@ -24,6 +24,8 @@ def compare(root, variants, names, absent, scenes):
         For each of the two, scene -> why its figure cannot exist.
     scenes : list of str
         Those of their scenes that are looked at.
+    everything : bool
+        Whether each variable and each orbit that differs has a line; else each stage has.
     """
     serves = places.served(variants)
 
@@ -43,8 +45,7 @@ def compare(root, variants, names, absent, scenes):
         if not any(missing):
             for stage in places.stages(blocks[0]):
                 if stage != "periodic":
-                    lines = norms.table(*data(scene, stage), names)
-                    lines += orbits.table(*data(scene, stage)) if stage == "orbits" else []
+                    lines = _of_stage(stage, data(scene, stage), names, everything)
                     for i, line in enumerate(lines):
                         print(f"  {'' if i else stage:10}  {line}")
         image = root / picture_path(names, scene)
@@ -57,7 +58,7 @@ def compare(root, variants, names, absent, scenes):
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
-    _periodic(pairs, serves, names, data)
+    _periodic(pairs, names, data)
     for scene, blocks in pairs.items():
         if "lyapunov" in places.stages(blocks[0]):
             said = "mean over its orbits ± their standard deviation"
@@ -71,6 +72,14 @@ def picture_path(names, scene):
     return f"results/compare/{names[0]}..{names[1]}/{scene}.png"
 
 
+def _of_stage(stage, pair, names, everything):
+    """Lines about how the two datasets of a stage differ."""
+    lines = norms.table(*pair, names) if everything else [norms.summary(*pair, names)]
+    if stage == "orbits":
+        lines += orbits.table(*pair) if everything else orbits.summary(*pair)
+    return lines
+
+
 def _differences(one, other):
     """A line for each key of the config that differs."""
     lines = [
@@ -81,13 +90,13 @@ def _differences(one, other):
     return lines or ["the same config"]
 
 
-def _periodic(pairs, serves, names, data):
-    """Print what became of the periodic orbits, once for each pair of artifacts."""
+def _periodic(pairs, names, data):
+    """Print what became of the periodic orbits, once for all scenes with the same ones."""
     groups = {}
     for scene, blocks in pairs.items():
         if "periodic" in places.stages(blocks[0]):
-            files = tuple(serves[name, scene, "periodic"] for name in names)
-            groups.setdefault(files, []).append(scene)
+            orbits_of = canonical_json([places.stages(block)["periodic"] for block in blocks])
+            groups.setdefault(orbits_of, []).append(scene)
     if groups:
         far = f"an orbit further than {cycles.REACH:g} away counts as another"
         print(f"\nPeriodic orbits, and how far in section radii ({far})")

@@ -99,6 +99,11 @@ def make(currency, wanted, arguments) -> int:
                 raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
         if why.startswith(_CAUSES):
             say(f"{path}: {why}: made again")
+    own = ROOT / ".snakemake"
+    for place in (own, *(own.iterdir() if own.is_dir() else ())):
+        if place.exists() and not place.is_dir():
+            where = place.relative_to(ROOT)
+            raise UsageError(f"{where}: a file stands in a folder's place, move it away")
     options = asked(arguments)
     if options == {"dryrun"}:
         from ..telling.plan import plan

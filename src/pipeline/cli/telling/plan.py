@@ -36,11 +36,7 @@ def why(currency, paths) -> str:
 def changes(before, after) -> str:
     """What differs between two blocks of config: `key old -> new` for each key."""
     keys = differing_keys(before, after)
-    return ", ".join(f"{key} {_shown(old)} -> {_shown(new)}" for key, old, new in keys)
-
-
-def _shown(value):
-    return value if isinstance(value, str) else brief(value)
+    return ", ".join(f"{key} {brief(old)} -> {brief(new)}" for key, old, new in keys)
 
 
 def _cause(currency, path):

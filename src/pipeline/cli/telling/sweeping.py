@@ -57,22 +57,34 @@ def progress(sweeps, currency, targets):
 
 @contextmanager
 def told(blocks, total, out=None):
-    """While the body runs, tell how many of `total` cells are done.
+    """Tell how many of `total` cells are done while the body runs.
 
-    `blocks` has those that are to be written: file -> (cells, impacts).
+    The speed is measured from the first block on: before it, jobs may compile the map.
+
+    Parameters
+    ----------
+    blocks : dict
+        Those that are to be written: file -> (cells, impacts).
+    total : int
+        Cells of all sweeps.
+    out : file, optional
+        Where the lines go, by default stderr.
     """
     pending = {path: identity(path) for path in blocks}
-    begin = time.monotonic()
+    first = None  # the time at which the first blocks were there, and their cells and impacts
     ended = threading.Event()
 
     def tell():
+        nonlocal first
         written = [path for path in pending if identity(path) not in (pending[path], None)]
         for path in written:
             del pending[path]
         if written:
+            now = time.monotonic()
             done, left = (_sums(blocks, here) for here in (blocks.keys() - pending, pending))
-            text = line(total, done, left, time.monotonic() - begin)
-            print(text, file=out or sys.stderr, flush=True)
+            since = [a - b for a, b in zip((now, *done), first, strict=True)] if first else None
+            first = first or (now, *done)
+            print(line(total, left, since), file=out or sys.stderr, flush=True)
 
     def watch():
         while not ended.wait(PAUSE):
@@ -88,12 +100,25 @@ def told(blocks, total, out=None):
         thread.join()
 
 
-def line(total, done, left, seconds) -> str:
-    """How far a sweep of `total` cells is; `done` in so many seconds and `left`: cells, impacts."""
-    text = f"sweep: {total - left[0]:,} of {total:,} cells, {done[0] / seconds:.3g} cells/s"
+def line(total, left, since=None) -> str:
+    """How far a sweep of `total` cells is.
+
+    Parameters
+    ----------
+    total : int
+    left : (int, int)
+        Cells and impacts that are still to be done.
+    since : (float, int, int), optional
+        Seconds since the first block, and the cells and impacts done in these.
+    """
+    text = f"sweep: {total - left[0]:,} of {total:,} cells"
+    if since is None:
+        return text
+    seconds, cells, impacts = since
+    text += f", {cells / seconds:.3g} cells/s"
     if not left[0]:
         return text
-    minutes, rest = divmod(round(left[1] * seconds / done[1]), 60)
+    minutes, rest = divmod(round(left[1] * seconds / impacts), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{text}, {f'{hours} h {minutes} min' if hours else f'{minutes} min {rest} s'} to go"
 

@@ -13,7 +13,14 @@ from ..folder import MisuseError, UsageError, locked
 
 RESULTS = ROOT / "results"
 # Beside results and their records: what words and jobs leave in these folders.
-_MORE = ("*/logs/*.log", "*/absent.json", "*/.*.part", "*/*/.*.part", "*/*.nc.part/*")
+_MORE = (
+    "*/differences/*.png",
+    "*/logs/*.log",
+    "*/absent.json",
+    "*/.*.part",
+    "*/*/.*.part",
+    "*/*.nc.part/*",
+)
 _MORE += ("report/*.html", "archive/pseudorigid.tar", "compare/*/*.png")
 
 

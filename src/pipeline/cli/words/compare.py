@@ -19,7 +19,7 @@ def run(given) -> int:
     with locked():
         for name in names:
             named = figures.of_scenes(checked, name, given.figure)
-            status = figures.make(checked, name, given.options, named)
+            status = figures.make(checked, name, given.options, named, brief=not given.all)
             if status and not (name in config.PUBLISHED and figures.known_absent(name)):
                 return status
         if running.only_says(given.options):
@@ -30,5 +30,5 @@ def run(given) -> int:
         absent = [figures.known_absent(name) for name in names]
         print()
         with interruptible(), one_line():
-            compare(ROOT, variants, names, absent, scenes)
+            compare(ROOT, variants, names, absent, scenes, given.all)
     return 0

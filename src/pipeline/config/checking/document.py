@@ -1,5 +1,6 @@
 """A whole config, checked: every scene made complete, or all its mistakes told at once."""
 
+import re
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -77,6 +78,9 @@ def check(document) -> dict:
     for name, block in given["sweeps"].items():
         grids[name], wrong = sweeps.checked(block, ("sweeps", name))
         found += wrong
+        if re.fullmatch(r".+_\d{4}", name) and name[:-5] in given["sweeps"]:
+            what = f"a name that no block of the sweep {name[:-5]} has"
+            found.append(refusal(("sweeps",), name, what))
     if lines or found:
         raise ConfigError(*dict.fromkeys(lines + found))
     return {

@@ -7,6 +7,10 @@ import yaml
 from .document import check
 from .words import ConfigError
 
+# Bytes of a config: what is larger is a slip, and would take long to parse. (The faster parser of
+# libyaml is not used: it crashes where text is nested deeply.)
+LARGEST = 500_000
+
 
 class _Loader(yaml.SafeLoader):
     """YAML that refuses a key given twice, of which plain PyYAML keeps the last without a word."""
@@ -51,6 +55,9 @@ def load(path) -> dict:
 
 def _parse(path):
     try:
+        size = path.stat().st_size
+        if size > LARGEST:
+            raise ConfigError(f"has {size} bytes: expected at most {LARGEST}")
         return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
         raise ConfigError(f"cannot be read: {error.strerror}") from None

@@ -76,7 +76,7 @@ def _energy_faults(sweep):
     k = max(sweep["k"])
     lowest = -1 / (2 * exact(k))
     if not exact(first) > lowest:
-        what = f"E/g^2 above -1/(2k) = {float(lowest):g}, where a ball with k = {k} is at rest"
+        what = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k} is at rest"
         yield ("energy",), first, what
     if not last <= HIGHEST:
         yield ("energy",), last, f"E/g^2 of at most {HIGHEST:g}"
@@ -85,11 +85,11 @@ def _energy_faults(sweep):
         return
     k, g = exact(min(sweep["k"])), exact(sweep["g"])
     if not g < k:
-        yield ("g",), sweep["g"], f"0 < g < k = {float(k):g}"
+        yield ("g",), sweep["g"], f"0 < g < k = {float(k)}"
         return
     highest = (k / 2 - g) / (g * g)
     if not exact(last) < highest:
-        what = f"E/g^2 below (k/2 - g)/g^2 = {float(highest):g}, where the ball could flatten"
+        what = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
         yield ("energy",), last, what
 
 

@@ -141,7 +141,7 @@ class Axis(Block):
 class View(Block):
     """a mapping with the keys elevation and azimuth"""
 
-    elevation: real("a number of degrees with 0 < elevation < 90", gt=0, lt=90)
+    elevation: real("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
     """the eye's angle above the plane of x and xdot"""
     azimuth: real("a number of degrees from -360 to 360", ge=-360, le=360)
     """its angle around the axis of udot"""

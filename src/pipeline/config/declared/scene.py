@@ -157,7 +157,7 @@ class OfManifolds(OfPeriodicOrbit):
         for place, length in cls.lengths(block).items():
             if length > longest:
                 what = f"at most {fields.LARGEST} times resolution.distance"
-                yield place, length, f"{what}, shared by {branches} branches = {longest:g}"
+                yield place, length, f"{what}, shared by {branches} branches = {longest}"
 
 
 class OfBranches(OfManifolds):
@@ -253,10 +253,10 @@ def _energy_faults(block):
     more = {("energies", i): energy for i, energy in enumerate(block.get("energies", ()))}
     for place, energy in ({("energy",): block["energy"]} | more).items():
         if not exact(energy) > lowest:
-            where = f"-g^2/(2k) = {float(lowest):g}, where the ball rests on the floor"
+            where = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
             yield place, energy, f"a number above {where}"
         elif not exact(energy) < highest:
-            where = f"k/2 - g = {float(highest):g}, where the ball could flatten to nothing"
+            where = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
             yield place, energy, f"a number below {where}"
 
 
@@ -279,4 +279,4 @@ def _start_faults(block, start, place):
         inside = square > least and (v >= 0 or square - k * v * v > least)
         where = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"
     if not inside:
-        yield place, start, f"a point on the section at energy {block['energy']:g}, {where}"
+        yield place, start, f"a point on the section at energy {block['energy']}, {where}"

@@ -1,27 +1,32 @@
 """What a sweep is: a grid over k and E/g^2."""
 
-from typing import Annotated, Literal
+from typing import Any
 
-from pydantic import Field
+from pydantic import create_model
 
-from .fields import Block, Gravity, Number, listed, one_or, whole
+from .fields import Block, Gravity, Number, listed, one_of, one_or, whole
 
-
-class _Span(Block):
-    """a mapping with from, to and count"""
-
-    __annotations__ = {
-        "from": Number,
-        "to": Number,
-        "count": whole(2, 100_000),
-        "spacing": Annotated[Literal["even", "log"], Field(description="even or log")],
-    }
-    spacing = "even"
-
-
+# `from` is a keyword, so that this block cannot be written as a class.
+SPAN_MEANINGS = {
+    "from": "first value of the axis",
+    "to": "last value of the axis",
+    "count": "number of values, both ends included",
+    "spacing": "`even`: equal differences between neighbours; `log`: equal ratios",
+}
+Span: Any = create_model(
+    "Span",
+    __base__=Block,
+    __doc__="a mapping with from, to and count",
+    **{
+        "from": (Number, ...),
+        "to": (Number, ...),
+        "count": (whole(2, 100_000), ...),
+        "spacing": (one_of("even", "log"), "even"),
+    },
+)
 Values = one_or(
     listed(Number, "a list of at least one number"),
-    _Span,
+    Span,
     lambda value: isinstance(value, list),
     "a list of numbers, or a mapping with from, to and count",
 )

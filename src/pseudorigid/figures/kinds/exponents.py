@@ -30,11 +30,12 @@ def draw(scene, lyapunov):
     matplotlib.figure.Figure
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    greatest = exponent.max(axis=2)
     scene = complete(
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
-        largest=lambda: of_data(exponent[exponent.shape[0] // 2 :, :, 0], most=4),
+        largest=lambda: of_data(greatest[greatest.shape[0] // 2 :], most=4),
     )
     picture = plane(scene)
     _, orbits, indices = exponent.shape
@@ -47,7 +48,7 @@ def draw(scene, lyapunov):
             picture.line(impact[there], exponent[there, orbit, index], color=hue, lw=0.8)
         if inset:
             how = {"color": hue, "lw": 0.8, "clip": inset.frame}
-            inset.line(impact[there], exponent[there, orbit, 0], **how)
+            inset.line(impact[there], greatest[there, orbit], **how)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
 

@@ -111,8 +111,9 @@ def _regular(sheet, frame, spread):
     across = Axis((1.0, high), tuple(range(1, high + 1)), "Length in impacts", True)
     up = Axis((-5.0, 0.0), (-5, -4, -3, -2, -1, 0), "Largest exponent in the islands", True)
     panel = Panel(sheet, frame, across, up)
+    largest = values.max(axis=-1)
     for island in range(spread.sizes["island"]):
-        one = np.where(values[:, island, 0] > 0.0, values[:, island, 0], np.nan)
+        one = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
         panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
     corner(sheet, frame, "dashes: $\\ln\\,n/n$")

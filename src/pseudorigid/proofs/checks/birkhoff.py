@@ -1,19 +1,22 @@
 """Birkhoff's normal form of an area-preserving map at an elliptic fixed point.
 
-In z = q + i p, dx ^ dy = dq ^ dp, the map is z -> lambda z + ..., and a change of variables
+In z = q + i p, dx ^ dy = dq ^ dp, the map is z -> lambda z + ..., lambda = exp(-i omega) with
+0 < omega < pi if y pushes x forward (DP[0, 1] > 0): it turns clockwise. A change of variables
 z + sum h_ij z^i conj(z)^j, degree by degree, leaves only the terms that commute with rotations:
 
     z -> lambda z exp(i (tau_1 I + tau_2 I^2 + ...)),   I = |z|^2/2,
 
 if lambda^j != 1 for j up to the order plus one. tau_1 is the twist: by how much the angle of
 rotation grows with the action I (Siegel and Moser, Lectures on Celestial Mechanics, sections 23
-and 31). tau_2 depends on how the changes of variables are chosen, but not where tau_1 = 0.
+and 31): counted as a positive number of turns, omega - tau_1 I, the rotation falls with I where
+tau_1 > 0. tau_2 depends on how the changes of variables are chosen, but not where tau_1 = 0.
 """
 
 from dataclasses import dataclass
 
 from flint import acb, arb
 
+from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet, algebra
 from .certificate import NotProvedError
 
@@ -57,9 +60,8 @@ def normal_form(surface, orbit, order=3):
     Raises
     ------
     NotProvedError
-        Where the point may not be elliptic, a power of the multiplier may be 1, or the form drifts.
-    UndecidedError
-        Where a flight from the orbit's boxes may touch the floor earlier.
+        Where the point may not be elliptic, a power of the multiplier may be 1, the form drifts,
+        or a flight from the orbit's boxes may touch the floor earlier.
 
     References
     ----------
@@ -67,9 +69,12 @@ def normal_form(surface, orbit, order=3):
     """
     plane = algebra(2, order)
     x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))
-    for _ in orbit.points:
-        image = surface.impact(x, y)
-        x, y = image.x, image.y
+    try:
+        for _ in orbit.points:
+            image = surface.impact(x, y)
+            x, y = image.x, image.y
+    except UndecidedError as error:
+        raise NotProvedError(f"a flight from the orbit: {error}") from None
     rotation, map_ = _complex(x, y, orbit.matrix)
     powers = [rotation]
     while len(powers) < order + 1:

@@ -2,12 +2,14 @@
 
 import tomllib
 from dataclasses import dataclass, field
-from decimal import Decimal
 from fractions import Fraction
+from math import inf
 
 from flint import arb
 
 from ..enclosure.surface import Surface, ball_of, exact
+
+DIGITS = 100  # of the numerator and the denominator of a certificate's number, at most
 
 
 class NotProvedError(Exception):
@@ -23,7 +25,7 @@ class Finding:
     digits : dict of str to arb
         Enclosures.
     margins : dict of str to float
-        By how much inequalities hold.
+        By how much inequalities hold: positive and finite.
     parts : dict
         What later steps use.
     """
@@ -31,6 +33,11 @@ class Finding:
     digits: dict = field(default_factory=dict)
     margins: dict = field(default_factory=dict)
     parts: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        for name, margin in self.margins.items():
+            if not 0 < margin < inf:
+                raise NotProvedError(f"the margin {name} is {margin:g}, not positive and finite")
 
 
 class Certificate:
@@ -51,7 +58,7 @@ class Certificate:
 
     def __init__(self, text, kind):
         try:
-            self._fields = tomllib.loads(text, parse_float=Decimal)
+            self._fields = tomllib.loads(text, parse_float=str)
         except (tomllib.TOMLDecodeError, ValueError, ArithmeticError) as error:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
@@ -68,7 +75,7 @@ class Certificate:
         """The Surface the certificate is for, which must be of the ball with this k and g."""
         self.ball(k, g)
         try:
-            return Surface(k, g, self._take("energy", str))
+            return Surface(k, g, self._exact("energy", self._take("energy", str)))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
@@ -104,9 +111,12 @@ class Certificate:
     @staticmethod
     def _exact(name, value):
         try:
-            return exact(name, value)
+            number = exact(name, value)
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
+        if max(abs(number.numerator), number.denominator) >= 10**DIGITS:
+            raise NotProvedError(f"the certificate's {name} has more than {DIGITS} digits")
+        return number
 
 
 def box(centre, radius):

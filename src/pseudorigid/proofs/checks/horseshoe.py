@@ -6,8 +6,10 @@ is followed by an orbit of P (Zgliczynski and Gidea 2004), by the cone condition
 by only one, and the set of these orbits is compact, invariant and uniformly hyperbolic
 (Kokubu, Wilczak and Zgliczynski 2007; Zgliczynski 2009).
 
-M_0 is disjoint from all other sets. So a path is known from the times at which its orbit visits
-M_0, and P on the invariant set is conjugate to the shift on paths. From M_0 back to M_0 a path
+M_0 is disjoint from all other sets. So a path that visits M_0 is known from the times at which its
+orbit does. The n paths that never visit it stay in the S; their orbits are the saddles' own,
+started at each of its points, which are distinct since the period is the prime one. So P on the
+invariant set is conjugate to the shift on paths. From M_0 back to M_0 a path
 takes L + m n impacts, m = 0, 1, ..., with L the length of the loop through the chain; so the
 topological entropy is ln x, x^-n + x^-L = 1, and the shift is mixing if n and L have no common
 divisor. The path that is in the S for all times but one passage of the chain is an orbit in the
@@ -161,8 +163,8 @@ def _relations(surface, edges, chain):
 def _crossing(middle, slope):
     """The angle between the two manifolds in M_0, one the mirror image of the other at y = 0."""
     x, y = (u + slope * s for u, s in zip(middle.u, middle.s, strict=True))
-    half = (abs(y) / abs(x)).atan()
-    return 2 * half if half < arb.pi() / 4 else arb.pi() - 2 * half
+    half = arb.atan2(abs(y), abs(x))
+    return (2 * half).min(arb.pi() - 2 * half)  # the acute one, also if half may be pi/4
 
 
 def _meets_margins(certificate, edges, measured):
@@ -170,6 +172,8 @@ def _meets_margins(certificate, edges, measured):
     if len(stated) != len(edges):
         raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
     for (source, target), found, least in zip(edges, measured, stated, strict=True):
+        if min(least) < 0:
+            raise NotProvedError(f"a margin of the certificate is {float(min(least)):g}, below 0")
         if not all(arb(f) >= ball_of(m) for f, m in zip(found, least, strict=True)):
             raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
 

@@ -1,12 +1,24 @@
 """Where the map jumps, and below which energy it cannot.
 
 A flight may touch the floor, f = f' = 0, without landing. The state there lies on the rim, s = 0,
-with x < -g, since f'' = g + x <= 0 at a touch from below. Backwards from such a rim point r the
-ball comes from R P(r): these points are the curve S+. Beside it P is continuous on either side;
-on the side where the flight just reaches the floor the image tends to R r, on the other to P(R r).
+with x <= -g, since f'' = g + x <= 0 at a touch from below; f'' = 0 there makes it land, so x < -g.
+Backwards from such a rim point r the ball comes from R P(r): these points are the curve S+.
+
+P jumps at each point of S+. The flow takes the states of the section to those with f' = 0 near the
+touch by a local diffeomorphism, since s > 0 at the one and f'' < 0 at the other. At f' = 0 the gap
+is X + U at the energy E with xdot = -udot, whose gradients (1, 1, 0) and (-g, k U, (1 + k) xdot) in
+(X, U, xdot) are parallel only for X = g/k > 0, not at x < -g. So the gap's maximum changes sign
+across S+: on the side where the flight just reaches the floor the image tends to R r, on the rim,
+on the other to P(R r), inside it if that flight lands with s > 0.
+
+S+ is one smooth curve, the image of an arc of the rim. R P is injective on the arc: two of its
+points with one image would lie on one flight, which would touch at the later one; but every flight
+from the arc ends at its first root with s > 0. It is an immersion there: the flow crosses the rim
+s = 0 with sdot = g + x, not zero.
 
 At one end of S+, x = -g on the rim with xdot < 0 after the touch is reversed, flights shrink to
-nothing: the end is on the rim. At the other f'' = 0 too: the tangency is cubic.
+nothing: the end is on the rim. At the other f'' = 0 too: the tangency is cubic, and the flow does
+not cross the rim, so that the speed of the curve's parameter vanishes.
 
 On the rim E = (1+k) xdot^2/2 + k x^2/2 - g x. By the identity
 
@@ -43,14 +55,14 @@ def check(text, surface, *, radius, length):
     radius : Fraction
         The most that a certificate's point may be off.
     length : Fraction
-        A lower bound of the curve's length in (x, y).
+        A lower bound of the curve's length in (x, y), to be proved.
 
     Returns
     -------
     Finding
-        digits: x and y of the point, its near and far image and the outer and inner end, and
-        length; margins: jump, between the images, transversality, and pieces, how many the proof
-        took.
+        digits: x and y of the point, its near and far image and the outer and inner end; margins:
+        jump, between the images, transversality, and length, by which a polygon on the curve is
+        longer than the bound.
 
     Raises
     ------
@@ -76,10 +88,12 @@ def check(text, surface, *, radius, length):
                 "far image": rim_flight(surface, -speed)[1][:2],
                 **ends(surface),
             }
-            pieces = _covered(surface)
-            least = _length(surface, length)
+            _no_second_touch(surface)
+            longer = _polygon(surface) - ball_of(length)
         except UndecidedError as error:
             raise NotProvedError(f"a flight that touches the floor: {error}") from None
+        if not longer > 0:
+            raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
         for name, (x, y) in found.items():
             stated = certificate.row(name.replace(" ", "_"), 2)
             for value, at in zip((x, y), stated, strict=True):
@@ -91,13 +105,13 @@ def check(text, surface, *, radius, length):
             raise NotProvedError("the two one-sided images may be one")
         digits = {f"{name} {axis}": value for name, pair in found.items()
                   for axis, value in zip("xy", pair, strict=True)}  # fmt: skip
-        return Finding(digits | {"length": least}, {
-            "jump": gap, "transversality": margin, "pieces": pieces,
+        return Finding(digits, {
+            "jump": gap, "transversality": margin, "length": lowest(longer),
         })  # fmt: skip
 
 
-def check_smooth(text, k, g):
-    """Prove that the map is a diffeomorphism below the certificate's energy.
+def check_smooth(text, k, g, energy):
+    """Prove that no flight touches the floor below an energy: P is a diffeomorphism there.
 
     Parameters
     ----------
@@ -105,11 +119,13 @@ def check_smooth(text, k, g):
         The certificate.
     k, g : Fraction
         The ball.
+    energy : Fraction
+        The threshold that the certificate must state.
 
     Returns
     -------
     Finding
-        digits: energy below.
+        digits: energy below; margins: above least, from the least energy, -g^2/(2k).
 
     Raises
     ------
@@ -119,6 +135,8 @@ def check_smooth(text, k, g):
     certificate = Certificate(text, "no touch")
     certificate.ball(k, g)
     threshold = certificate.number("energy_below")
+    if threshold != energy:
+        raise NotProvedError(f"the certificate is of energies below {threshold}, not {energy}")
     roots = certificate.row("roots", 2)
     rest = fmpq_poly([_q(-threshold), _q(-g), _q(k / 2)])
     factors = [fmpq_poly([_q(-root), 1]) for root in roots]
@@ -126,7 +144,8 @@ def check_smooth(text, k, g):
         raise NotProvedError("the energy of a touch is not the stated product of factors")
     if not all(root >= -g for root in roots):
         raise NotProvedError("the factors are not proved to be negative for x < -g")
-    return Finding({"energy below": ball_of(threshold)}, {"above 0": float(threshold)})
+    margin = lowest(ball_of(threshold + g * g / (2 * k)))
+    return Finding({"energy below": ball_of(threshold)}, {"above least": margin})
 
 
 def rim_flight(surface, xdot):
@@ -247,12 +266,12 @@ def curve(surface, count):
     return [places["inner end"], *inner, places["outer end"]]
 
 
-def _covered(surface, low=None, high=None):
-    """Prove that no flight from the rim, x < -g, touches again; return in how many pieces.
+def _no_second_touch(surface, low=None, high=None):
+    """Prove that no flight from the rim, x < -g, touches again before it lands with s > 0.
 
-    Then the jump set is one smooth curve. Near x = -g with xdot > 0 flights are short:
-    f/t^2 = (g + x)/2 + xdot t/6 + r, |r| <= A t^2/24, rises up to t = xdot/A, where it is above
-    zero if -(g + x) < xdot^2/(4 A).
+    Near x = -g with xdot > 0 flights are short: f/t^2 = (g + x)/2 + xdot t/6 + r,
+    |r| <= A t^2/24, |r'| <= A t/12 + A t^2/120, rises up to t = xdot/A, where it is above zero if
+    -(g + x) < xdot^2/(4 A).
     """
     k, g, energy = surface.constants()
     most = fastest(surface)
@@ -264,22 +283,21 @@ def _covered(surface, low=None, high=None):
             raise NotProvedError("the shortest flights from the rim are not proved to land")
     try:
         if rim_flight(surface, low.union(high))[1].s > 0:
-            return 1
+            return
     except UndecidedError:
         pass
     if high - low < most / 10**5:
         raise NotProvedError("a flight from the rim may touch the floor a second time")
     middle = ((low + high) / 2).mid()
-    return _covered(surface, low, middle) + _covered(surface, middle, high)
+    _no_second_touch(surface, low, middle)
+    _no_second_touch(surface, middle, high)
 
 
-def _length(surface, least, count=400):
-    """A lower bound of the curve's length: that of a polygon with its points as corners."""
+def _polygon(surface, count=400):
+    """The length of a polygon whose corners lie on the whole curve, which is longer."""
     total = arb(0)
     for (x0, y0), (x1, y1) in pairwise(curve(surface, count)):
         total += ((x1 - x0) ** 2 + (y1 - y0) ** 2).sqrt()
-    if not total > ball_of(least):
-        raise NotProvedError(f"the curve is not proved to be longer than {float(least):g}")
     return total
 
 

@@ -4,20 +4,23 @@ Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990): let 
 midpoint c and A an interval matrix that contains DF on X and is regular. If N = c - A^-1 F(c) lies
 in the interior of X, then F has exactly one zero in X, and it is in N.
 
-All fixed points at once, by hand. A flight turns (x, udot+) into (x', udot'): at a fixed point
-x^2 + (udot+)^2 = x^2 + udot^2, so udot+ = -udot and y = 0. With theta = tau/2 then xdot = g theta,
-udot = g theta/k, x = udot cot(theta), and
+All fixed points at once, by hand. A flight rotates (x, udot+) into (x', udot'): at a fixed point
+x^2 + (udot+)^2 = x^2 + udot^2, so udot+ is udot or -udot. By eq. (25) udot+ = udot means
+xdot = -udot, thus s = 0: a point of the rim, not of the open disk. So udot+ = -udot, which by
+eq. (25) means y = 0, and xdot+ = -xdot. With theta = tau/2 then xdot = g theta, udot = g theta/k,
+x = udot cot(theta), and
 
     E = (g^2/2k) ((1 + k) theta^2 + (1 - theta cot(theta))^2 - 1).
 
 On (0, pi) both terms rise, from E = -g^2/(2k) without bound: one theta for each energy. Its flight
 is the first, since the gap at theta + r, udot cot(theta) + g (r^2 - theta^2)/2 - udot cos(r)/
-sin(theta), rises for r in (0, theta). theta = n pi would need udot = 0. On (pi, 3 pi/2) the gap is
-above zero at r = 0, so that there was an impact before, if (1 + |cos|)/(k |sin|) > theta/2, for
-which 1/k > theta/2 is enough. Larger theta have larger energies.
+sin(theta), rises for r in (0, theta). theta = n pi would need udot = 0, thus s = 0. On
+(pi, 3 pi/2) the gap is above zero at r = 0, so that there was an impact before, if
+(1 + |cos|)/(k |sin|) > theta/2, for which 1/k > theta/2 is enough. By the first term alone,
+theta^2 <= (2 k E/g^2 + 1)/(1 + k), so that theta stays below a bound up to a given energy.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import arb, arb_mat, ctx
@@ -74,7 +77,7 @@ def check(text, surface, *, period, type, radius, window=None):
     radius : Fraction
         It must be the only one within that, at least.
     window : ((x low, x high), (xdot low, xdot high)), optional
-        Fractions: must contain one of its points.
+        Fractions: must contain one of its points; None for any orbit.
 
     Returns
     -------
@@ -90,9 +93,7 @@ def check(text, surface, *, period, type, radius, window=None):
     with ctx.workprec(BITS):
         certificate = Certificate(text, "periodic orbit")
         certificate.surface(surface)
-        orbit = stated(certificate, surface, period, type, radius)
-        meets(orbit, certificate)
-        passes(surface, orbit, window)
+        orbit = stated(certificate, surface, period, type, radius, window)
         margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
         return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
 
@@ -131,12 +132,18 @@ def check_only_fixed_point(text, k, g, energy):
         bound = ball_of(longest)
         if not (bound < 3 * arb.pi() / 2 and longest * k < 2):
             raise NotProvedError("a second fixed point is not excluded")
-        margins = {"theta": lowest(3 * arb.pi() / 2 - bound), "earlier": float(2 - longest * k)}
+        margins = {
+            "theta": lowest(3 * arb.pi() / 2 - bound),
+            "earlier": lowest(ball_of(2 - longest * k)),
+        }
         return Finding({"energies up to": ball_of(highest)}, margins)
 
 
-def stated(certificate, surface, period, type, radius):
-    """The Orbit near a certificate's points, proved to be of a type and alone in its boxes.
+def stated(certificate, surface, period, type, radius, window=None):
+    """Prove that an orbit meets its certificate, is of a type, and is alone in its boxes.
+
+    The boxes are larger than the certificate's by CLOSE, so that they contain the stated ones
+    around the orbit's own points.
 
     Parameters
     ----------
@@ -148,6 +155,8 @@ def stated(certificate, surface, period, type, radius):
     type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
     radius : Fraction
         Of the boxes, at least.
+    window : ((x low, x high), (xdot low, xdot high)), optional
+        As for `passes`.
 
     Returns
     -------
@@ -163,10 +172,12 @@ def stated(certificate, surface, period, type, radius):
         raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
     if not size >= radius:
         raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
-    orbit = prove(surface, centres, size)
+    orbit = prove(surface, centres, size + CLOSE)
     if orbit.type != type:
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
-    return orbit
+    _meets(orbit, centres)
+    passes(surface, orbit, window)
+    return replace(orbit, radius=size)
 
 
 def prove(surface, centres, radius):
@@ -210,21 +221,9 @@ def prove(surface, centres, radius):
     return orbit
 
 
-def meets(orbit, certificate):
-    """Check that the orbit's points are those that a certificate states, to CLOSE.
-
-    Parameters
-    ----------
-    orbit : Orbit
-    certificate : Certificate
-        Its field points.
-
-    Raises
-    ------
-    NotProvedError
-        Where one is not.
-    """
-    for point, centre in zip(orbit.points, certificate.numbers("points", 2), strict=True):
+def _meets(orbit, centres):
+    """Check that the orbit's points are the stated ones, to CLOSE."""
+    for point, centre in zip(orbit.points, centres, strict=True):
         for value, stated in zip(point, centre, strict=True):
             if not abs(value - ball_of(stated)) < ball_of(CLOSE):
                 raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
@@ -302,7 +301,7 @@ def passes(surface, orbit, window):
         sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
         if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
             return
-    raise NotProvedError("no point is proved to lie in the window of the paper's figure")
+    raise NotProvedError("no point of the orbit is proved to lie in the statement's window")
 
 
 def _digits(surface, orbit):

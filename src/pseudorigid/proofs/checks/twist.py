@@ -2,16 +2,18 @@
 
 Theorem (Moser 1962; Siegel and Moser, sections 32-34): an area-preserving analytic map with an
 elliptic fixed point, lambda^j != 1 for j = 1 ... 4 and twist tau_1 != 0 has invariant closed curves
-around the point in each of its neighbourhoods. They fill a set of positive area, and the point is
-stable for all time.
+around the point in each of its neighbourhoods, and the point is stable for all time. The curves
+fill a set of positive area (Lazutkin 1973; Poschel 1982).
 
 The map is analytic near the point because the first root of each flight is simple, which the
 enclosure of the orbit shows, and keeps dx ^ dy.
 
-Where tau_1 falls through zero as the energy rises while tau_2 < 0, the normal form's frequency
-omega + tau_1 I + tau_2 I^2 has, just below that energy, a maximum at I = -tau_1/(2 tau_2), which
-tends to 0: a curve without shear that shrinks into the point (Moeckel 1990). tau_1 depends
-continuously on the energy, so that it has a zero between two energies where its signs differ.
+tau_1 depends continuously on the energy, so that it has zeros between two energies where its
+signs differ. Let tau_1 be positive at the lower energy and E* the first zero above it, and
+tau_2 < 0 in between. Then the angle -omega + tau_1 I + tau_2 I^2 by which the truncated normal form
+turns has, for each E below E* in the band, its maximum on the circle I = -tau_1/(2 tau_2), which
+shrinks into the point as E tends to E*: a circle without shear. That the map itself has curves
+without shear is not checked: see docs/proofs.md.
 """
 
 from fractions import Fraction
@@ -25,7 +27,7 @@ from .certificate import Certificate, Finding, NotProvedError, lowest
 CLOSE = Fraction(1, 10**9)  # relative: how near a certificate's twist must be to the true one
 
 
-def check(text, surface, *, period, radius):
+def check(text, surface, *, period, radius, window=None):
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
     Parameters
@@ -38,6 +40,8 @@ def check(text, surface, *, period, radius):
         Of the orbit.
     radius : Fraction
         It must be the only one within that, at least.
+    window : ((x low, x high), (xdot low, xdot high)), optional
+        Fractions: must contain one of its points; None for any orbit.
 
     Returns
     -------
@@ -58,8 +62,7 @@ def check(text, surface, *, period, radius):
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist")
         certificate.surface(surface)
-        orbit = periodic.stated(certificate, surface, period, "elliptic", radius)
-        periodic.meets(orbit, certificate)
+        orbit = periodic.stated(certificate, surface, period, "elliptic", radius, window)
         form = birkhoff.normal_form(surface, orbit)
         (twist,) = form.twists
         stated = certificate.number("twist")
@@ -73,7 +76,7 @@ def check(text, surface, *, period, radius):
 
 
 def check_zero(text, k, g, *, radius, width):
-    """Prove that the fixed point's twist falls through zero within a band of energies.
+    """Prove that the fixed point's twist changes from positive to negative in a band of energies.
 
     Parameters
     ----------
@@ -89,7 +92,8 @@ def check_zero(text, k, g, *, radius, width):
     Returns
     -------
     Finding
-        digits: energy, the band, and second twist; margins: twist, second twist, nonresonance.
+        digits: energy, the band, and second twist, over it; margins: twist, at its two ends,
+        second twist and nonresonance, over the band.
 
     Raises
     ------
@@ -98,7 +102,7 @@ def check_zero(text, k, g, *, radius, width):
 
     References
     ----------
-    Moeckel, Generic bifurcations of the twist coefficient, Ergodic Theory Dynam. Systems 10 (1990).
+    Dullin, Meiss and Sterling, Generic twistless bifurcations, Nonlinearity 13 (2000).
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "zero of the twist")
@@ -110,21 +114,19 @@ def check_zero(text, k, g, *, radius, width):
             )
         high = Surface(low.k, low.g, low.energy + band)
         between = Surface(low.k, low.g, low.energy, band)
-        twists = []
-        for part in (low, high, between):
-            orbit = periodic.stated(certificate, part, 1, "elliptic", radius)
-            if part is low:
-                periodic.meets(orbit, certificate)
-            twists.append(birkhoff.normal_form(part, orbit, order=5))
-        first, last, whole = (form.twists for form in twists)
-        if not (first[0] > 0 and last[0] < 0):
+        first = periodic.stated(certificate, low, 1, "elliptic", radius)
+        centres = certificate.numbers("points", 2)
+        others = [(part, periodic.prove(part, centres, first.radius)) for part in (high, between)]
+        forms = [birkhoff.normal_form(*pair, order=5) for pair in ((low, first), *others)]
+        (before, _), (after, _), (_, second) = (form.twists for form in forms)
+        if not (before > 0 and after < 0):
             raise NotProvedError("the twist is not proved to fall through zero in the band")
-        if not whole[1] < 0:
+        if not second < 0:
             raise NotProvedError("the second twist is not proved to be negative in the band")
-        digits = {"energy": between.constants()[2], "second twist": whole[1]}
+        digits = {"energy": between.constants()[2], "second twist": second}
         margins = {
-            "twist": min(lowest(first[0]), lowest(-last[0])),
-            "second twist": lowest(-whole[1]),
-            "nonresonance": lowest(twists[2].nonresonance),
+            "twist": min(lowest(before), lowest(-after)),
+            "second twist": lowest(-second),
+            "nonresonance": lowest(forms[2].nonresonance),
         }
         return Finding(digits, margins)

@@ -6,6 +6,8 @@ Each function of `model`, `motion` and `forms` that returns a Formula is one, in
 import numpy as np
 import xarray as xr
 
+from ...dynamics.variables import attributes_of
+
 
 def derivations(ball, energy):
     """Every formula of the paper that can be derived, and whether it holds.
@@ -41,7 +43,7 @@ def derivations(ball, energy):
     data = {}
     for name, what in said.items():
         numbers = [_number(getattr(row, name)) for row in table.values()]
-        data[name] = ("formula", numbers, {"long_name": what, "units": "1"})
+        data[name] = ("formula", numbers, attributes_of(what))
     names = np.array(list(table), dtype=object)
     label = ("formula", names, {"long_name": "function of this package that derives it"})
     return xr.Dataset(data, coords={"formula": label})

@@ -3,7 +3,8 @@
 After an impact f(t) = -s t + g t^2/2 + c (sin t - t) + x (1 - cos t), which is eq. (21) with (26)
 where s = -(b + c), and every parameter enters once. With A = sqrt(x^2 + c^2), |f'''| <= A and
 f'' <= g + A, so that a parabola lies above f from any time on. Marching from root to root of such
-parabolas f stays below zero; the march ends where f' > 0 up to a time with f > 0: one root there,
+parabolas f stays below zero: the parabola is convex, and it is below zero at both ends of a step,
+the later end rounded down. The march ends where f' > 0 up to a time with f > 0: one root there,
 and none before.
 """
 
@@ -14,7 +15,9 @@ from flint import arb, ctx
 from .jets import Jet
 
 MARCH_BITS = 64  # one word of the processor: a march needs no more unless it nearly touches
-_SHY = 1.0 - 1e-6  # of a parabola's root: far enough for its value there to be below zero
+# Of a parabola's root, which is rounded to nearest: the rest is far more than its rounding, so that
+# the check in balls succeeds that the parabola is below zero there.
+_SHY = 1.0 - 1e-6
 # Steps that know f'', then steps that know f''' too: near grazing the first kind crawls. It comes
 # first because certificates state margins of what it encloses.
 _PLAIN_STEPS, _MOST_STEPS = 400, 800
@@ -204,7 +207,7 @@ def _march(gap, after):
         step = _step(height, slope, curve, bend, jerk, jolt)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
-        t = (t + step).mid()
+        t = (t + step).lower()  # at most as far as the parabola is known to be below zero
     raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
@@ -249,7 +252,7 @@ def _first_step(x, c, s, g, jerk):
         t = arb(_SHY) * (4 * c / jerk).lower()
         if not (c > 0 and t > 0):
             raise UndecidedError("the ball may rest on the floor")
-        return t.mid()
+        return t.lower()
     if not (s > 0 or (s == 0 and bend < 0)):
         raise UndecidedError("the impact may be grazing: xdot + udot may be zero")
     half, third = bend.upper() / 2, jerk / 6

@@ -34,11 +34,13 @@ def prove_impacts(k, g, before, after, tau, name="impacts"):
     begin = time.perf_counter()
     errors = impact_errors(k, g, before, after, tau)
     worst, reason = float(np.max(errors, initial=0.0)), ""
-    if worst == np.inf:
+    if not errors.size:
+        reason = "there are no impacts"
+    elif worst == np.inf:
         reason = f"impact {np.argmax(errors)} grazes: which one is first is not decided"
     elif not worst < LIMIT:
         reason = f"impact {np.argmax(errors)} is off by {worst:.3g}: not the first one"
-    statement = f"each of {errors.size:,} impacts computed is the first one"
+    statement = f"each of {errors.size:,} impacts computed is the first one, to within {LIMIT:g}"
     seconds = time.perf_counter() - begin
     return Result(name, statement, name, reason, {}, {"worst error": worst}, seconds)
 

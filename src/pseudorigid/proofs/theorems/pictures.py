@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from flint import arb, ctx
 
+from ...dynamics.variables import ENERGY, LENGTH, SPEED, described
 from ..checks import birkhoff, horseshoe, periodic
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface, ball_of
@@ -49,11 +50,11 @@ def horseshoe_data(surface, finding):
     corner, edge = ("set", "corner"), ("edge", "point")
     across = "image of a set, across the next one's"
     data = {
-        "x": ("set", centres[:, 0], "centre of the set, position at impact"),
-        "y": ("set", centres[:, 1], "centre of the set, y = xdot - k udot"),
+        "x": ("set", centres[:, 0], "centre of the set, position at impact", LENGTH),
+        "y": ("set", centres[:, 1], "centre of the set, y = xdot - k udot", SPEED),
         "chain": ("set", np.array(index), "index along the chain; NaN at the saddles"),
-        "corner_x": (corner, corners[:, :, 0], "corners of the set, x"),
-        "corner_y": (corner, corners[:, :, 1], "corners of the set, y"),
+        "corner_x": (corner, corners[:, :, 0], "corners of the set, x", LENGTH),
+        "corner_y": (corner, corners[:, :, 1], "corners of the set, y", SPEED),
         "image_p": (edge, image[:, :, 0], f"{across} expanding direction"),
         "image_q": (edge, image[:, :, 1], f"{across} contracting direction"),
     }
@@ -116,9 +117,9 @@ def twist_data(k, g, energies):
     with ctx.workprec(64):
         axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
     data = {
-        "energy": ("energy", axis, "total energy"),
-        "twist": ("energy", np.array(values), "twist of the elliptic fixed point"),
-        "zero": ((), zero, "energy at which the twist vanishes"),
+        "energy": ("energy", axis, "total energy", ENERGY),
+        "twist": ("energy", np.array(values), "twist of the elliptic fixed point", "1/(omega R^2)"),
+        "zero": ((), zero, "energy at which the twist vanishes", ENERGY),
     }
     return _dataset(data, surfaces[0])
 
@@ -142,8 +143,4 @@ def _zero(low, high, centre):
 
 
 def _dataset(variables, surface):
-    data = {
-        name: (dims, values, {"long_name": text, "units": "1"})
-        for name, (dims, values, text) in variables.items()
-    }
-    return xr.Dataset(data, attrs={"k": float(surface.k), "g": float(surface.g)})
+    return xr.Dataset(described(variables), attrs={"k": float(surface.k), "g": float(surface.g)})

@@ -10,7 +10,7 @@ from .statements import THEOREMS
 
 
 def scene_horseshoe(ball, energy, periodic, period, type, connection):
-    """`horseshoe_data` of an orbit by one of its connections.
+    """The sets of a proved horseshoe on an orbit, by one of its connections.
 
     Where there is a theorem about this connection its certificate is used, otherwise one is
     searched.
@@ -63,7 +63,7 @@ def scene_horseshoe(ball, energy, periodic, period, type, connection):
 
 
 def scene_twist(ball, energy, energies):
-    """`twist_data` at some energies.
+    """Proved twists of the elliptic fixed point at some energies.
 
     Parameters
     ----------

@@ -48,5 +48,5 @@ SEARCHES = {
     twist.check_zero: _zero,
     horseshoe.check: _horseshoe,
     jump.check: lambda it: jumps.propose(it.bounds["surface"], SPEED, "1e-28"),
-    jump.check_smooth: lambda it: jumps.propose_smooth(**it.bounds),
+    jump.check_smooth: lambda it: jumps.propose_smooth(it.bounds["k"], it.bounds["g"]),
 }

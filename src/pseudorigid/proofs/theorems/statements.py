@@ -16,8 +16,7 @@ from ..enclosure.surface import Surface
 
 K, G = Fraction(1, 5), Fraction(1, 25)
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
-# Figure 6 of the paper: x from 0.21 to 0.2116, xdot from 0.0925 to 0.0932.
-WINDOW = tuple(tuple(map(Fraction, pair)) for pair in (("0.21", "0.2116"), ("0.0925", "0.0932")))
+FIGURE_6 = "0.21", "0.2116", "0.0925", "0.0932"  # the paper's window: x and xdot, low and high
 DIGITS = 30  # of an enclosure as text, at most: as many as certificates state
 
 
@@ -181,80 +180,124 @@ def search_certificate(name):
     return SEARCHES[theorem.checker](theorem)
 
 
-def _orbit_theorem(name, surface, period, kind, radius):
-    article = "an" if kind[0] in "ei" else "a"
-    statement = (
-        f"at E = {surface.energy} there is {article} {kind} orbit of period {period}, "
-        f"the only one within {float(radius):g} of its points"
-    )
-    bounds = {"surface": surface, "period": period, "type": kind, "radius": Fraction(radius)}
-    if kind == "hyperbolic":
-        bounds["window"] = WINDOW
-    return Theorem(name, statement, periodic.check, bounds)
+def _among(window):
+    """A window as text."""
+    sides = zip(("x", "xdot"), window, strict=True)
+    return " and ".join(f"{float(a):g} < {name} < {float(b):g}" for name, (a, b) in sides)
 
 
-def _twist_theorem(name, surface, period, radius):
-    what = "fixed point" if period == 1 else f"orbit of period {period}"
-    statement = (
-        f"at E = {surface.energy} closed invariant curves surround the elliptic {what} in each of "
-        "its neighbourhoods: it is stable for all time, and they fill a positive area"
+def _window(*numbers):
+    """((x low, x high), (xdot low, xdot high)) as Fractions."""
+    low, high, slow, fast = map(Fraction, numbers)
+    return (low, high), (slow, fast)
+
+
+WINDOW = _window(*FIGURE_6)
+
+
+@dataclass(frozen=True)
+class _Orbit:
+    """A periodic orbit of the statements: the only one near its points, one in the window."""
+
+    surface: Surface
+    period: int
+    type: str
+    radius: Fraction
+    window: tuple
+
+    def theorem(self, name):
+        """That it exists."""
+        article = "an" if self.type[0] in "ei" else "a"
+        statement = (
+            f"at E = {self.surface.energy} there is {article} {self.type} orbit of period "
+            f"{self.period} with a point in {_among(self.window)}; no other of this period "
+            f"has its points, in order, within {float(self.radius):g} of these in x and in y"
+        )
+        return Theorem(name, statement, periodic.check, vars(self))
+
+    def twist(self, name):
+        """That invariant curves surround it."""
+        what = "fixed point" if self.period == 1 else f"orbit of period {self.period}"
+        power = "P" if self.period == 1 else f"P^{self.period}"
+        statement = (
+            f"at E = {self.surface.energy} closed curves, invariant under {power}, surround the "
+            f"elliptic {what} with a point in {_among(self.window)} in each of its neighbourhoods: "
+            "it is stable for all time, and they fill a positive area"
+        )
+        bounds = {name: value for name, value in vars(self).items() if name != "type"}
+        return Theorem(name, statement, twist.check, bounds)
+
+
+_ORBITS = {
+    name: _Orbit(surface, period, kind, Fraction(radius), _window(*window))
+    for name, surface, period, kind, radius, *window in (
+        ("fixed-point", HIGH, 1, "elliptic", "4e-3", "0.0212", "0.0213", "0.06", "0.0601"),
+        ("fixed-point-low", LOW, 1, "elliptic", "2e-3", "0.1325", "0.1326", "0.0389", "0.039"),
+        ("six-elliptic", HIGH, 6, "elliptic", "1e-4", "-0.1519", "-0.1518", "0.0232", "0.0233"),
+        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", *FIGURE_6),
+        ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4", "0.3869", "0.387", "0.0877",
+         "0.0878"),
+        ("ten-elliptic", LOW, 10, "elliptic", "6e-6", "0.0141", "0.0142", "0.0226", "0.0227"),
+        ("twelve-elliptic", LOW, 12, "elliptic", "6e-6", "-0.0059", "-0.0058", "0.0159", "0.016"),
     )
-    bounds = {"surface": surface, "period": period, "radius": Fraction(radius)}
-    return Theorem(name, statement, twist.check, bounds)
+}  # fmt: skip
 
 
 def _horseshoe_theorem(side, crossing, entropy):
+    low, high = map(Fraction, crossing)
     statement = (
-        f"at E = {HIGH.energy} the {side} connections of the hyperbolic orbit of period 6 are "
-        "transversal, and P has a uniformly hyperbolic invariant set around them, conjugate to a "
-        f"mixing subshift of entropy at least {float(entropy):g}"
+        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in {_among(WINDOW)} "
+        f"has a transversal connection, {side}, that passes y = 0 at {float(low):g} < x < "
+        f"{float(high):g}, and P has a uniformly hyperbolic invariant set that contains both, "
+        f"conjugate to a mixing subshift of entropy above {float(entropy):g}"
     )
     bounds = {
         "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": WINDOW,
-        "crossing": tuple(map(Fraction, crossing)), "entropy": Fraction(entropy),
+        "crossing": (low, high), "entropy": Fraction(entropy),
     }  # fmt: skip
     return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
 
 
+_JUMPS = {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048")}
 _THEOREMS = (
-    _orbit_theorem("fixed-point", HIGH, 1, "elliptic", "4e-3"),
-    _orbit_theorem("fixed-point-low", LOW, 1, "elliptic", "2e-3"),
-    _orbit_theorem("six-elliptic", HIGH, 6, "elliptic", "1e-4"),
-    _orbit_theorem("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4"),
-    _orbit_theorem("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4"),
-    _orbit_theorem("ten-elliptic", LOW, 10, "elliptic", "6e-6"),
-    _orbit_theorem("twelve-elliptic", LOW, 12, "elliptic", "6e-6"),
+    *(orbit.theorem(name) for name, orbit in _ORBITS.items()),
     Theorem(
         "one-fixed-point",
-        "at each energy up to k/2 - g, eq. (31), the map has exactly one fixed point",
+        "at each energy above the least, -g^2/(2k), up to k/2 - g, eq. (31), the map has exactly "
+        "one fixed point",
         periodic.check_only_fixed_point,
         {"k": K, "g": G, "energy": K / 2 - G},
     ),
     _horseshoe_theorem("outer", ("0.326", "0.327"), "0.0185"),
     _horseshoe_theorem("inner", ("0.187", "0.188"), "0.0083"),
-    _twist_theorem("twist-fixed-point", HIGH, 1, "4e-3"),
-    _twist_theorem("twist-fixed-point-low", LOW, 1, "2e-3"),
-    _twist_theorem("twist-six", HIGH, 6, "1e-4"),
+    _ORBITS["fixed-point"].twist("twist-fixed-point"),
+    _ORBITS["fixed-point-low"].twist("twist-fixed-point-low"),
+    _ORBITS["six-elliptic"].twist("twist-six"),
+    _ORBITS["ten-elliptic"].twist("twist-ten"),
+    _ORBITS["twelve-elliptic"].twist("twist-twelve"),
     Theorem(
         "twist-zero",
-        "as E rises the fixed point's twist falls through zero at the energy below, and the second "
-        "twist is negative there: just below it shearless curves shrink into the point",
+        "as E rises through the band below, the fixed point's twist changes from positive to "
+        "negative, and where it is zero there the second twist is negative: below the first zero "
+        "the normal form, truncated after it, has a circle without shear that shrinks into the "
+        "point",
         twist.check_zero,
         {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")},
     ),
     Theorem(
         "jump-set",
         f"at E = {HIGH.energy} P is not continuous at the point below, and not a diffeomorphism; "
-        "its jump set is one curve, from the rim to an inner end",
+        f"the points where it jumps are one smooth curve longer than {float(_JUMPS['length']):g} "
+        "in (x, y), from the rim to an inner end",
         jump.check,
-        {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.404")},
+        _JUMPS,
     ),
     Theorem(
         "diffeomorphism",
-        "at every E below g^2 (1 + k/2) P is analytic on the open disk of the section, with the "
-        "analytic inverse R P R",
+        f"at every E below g^2 (1 + k/2) = {float(G * G * (1 + K / 2)):g} P is analytic on the "
+        "open disk of the section, with the analytic inverse R P R",
         jump.check_smooth,
-        {"k": K, "g": G},
+        {"k": K, "g": G, "energy": G * G * (1 + K / 2)},
     ),
 )
 THEOREMS = {theorem.name: theorem for theorem in _THEOREMS}

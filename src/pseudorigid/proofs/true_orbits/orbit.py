@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ...dynamics.ball import whole_number
-from ...dynamics.variables import variables
+from ...dynamics.reading import whole_number
+from ...dynamics.variables import attributes_of, variables
 from ..enclosure.surface import Surface
 from . import keeping
 from .follow import Run, ShortOfBitsError
@@ -72,7 +72,8 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
     data = variables("impact", run.values.T)
-    return xr.Dataset(data, coords={"impact": np.arange(1, impacts + 1)}, attrs={"bits": run.bits})
+    impact = "impact", np.arange(1, impacts + 1), attributes_of("number of impacts")
+    return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})
 
 
 def _memory(impacts):

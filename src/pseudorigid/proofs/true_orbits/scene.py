@@ -15,7 +15,7 @@ from .start import Start
 
 
 def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=None):
-    """The orbits of a scene, as `dynamics.orbits.scene_orbits` returns them, correctly rounded.
+    """The orbits of a scene, one after the other (CF), from exact starts and correctly rounded.
 
     Parameters
     ----------

@@ -39,9 +39,10 @@ class Exponents(OfRecords):
         from pseudorigid.dynamics.variables import final_exponents
 
         last = final_exponents(lyapunov)
-        largest, all_three = np.sort(last[:, 0]), np.round(last, 4) + 0.0
+        largest = np.sort(last[:, 0])
         spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
-        rows = [", ".join(f"{value:.4f}" for value in row) for row in (largest, *all_three)]
+        rows = [np.round(row, 4) + 0.0 for row in (largest, *last)]
+        rows = [", ".join(f"{value:.4f}" for value in row) for row in rows]
         return {
             "largest exponent": rows[0],
             "their mean": f"{np.mean(largest):.4f}{spread}",

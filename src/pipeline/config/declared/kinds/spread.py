@@ -60,6 +60,6 @@ class Spread(OfRecords):
     @staticmethod
     def numbers(block, spread, lyapunov):
         """The mean over all orbits."""
-        largest = spread["exponent"].values[:, :, 0].mean(axis=0)
+        largest = spread["exponent"].values.mean(axis=0).max(axis=-1)
         error = largest.std(ddof=1) / largest.size**0.5
         return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}

@@ -14,9 +14,10 @@ class Twist(Scene):
     The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for k
     = {{ s.ball.k }}, g = {{ s.ball.g }}: doubles rounded from enclosures.
 
-    What to see: where it is not zero, Moser's theorem gives invariant curves around the point. It
-    vanishes once, at the ring, where the proof encloses the energy to ten digits and more; just
-    below that energy curves without shear shrink into the point.
+    What to see: where it is not zero, Moser's theorem gives invariant curves around the point.
+    Positive means that the rotation number falls away from the point. A zero is proved at the ring,
+    its energy enclosed to ten digits and more; whether there is another one is not. Below that
+    energy the normal form has a circle without shear, which shrinks into the point.
     """
 
     stages = ("twist",)

@@ -1,0 +1,262 @@
+"""How public functions read numbers: one rule for all of them, in `help(pseudorigid)`."""
+
+import datetime
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pandas
+import pytest
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
+from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.dynamics.orbits import scene_orbits
+
+BALL = Ball(0.25, 0.0625)
+SADDLE = symmetric_orbits(Ball(0.2, 0.04), 0.01, 6).isel(orbit=1)
+
+
+def trace(ball=BALL, energy=0.01, **arguments):
+    short = {"length": 0.125, "distance": 0.0625, "bend": 32.0}
+    return trace_manifold(Ball(0.2, 0.04), energy, SADDLE, **short | arguments)
+
+
+def entry(name, call, value, **others):
+    """The values of what a call returns for one argument, the others as they are."""
+    found = call(**others | {name: value})
+    if isinstance(found, xr.Dataset):
+        return [found[variable].values for variable in sorted(found.data_vars)]
+    if isinstance(found, Ball):
+        return [found.k, found.g]
+    if isinstance(found, ImpactMap):
+        return list(found.how)
+    return list(found) if isinstance(found, tuple) else [found]
+
+
+STATE = {"x": 0.125, "xdot": 0.25, "udot": 0.5}
+OF_STATES = [
+    BALL.energy,
+    BALL.reflect,
+    BALL.time_to_impact,
+    BALL.impact,
+    BALL.inverse_impact,
+    BALL.jacobian,
+    lambda x, xdot, udot: orbit(BALL, (x, xdot, udot), 3, keep="last"),
+    lambda x, xdot, udot: lyapunov_spectrum(BALL, (x, xdot, udot), 3, 1),
+]
+# (argument, function, a value, the others)
+COORDINATES = [(name, call, STATE[name], STATE) for call in OF_STATES for name in STATE]
+COORDINATES += [
+    (name, BALL.state, value, {"x": 0.125, "xdot": 0.25, "energy": 0.5})
+    for name, value in (("x", 0.125), ("xdot", 0.25), ("energy", 0.5))
+]
+COORDINATES += [
+    (name, BALL.state_xy, value, {"x": 0.125, "y": 0.25, "energy": 0.5})
+    for name, value in (("x", 0.125), ("y", 0.25), ("energy", 0.5))
+]
+COORDINATES += [
+    (name, BALL.start, value, {"fraction": 0.25, "energy": 0.5})
+    for name, value in (("fraction", 0.25), ("energy", 0.5))
+]
+NUMBERS = [
+    ("k", Ball, 0.25, {"g": 0.5}),
+    ("g", Ball, 0.5, {"k": 0.25}),
+    ("step", lambda step: ImpactMap((step, 0.5)), 0.25, {}),
+    ("tolerance", lambda tolerance: ImpactMap([0.5, tolerance]), 0.25, {}),
+    ("branch", lambda branch: BALL.state(0.125, 0.9375, 0.5, branch), -1.0, {}),
+    ("energy", lambda energy: symmetric_orbits(BALL, energy, 1), 0.25, {}),
+    ("length", trace, 0.125, {}),
+    ("distance", trace, 0.0625, {}),
+    ("bend", trace, 32.0, {}),
+]
+COUNTS = [
+    ("impacts", lambda impacts: orbit(BALL, (0.125, 0.25, 0.5), impacts), 3, {}),
+    ("impacts", lambda impacts: BALL.jacobian(0.125, 0.25, 0.5, impacts), 3, {}),
+    ("impacts", lambda impacts: BALL.chart_jacobian(0.125, 0.25, 0.5, impacts), 3, {}),
+    ("impacts", lambda impacts: lyapunov_spectrum(BALL, (0.125, 0.25, 0.5), impacts), 3, {}),
+    ("records", lambda records: lyapunov_spectrum(BALL, (0.1, 0.2, 0.5), 9, records), 3, {}),
+    ("period", lambda period: symmetric_orbits(BALL, 0.25, period), 1, {}),
+    ("saddle", trace, 3, {}),
+]
+NO_NUMBERS = (
+    True, np.True_, "0.25", b"1", np.str_("1"), None, 0.25 + 0j, np.complex64(1), {}, {0.25},
+    object(), datetime.date(2020, 1, 1), np.datetime64("2020"), np.timedelta64(1, "ns"),
+    np.array("0.25"), np.array(True), np.array(None), 10**400, -(10**5000), Decimal("1e400"),
+    Decimal("sNaN"), Fraction(10**400), xr.DataArray(True), SADDLE, pandas.NA, lambda: 1.0,
+)  # fmt: skip
+NO_ARRAYS = (
+    [True, 0.25], ["0.25", 0.25], [None, 0.25], [0.25, 1j], [[1], [1, 2]], [10**400], [{}],
+    np.array([0.25, 1j]), np.array(["0.25"]), np.array([True]), pandas.Series(["a"]),
+    np.array([np.timedelta64(1, "ns")]), np.array([0.25, None]), np.zeros(2, dtype="f8, f8"),
+)  # fmt: skip
+
+
+def same(found, expected):
+    pairs = zip(found, expected, strict=True)
+    return all(np.asarray(a).tobytes() == np.asarray(b).tobytes() for a, b in pairs)
+
+
+@pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
+def test_what_is_no_number_is_refused_in_one_line(case):
+    name, call, _, others = case
+    for value in (*NO_NUMBERS, *NO_ARRAYS):
+        with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: ") as error:
+            entry(name, call, value, **others)
+        assert "\n" not in str(error.value) and len(str(error.value)) < 160
+
+
+@pytest.mark.parametrize("case", [*NUMBERS, *COUNTS])
+def test_a_parameter_is_one_finite_number_within_its_range(case):
+    name, call, value, others = case
+    bad = [np.nan, np.inf, -np.inf, np.ma.masked, Decimal("NaN"), [value], np.array([value] * 2)]
+    bad += [[], -2.5, 200.5, 2**53 + 1] if case in COUNTS else [[], -0.25]
+    for one in bad:
+        with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: ") as error:
+            entry(name, call, one, **others)
+        assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
+def test_the_type_of_a_number_does_not_matter(case):
+    name, call, value, others = case
+    expected = entry(name, call, value, **others)
+    kinds = [np.float64, np.float32, np.float16, np.longdouble, Decimal, Fraction, np.array]
+    kinds += [xr.DataArray, lambda v: np.array(Fraction(v)), np.ma.array, float]
+    kinds += [int, np.int8, np.int64, np.array] if value == int(value) else []
+    kinds += [np.uint8] if value == int(value) and value > 0 else []
+    for kind in kinds:
+        assert same(entry(name, call, kind(value), **others), expected), kind
+
+
+@pytest.mark.parametrize("case", COORDINATES)
+def test_a_coordinate_that_is_not_finite_gives_nan_there_and_only_there(case):
+    name, call, value, others = case
+    expected = [np.asarray(a).ravel() for a in entry(name, call, value, **others)]
+    arrays = [[value, bad, value] for bad in (np.nan, np.inf, -np.inf, np.ma.masked)]
+    arrays += [tuple(arrays[0]), np.array(arrays[0]), np.float32(arrays[0])]
+    arrays += [np.ma.array([value, 9.0, value], mask=[0, 1, 0]), pandas.Series(arrays[0])]
+    arrays += [xr.DataArray(arrays[0], dims="any"), [Decimal(value), np.nan, Fraction(value)]]
+    arrays += [[value, Decimal("Infinity"), np.array(value)]]
+    for array in arrays:
+        for found, one in zip(entry(name, call, array, **others), expected, strict=True):
+            orbits = np.moveaxis(np.asarray(found), np.shape(found).index(3), 0)
+            if np.shape(found)[:2] == (1, 3):  # the exponents, on (impact, orbit, index)
+                orbits = found[0]
+            assert np.isnan(orbits[1]).all()
+            assert orbits[0].tobytes() == orbits[2].tobytes() == one.tobytes()
+    for bad in (np.nan, np.inf, -np.inf, np.ma.masked):
+        for found in entry(name, call, bad, **others):
+            assert np.isnan(found).all()
+
+
+@pytest.mark.parametrize("case", COORDINATES)
+def test_empty_arrays_give_empty_ones(case):
+    name, call, _, others = case
+    for empty in ([], np.empty((0, 2)), xr.DataArray(np.empty(0))):
+        assert all(np.size(found) == 0 for found in entry(name, call, empty, **others))
+
+
+@settings(derandomize=True, deadline=None)
+@given(st.integers(-(2**80), 2**80))
+def test_integers_are_rounded_to_the_nearest_double(n):
+    assert BALL.energy(n, 0, 0) == BALL.energy(float(n), 0.0, 0.0)
+    assert BALL.energy([n], 0, 0)[0] == BALL.energy(float(n), 0.0, 0.0)
+
+
+def test_the_section_takes_energies():
+    centre, radius = BALL.section([0.5, np.nan, 0.25])
+    assert centre == BALL.section(0.5)[0]
+    assert [radius[0], radius[2]] == [BALL.section(0.5)[1], BALL.section(0.25)[1]]
+    assert np.isnan(radius[1])
+    with pytest.raises(ValueError, match=r"^energy = -5\.0 is not allowed: finite, at least"):
+        BALL.start(0.5, [0.5, -5.0])
+
+
+def test_words_are_these_words():
+    start = BALL.start(0.5, 0.5)
+    for keep in ("some", None, ["all"], np.array(["all", "last"])):
+        with pytest.raises(ValueError, match=r"^keep = .* is not allowed: 'all' or 'last'"):
+            orbit(BALL, start, 3, keep)
+    for side in ("left", None, np.array(["inner", "outer"])):
+        with pytest.raises(ValueError, match=r"^side = .* is not allowed: 'inner' or 'outer'"):
+            trace(side=side)
+    for stable in ("no", 1, None, np.array([True, False])):
+        with pytest.raises(ValueError, match=r"^stable = .* is not allowed: True or False"):
+            trace(stable=stable)
+    for window in (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1])):
+        with pytest.raises(ValueError, match=r"^window = .* is not allowed: \(x_low, "):
+            trace(window=window)
+    for none in (None, 3, SADDLE.drop_vars("udot"), "orbit"):
+        with pytest.raises(ValueError, match=r"^orbit = .* is not allowed: a Dataset with x"):
+            trace_manifold(BALL, 0.01, none)
+    for scan in (3, (0.1,), (0.1, 0.2, 0.3)):
+        with pytest.raises(ValueError, match=r"^scan = .* is not allowed: None, or \(step"):
+            ImpactMap(scan)
+    for way in (None, 3, (0.1, 1e-6)):
+        with pytest.raises(ValueError, match=r"^map = .* is not allowed: an ImpactMap"):
+            Ball(0.2, 0.04, way)
+    with pytest.raises(ValueError, match=r"^one state is needed, not an array of shape"):
+        BALL.chart_jacobian(0.1, [0.1, 0.2], 0.3)
+
+
+@pytest.mark.parametrize("start", [0.5, [0.5], [0.5, -0.25, 0.75], [[0.5, -0.25]]])
+def test_an_orbit_goes_on_from_a_dataset(start):
+    """With the bits of the whole orbit, after all impacts or the last one, in any order of dims."""
+    state = BALL.start(start, 0.01)
+    whole = orbit(BALL, state, 50)
+    first = orbit(BALL, state, 20)
+    for before in (first, orbit(BALL, state, 20, keep="last"), first.transpose(*first.sizes)):
+        rest = orbit(BALL, before, 30)
+        assert rest["x"].dims == whole["x"].dims
+        for name in ("x", "xdot", "udot", "tau"):
+            assert rest[name].values.tobytes() == whole[name].values[20:].tobytes()
+    row = first.isel(impact=4)
+    assert np.array_equal(orbit(BALL, row, 3)["x"], whole["x"][5:8])
+    long = lyapunov_spectrum(BALL, first, 30, 1)["exponent"]
+    columns = [first[name].values[-1] for name in ("x", "xdot", "udot")]
+    assert (
+        long.values.tobytes()
+        == lyapunov_spectrum(BALL, columns, 30, 1)["exponent"].values.tobytes()
+    )
+
+
+def test_an_orbit_goes_on_from_a_periodic_orbit_and_a_scene():
+    ball = Ball(0.2, 0.04)
+    six = symmetric_orbits(ball, 0.01, 6)
+    again = orbit(ball, six.isel(orbit=1), 6)  # from the last point on: the points in their order
+    assert np.allclose(again["x"], six["x"][1], atol=1e-13)
+    assert orbit(ball, six, 2)["x"].dims == ("impact", "orbit")
+    point = six.isel(orbit=1, point=2)
+    state = [float(point[name]) for name in ("x", "xdot", "udot")]
+    assert orbit(ball, point, 3).equals(orbit(ball, state, 3))
+    scene = scene_orbits(ball, 0.01, [0.5, -0.2], [3, 2])
+    whole = orbit(ball, ball.start([0.5, -0.2], 0.01), 9)["x"].values
+    rest = orbit(ball, scene, 4)["x"].values
+    assert np.array_equal(rest, np.stack([whole[3:7, 0], whole[2:6, 1]], axis=1))
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        SADDLE.drop_vars("udot"),
+        SADDLE.isel(point=slice(0, 0)),
+        scene_orbits(BALL, 0.01, [0.5, -0.2], [3, 2]).isel(point=slice(0, 3)),
+        SADDLE.assign(x=SADDLE["x"].expand_dims(orbit=2)),
+        None, 3, (0.1, 0.2), (0.1, 0.2, 0.3, 0.4), {}, "ab",
+    ],
+)  # fmt: skip
+def test_what_is_no_state_is_refused_in_one_line(state):
+    for call in (orbit, lyapunov_spectrum):
+        with pytest.raises(ValueError, match=r"^state(:| = .* is not allowed)") as error:
+            call(BALL, state, 3)
+        assert "\n" not in str(error.value)
+
+
+def test_more_impacts_than_memory_holds():
+    with pytest.raises(ValueError, match=r"^impacts = .* is not allowed: fewer"):
+        orbit(BALL, (0.125, 0.25, 0.5), 2**52)
+    with pytest.raises(ValueError, match=r"^records = .* is not allowed: fewer"):
+        lyapunov_spectrum(BALL, (0.125, 0.25, 0.5), 2**52, 2**52)

@@ -1,0 +1,39 @@
+"""Words about what differs between two blocks of config and two sets of packages."""
+
+import pytest
+
+from pipeline.records.differences import differing_block, differing_keys, differing_package
+
+STARTS = [0.1, {"x": 0.2, "xdot": 0.0}, 0.3]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [
+        ([1500, 2500, 3000, 4000], [1500, 2500, 3000, 4001], [("a[3]", 4000, 4001)]),
+        ([1, 2, 3], [9, 9, 3], [("a[0]", 1, 9)]),
+        (STARTS, [0.1, {"x": 0.2, "xdot": 0.5}, 0.4], [("a[1].xdot", 0.0, 0.5)]),
+        ([1, 2], [1, 2, 3], [("a: number of entries", 2, 3)]),
+        ([1, 2], [0], [("a[0]", 1, 0), ("a: number of entries", 2, 1)]),
+        ([1, 2], 5, [("a", [1, 2], 5)]),
+        ([1], [1.0], [("a[0]", 1, 1.0)]),
+        ([True], [1], [("a[0]", True, 1)]),
+        ([1, 2], [1, 2], []),
+    ],
+)
+def test_the_first_entry_of_a_list_that_differs_is_named(before, after, expected):
+    assert list(differing_keys({"a": before}, {"a": after})) == expected
+
+
+def test_every_field_that_differs_is_named():
+    before = {"impacts": 60, "records": 6, "axes": {"t": {"limits": [0, 1]}}}
+    after = {"impacts": 61, "records": 7, "axes": {"t": {"limits": [0, 2]}}, "sea": [1]}
+    words = "axes.t.limits[1]: 1 then, 2 now; impacts: 60 then, 61 now; records: 6 then, 7 now; "
+    assert differing_block(before, after) == words + "sea: nothing then, [1] now"
+    assert differing_block(before, before) is None
+
+
+def test_every_package_that_differs_is_named():
+    before, after = {"numpy": "1", "numba": "2", "xarray": "3"}, {"numpy": "2", "xarray": "3"}
+    words = "numba 2 then, not installed here; numpy 1 then, 2 here"
+    assert differing_package(before, after) == words
