@@ -125,8 +125,8 @@ def edge_nobles(ball, energy, between):
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> edge_nobles(Ball(k=0.2, g=0.04), 0.011, (-0.2, -0.0325639))
-    [[0, 6, 25], [0, 6, 24, 1]]
+    >>> edge_nobles(Ball(k=0.2, g=0.04), 0.011, (-0.2, 0.1))
+    [[0, 5, 1, 4], [0, 5, 1, 6]]
     """
     place = between[0] + (between[1] - between[0]) * (np.arange(_STARTS) + 0.5) / _STARTS
     turns, grown = winding(ball, energy, place, _IMPACTS)

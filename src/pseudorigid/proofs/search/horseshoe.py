@@ -139,7 +139,7 @@ def propose(surface, ball, points, plan, prove):
         return _with_margins(found, plan, prove)
 
 
-def search(surface, ball, points, side, prove):
+def search(surface, ball, points, prove, side):
     """A certificate of a horseshoe, with the largest sets for which a checker takes one.
 
     Parameters

@@ -93,7 +93,7 @@ def prove_horseshoe(ball, orbit, *, side, energy=None):
     theorem = Theorem(what, what, horseshoe.check, bounds | {"window": None, "crossing": None})
     sign = 1 if side == "outer" else -1
     try:
-        text = horseshoes.search(surface, known.ball(surface), points, sign, theorem.prove)
+        text = horseshoes.search(surface, known.ball(surface), points, theorem.prove, sign)
         return text, theorem.prove(text)
     except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{what} cannot be proved: {error}") from None
