@@ -157,7 +157,7 @@ def noble_between(one, other):
     Examples
     --------
     >>> noble_between(0.16, 0.17)
-    [0, 6]
+    [0, 6, 5]
     """
     low, high = sorted((one, other))
     while True:
