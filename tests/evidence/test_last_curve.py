@@ -23,7 +23,7 @@ def test_convergents_of_noble_numbers():
 @pytest.fixture(scope="module")
 def edge():
     nobles = [[0, 5, 1, 15], [0, 5, 1, 17]]
-    return last_curve.last_curve(BALL, ENERGY, nobles, 6, (-0.2, -0.0325639), 60_000, 100)
+    return last_curve.last_curve(BALL, ENERGY, 6, (-0.2, -0.0325639), 60_000, 100, nobles)
 
 
 def test_residues_on_either_side_of_breakup(edge):
@@ -69,5 +69,31 @@ def test_a_residue_in_balls(edge, noble, place):
 
 
 def test_rotation_numbers_outside_are_refused():
-    with pytest.raises(ValueError, match="no rotation number"):
-        last_curve.last_curve(BALL, ENERGY, [[0, 4, 1]], 2, (-0.2, -0.1), 100, 10)
+    with pytest.raises(ValueError, match=r"no symmetric orbit of rotation number 1/5 = 0.2"):
+        last_curve.last_curve(BALL, ENERGY, 2, (-0.2, -0.1), 100, 10, [[0, 4, 1]])
+
+
+@pytest.mark.parametrize(
+    ("ball", "energy", "between"),
+    [(BALL, 0.005, (-0.2, 0.3)), (BALL, 0.011, (-0.2, 0.1)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2)),
+     (Ball(0.1, 0.02), 0.002, (0.1, 0.9))],
+)  # fmt: skip
+def test_nobles_are_chosen_on_either_side_of_the_last_curve(ball, energy, between):
+    """Inside residues fall, outside they do not; the numbers are those of orbits there."""
+    found = last_curve.last_curve(ball, energy, 4, between, 4000, 10)
+    inside, outside = np.abs(found["residue"].values[:, -1])
+    assert inside < 0.25 < outside
+    assert np.all(found["closure"].values < 1e-9)
+
+
+def test_numbers_between_are_noble_and_simple():
+    for one, other in ((0.16, 0.17), (0.2346, 0.2345), (0.3, 0.3 + 1e-9), (1 / 3, 0.333)):
+        noble = last_curve.noble_between(one, other)
+        assert min(one, other) < last_curve.value(noble) < max(one, other)
+
+
+def test_a_part_without_the_last_curve_is_refused():
+    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
+        last_curve.last_curve(BALL, ENERGY, 2, (0.55, 0.65), 100, 10)
+    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
+        last_curve.last_curve(BALL, ENERGY, 2, (-0.4, -0.3), 100, 10)

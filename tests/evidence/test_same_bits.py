@@ -25,7 +25,7 @@ for found in (
     rotation.rotation(ball, 0.01, [0.026], 15, 600, (-0.8344, -0.8341), 600),
     jumps.jumps(ball, 0.01, [0.0018], 60),
     flux.flux(ball, 0.01, 6, 5e-3, 60, sea, 13, 300),
-    last_curve.last_curve(ball, 0.01, [[0, 5, 1, 15]], 3, (-0.2, -0.0325639), 300, 60),
+    last_curve.last_curve(ball, 0.01, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
 ):
     print(content_hash(found))
 """

@@ -62,7 +62,7 @@ def data():
         "flux": (flux_kind, flux.flux(BALL, ENERGY, 6, 2e-3, 50, SEA, 4, 50)),
         "last_curve": (
             last_curve_kind,
-            last_curve.last_curve(BALL, ENERGY, nobles, 4, EDGE, 400, 400),
+            last_curve.last_curve(BALL, ENERGY, 4, EDGE, 400, 400, nobles),
         ),
     }
     return {name: (row[0], *map(artifact, row[1:])) for name, row in found.items()}

@@ -50,6 +50,7 @@ class Returns(OfOrbits):
 
     stages = ("orbits",)
     telling = "orbits"
+    example = "energy: 0.001\\nstarts: [0.1]\\nimpacts: 50"
 
     axes: axes_of("x", "next") = None
 

@@ -58,12 +58,11 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     said = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
     (line,) = (line for line in result.stdout.splitlines() if line.startswith("fig3    motion"))
     assert line.endswith(said)
-    assert result.stdout.count("ZeroDivisionError") == 1
     last = last_line(result)
     assert last.startswith("snakemake's log: .snakemake/log/")
     assert (done.path / last.partition(": ")[2]).is_file()
     (row,) = (line for line in result.stdout.splitlines() if "paper_figures/fig3.png" in line)
-    assert row.endswith("not made")
+    assert row.endswith(said)
     assert "Traceback" in (done.path / log).read_text()
     assert done.published() == before
     module.write_text(text)

@@ -70,10 +70,12 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     if missing and missing <= set(absent):
         status = 0
     rows = {}
-    for path, (scene, _) in wanted.items():
+    for path, (scene, behind) in wanted.items():
         rows[path] = scene, "recomputed"
         if made[path] in outdated:
-            rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else "not made"
+            why = next((running.REASONS[name] for name in behind if name in running.REASONS), None)
+            failed = f"not made: {why}" if why else "not made"
+            rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
         elif identity(made[path]) == before[made[path]]:
             rows[path] = scene, "current"
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}

@@ -3,6 +3,7 @@
 import ast
 import inspect
 from itertools import pairwise
+from textwrap import indent
 
 from ..records.files import write_whole
 from ..records.sources import ROOT
@@ -26,6 +27,7 @@ EXACT = """\
 Or `{exact: true}`: the orbits of the starts as they are written, in portraits and
 backdrops, every number a rounded true value."""
 REQUEST = "Scenes that are made on request: `./reproduce claims`, `./reproduce prove --pictures`."
+EXAMPLE = "Another small one, under `scenes:`, for example:"
 SPAN = "Instead of a list, `k` and `energy` may be a mapping with these fields:"
 AXES = "limits and ticks of each axis; without them those of the data"
 
@@ -44,6 +46,7 @@ def page() -> str:
         drawn = ", ".join(f"`{stage}`" for stage in behind(kind.stages))
         about = f"{first[0].upper()}{first[1:]}. Computed: {drawn}."
         parts += [f"### picture: {name}", about, _table(kind, [*own, *narrowed])]
+        parts += [f"{EXAMPLE}\n\n```yaml\nanother:\n{indent(example(name), '  ')}\n```"]
     parts += ["## An axis", _table(Axis, Axis.model_fields)]
     parts += ["## A method", "The paper's own, by steps and bisection:"]
     parts += [_table(Scan, Scan.model_fields), EXACT]
@@ -55,6 +58,11 @@ def page() -> str:
     parts += [_table(Span, Span.model_fields), "## claims, proofs", REQUEST]
     parts += ["## prove", "`./reproduce prove --impacts`:", _table(Prove, Prove.model_fields)]
     return "\n\n".join(parts) + "\n"
+
+
+def example(name) -> str:
+    """The example of a kind of picture as YAML, a block of `scenes:`."""
+    return f"picture: {name}\n{inspect.cleandoc(KINDS[name].example)}"
 
 
 def _table(model, names) -> str:

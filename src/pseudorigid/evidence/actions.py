@@ -218,19 +218,24 @@ class Heteroclinic:
 
     Raises
     ------
-    ArithmeticError
+    ValueError
         Where Newton's method does not find the crossing.
+    ArithmeticError
+        Where the working precision does not enclose a time of flight or the crossing.
     """
 
     def __init__(self, saddle, sign, parameter, impacts):
+        small = arb(2) ** -_CROSSED
         for _ in range(_NEWTON):
             self._follow(saddle, sign, parameter, impacts)
             step = (self.points[-1][1] / self.tangent[1]).mid()
             parameter = (parameter - step).mid()
-            if abs(step) < abs(parameter) * arb(2) ** -_CROSSED:
+            if abs(step) < abs(parameter) * small:
                 break
         else:
-            raise ArithmeticError("Newton's method does not find the crossing with y = 0")
+            if not abs(self.points[-1][1] / self.tangent[1]).rad() < abs(parameter) * small:
+                raise ArithmeticError("the crossing is not enclosed: more bits are needed")
+            raise ValueError("Newton's method does not find the crossing with y = 0")
         self._follow(saddle, sign, parameter, impacts)
         self.parameter, self.impacts = parameter, impacts
 
@@ -296,16 +301,26 @@ def lobe(saddle, sign, nearer):
     Raises
     ------
     ValueError
-        A branch that does not meet y = 0.
+        A branch that does not meet y = 0, as far as can be seen.
+    ArithmeticError
+        Where the working precision does not enclose a time of flight or the crossing.
 
     References
     ----------
     MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
     """
-    ratio, period = float(saddle.multiplier), saddle.period
-    crossings = [first_crossing(saddle, sign, offset) for offset in (0, period // 2)]
+    crossings = [first_crossing(saddle, sign, offset) for offset in (0, saddle.period // 2)]
     if None in crossings:
         raise ValueError("the branch does not meet y = 0")
+    try:
+        return _between(saddle, sign, nearer, crossings)
+    except ValueError:  # where the branch bends much, Newton's method starts nearer
+        return _between(saddle, sign, nearer, [_refined(saddle, sign, *one) for one in crossings])
+
+
+def _between(saddle, sign, nearer, crossings):
+    """`lobe` between two crossings, each a parameter and a number of impacts."""
+    ratio, period = float(saddle.multiplier), saddle.period
     (near, impacts), (far, after) = crossings
     while far >= near:  # the crossing before that of the first orbit
         far, after = far / ratio, after + period
@@ -348,18 +363,43 @@ def first_crossing(saddle, sign, impacts):
         The parameter, in the last segment before _FIRST from the saddle, and the impacts from
         there; None where there is no crossing within _MOST_IMAGES.
     """
-    law, ball = saddle.law, saddle.law.ball
-    ratio = 1.0 / float(saddle.multiplier)
-    parameter = _FIRST * (ratio + (1.0 - ratio) * np.arange(_SCANNED + 1) / _SCANNED)
-    x = float(saddle.x) + sign * parameter * float(saddle.ex)
-    y = float(saddle.y) + sign * parameter * float(saddle.ey)
-    states = [np.array(a) for a in ball.state_xy(x, y, float(law.energy))]
-    ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
+    ball, parameter = saddle.law.ball, _scanned(saddle)
+    states = _images(saddle, sign, parameter, impacts)
     for _ in range(_MOST_IMAGES):
         _, height = chart(ball.k, *states)
         (crossing,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
         if crossing.size:
             return float(parameter[crossing[0]]), impacts
-        ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(x.size))
+        ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(parameter.size))
         impacts += saddle.period
     return None
+
+
+def _scanned(saddle):
+    """The parameters at which the last segment before _FIRST is looked at."""
+    ratio = 1.0 / float(saddle.multiplier)
+    return _FIRST * (ratio + (1.0 - ratio) * np.arange(_SCANNED + 1) / _SCANNED)
+
+
+def _images(saddle, sign, parameter, impacts):
+    """The states, in doubles, after some impacts from the points of the branch's tangent."""
+    ball = saddle.law.ball
+    x = float(saddle.x) + sign * parameter * float(saddle.ex)
+    y = float(saddle.y) + sign * parameter * float(saddle.ey)
+    states = [np.array(a) for a in ball.state_xy(x, y, float(saddle.law.energy))]
+    ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
+    return states
+
+
+def _refined(saddle, sign, parameter, impacts):
+    """A crossing seen by `first_crossing`, to a millionth of the distance scanned."""
+    scanned = _scanned(saddle)
+    low, high = parameter, parameter + (scanned[1] - scanned[0])
+    for _ in range(3):
+        parameter = low + (high - low) * np.arange(_SCANNED + 1) / _SCANNED
+        _, height = chart(saddle.law.ball.k, *_images(saddle, sign, parameter, impacts))
+        (at,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
+        if not at.size:  # where a jump, or rounding, decides
+            break
+        low, high = parameter[at[0]], parameter[at[0] + 1]
+    return float(low), impacts

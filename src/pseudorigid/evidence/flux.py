@@ -22,6 +22,8 @@ from .sea import sea_states
 SIDES = ("inner", "outer")
 _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
+_FINER = (1, 2, 4)  # times these bits, where flights are not enclosed
+_LONGEST = 16.0  # section radii, of a branch
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 _VARIABLES = {
     "side": ("side", "which branch"),
@@ -80,10 +82,13 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         the stable branch. Attributes: section, its area; multiplier, of the orbit. Areas are those
         of (x, y), which the map keeps, eq. (42), in omega R^2.
 
+        A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
+        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it.
+
     Raises
     ------
     ValueError
-        No hyperbolic orbit of that period, an odd period, or a branch that does not meet y = 0.
+        No hyperbolic orbit of that period, an odd period, or no lobes on either side.
 
     References
     ----------
@@ -102,12 +107,30 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
     _, *states = sea_states(ball, energy, between, orbits)
     path = chart(ball.k, *states_of(orbit(ball, states, impacts)))
-    found = [_side(ball, energy, saddles, side, distance, grid, path) for side in SIDES]
+    found, missing = [], {}
+    for side in SIDES:
+        try:
+            found.append(_side(ball, energy, saddles, side, distance, grid, path))
+        except ValueError as error:
+            missing[side] = str(error)
+            found.append(_no_side(side))
+    if len(missing) == len(SIDES):
+        raise ValueError("; ".join(f"no {side} lobes: {why}" for side, why in missing.items()))
     attributes = {
         "section": math.pi * math.prod(_half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
     }
+    attributes |= {f"missing_{side}": why for side, why in missing.items()}
     return xr.Dataset(of_rows(_VARIABLES, found), attrs=attributes)
+
+
+def _no_side(side):
+    """A side without lobes, as a row of _VARIABLES."""
+    sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
+    row = {}
+    for name, (dims, *_) in _VARIABLES.items():
+        row[name] = math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan)
+    return (*(row | {"side": side, "digits": "", "saddle": -1, "target": -1}).values(),)
 
 
 def _side(ball, energy, saddles, side, distance, grid, path):
@@ -116,9 +139,7 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     states = states_of(saddles)
     lobes = []
     for bits, nearer in zip(_BITS, _NEARER, strict=True):
-        with ctx.workprec(bits):
-            saddle = Saddle(Law(ball, energy), states[:, place].tolist(), saddles.sizes["point"])
-            lobes.append(lobe(saddle, sign, nearer))
+        lobes.append(_lobe(ball, energy, saddles, place, sign, nearer, bits))
     (rough, _), (area, primary) = lobes
     error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
@@ -133,6 +154,18 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
     return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
+
+
+def _lobe(ball, energy, saddles, place, sign, nearer, bits):
+    """`lobe` of the branch that leaves one of the saddles, with as many bits as it needs."""
+    state, period = states_of(saddles)[:, place].tolist(), saddles.sizes["point"]
+    for finer in _FINER:
+        with ctx.workprec(finer * bits):
+            try:
+                return lobe(Saddle(Law(ball, energy), state, period), sign, nearer)
+            except ArithmeticError as error:
+                reason = error
+    raise ValueError(f"{reason}")
 
 
 def _thinned(line, count):
@@ -159,7 +192,7 @@ def _primary(ball, energy, saddles, side):
                 grown = [float(saddle.multiplier)] * (impacts // saddle.period)
                 found.append((math.prod(grown, start=parameter), place, sign))
     if not found:
-        raise ValueError(f"no {side} branch meets y = 0")
+        raise ValueError("no such branch meets y = 0")
     return min(found)[1:]
 
 
@@ -179,13 +212,17 @@ def _polygons(ball, energy, saddles, place, side, distance, primary):
         )
         states = states_of(traced)
         line = chart(ball.k, *states)
-        at = [int(np.argmin(np.sum((line - end[:, None]) ** 2, axis=0))) for end in ends]
-        gaps = [np.max(np.abs(line[:, i] - end)) for i, end in zip(at, ends, strict=True)]
-        if max(at) < line.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
+        (cuts,) = np.nonzero(np.isnan(line[0]))
+        whole = line[:, : cuts[0]] if cuts.size else line
+        at = [int(np.argmin(np.sum((whole - end[:, None]) ** 2, axis=0))) for end in ends]
+        gaps = [np.max(np.abs(whole[:, i] - end)) for i, end in zip(at, ends, strict=True)]
+        if max(at) < whole.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
             break
+        if cuts.size:
+            raise ValueError("a jump of the map cuts the branch before it closes a lobe")
         length *= 2.0
-        if length > 16.0:
-            raise ValueError("the traced branch does not meet the lobe's corners")
+        if length > _LONGEST:
+            raise ValueError(f"the branch closes no lobe within {_LONGEST:g} section radii")
     # the stable arc is the mirror image of the unstable one from w1 to the mirror image of w2
     area = _between(line, at[0], at[1], one, other)
     area += _between(line, at[0], at[2], one, ends[2])

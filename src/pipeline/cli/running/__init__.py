@@ -18,6 +18,7 @@ from ..folder import MisuseError, UsageError, interruptible, say
 
 INTERRUPTED = 130
 LOGS = []  # snakemake's own, of the runs of this process, from the root
+REASONS = {}  # result -> why it could not be made in a run of this process
 # Options with which a run would not be one of this folder, and what is so instead.
 _ELSEWHERE = {
     "directory": "results are made in the folder of ./reproduce: copy it to have them elsewhere",
@@ -166,6 +167,7 @@ def _run(targets, forced, computes, arguments) -> int:
         return 1
     if told and (handler := steps.LogHandler.last):
         LOGS.extend([handler.log] if handler.log else [])
+        REASONS.update(handler.reasons)
         if status and not handler.failed:
             print(*handler.errors, sep="\n", file=sys.stderr)
     return status

@@ -29,6 +29,7 @@ class LogHandler(LogHandlerBase):
         LogHandler.last = self
         self.results, self.started, self.finished = {}, {}, None
         self.failed, self.errors, self.log = False, [], None
+        self.reasons = {}  # result -> why it could not be made
 
     def emit(self, record):
         """Take one of snakemake's events."""
@@ -47,7 +48,9 @@ class LogHandler(LogHandlerBase):
             case LogEvent.JOB_ERROR:
                 self.failed = True
                 if not self.interrupted:
-                    self._tell(record.jobid, f"not made: {self._reason(record.jobid)}")
+                    reason = self._reason(record.jobid)
+                    self.reasons[self.results[record.jobid]] = reason
+                    self._tell(record.jobid, f"not made: {reason}")
             case LogEvent.ERROR:
                 self.errors.append(record.getMessage())
             case None if record.getMessage().startswith(_LOGS):

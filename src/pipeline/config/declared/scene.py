@@ -5,6 +5,7 @@ than one field stand with it. Numbers are compared as the decimals that were wri
 """
 
 import inspect
+import math
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar
@@ -30,6 +31,8 @@ class Scene(fields.Block):
     framed_by: ClassVar[tuple[str, ...]] = ()
     # The quantity of `numbers` that stands for the figure in a list.
     telling: ClassVar[str]
+    # Another scene of the kind than the committed one, small: YAML, its fields without `picture`.
+    example: ClassVar[str]
     # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
 
@@ -205,6 +208,38 @@ def measured_energy(block, states) -> dict[str, str]:
     energy = ball.energy(*states_of(states))
     ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
     return {"energy": " to ".join(ends)}
+
+
+def not_elliptic(block, name) -> Iterator[Fault]:
+    """Faults of energies, of a field that is one or a list, where the fixed point is hyperbolic."""
+    energies = block[name] if isinstance(block[name], list) else [block[name]]
+    for i, energy in enumerate(energies):
+        if not fixed_point_trace(block["ball"], energy) > -2:
+            low, high = -(block["ball"]["g"] ** 2) / (2 * block["ball"]["k"]), energy
+            for _ in range(40):
+                middle = (low + high) / 2
+                elliptic = fixed_point_trace(block["ball"], middle) > -2
+                low, high = (middle, high) if elliptic else (low, middle)
+            place = (name, i) if isinstance(block[name], list) else (name,)
+            yield place, energy, f"an energy below {low:.6g}, where the fixed point is elliptic"
+
+
+def fixed_point_trace(ball, energy) -> float:
+    """The trace at the fixed point, as in `pseudorigid.dynamics.fixed_point`, to some digits.
+
+    That module compiles code when it is imported, which takes too long for a check.
+    """
+    k, energy = ball["k"], energy / ball["g"] ** 2
+
+    def bent(theta):
+        return 1 - theta / math.tan(theta)
+
+    low, high = 0.0, math.pi
+    while (theta := (low + high) / 2) not in (low, high):
+        below = ((1 + k) * theta * theta + bent(theta) ** 2 - 1) / (2 * k) < energy
+        low, high = (theta, high) if below else (low, theta)
+    shear = bent(theta) * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
+    return 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
 
 
 def exact(value) -> Fraction:

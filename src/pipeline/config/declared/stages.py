@@ -53,7 +53,11 @@ STAGES = {
         }.items()
     },
     "horseshoe": Stage(
-        f"{_PROOFS}.theorems.scenes", "scene_horseshoe", ("connection",), follows=False
+        f"{_PROOFS}.theorems.scenes",
+        "scene_horseshoe",
+        ("period", "type", "connection"),
+        ("periodic",),
+        follows=False,
     ),
     "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",), follows=False),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),

@@ -66,6 +66,8 @@ def _regions(sheet, frame, flux):
     panel.rim()
     for side, hue in ((1, _OUTER), (0, _INNER)):
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
+        if np.isnan(x[0]):
+            continue
         panel.line(x, y, color=hue, lw=1.1)
         digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
         text = rf"area ${digits}\times 10^{{{int(power)}}}$"
@@ -75,8 +77,17 @@ def _regions(sheet, frame, flux):
         panel.dots([at], [0.0], hue)
 
 
+def _no_lobe(sheet, frame):
+    """Say in the place of a panel that the branches of a side close no lobe."""
+    middle = 0.5 * (frame[0] + frame[2]), 0.5 * (frame[1] + frame[3])
+    sheet.text(*middle, "no lobe is closed", ha="center", va="center", size=7.0)
+
+
 def _outer_lobe(sheet, frame, flux):
     x, y = flux["branch_x"].values[1], flux["branch_y"].values[1]
+    if np.isnan(x[0]):
+        _no_lobe(sheet, frame)
+        return
     high = np.abs(y).max()
     across = linear(*wider(x.min(), x.max(), 0.06, 0.06), 3, "$x$")
     up = linear(*wider(-high, high, 0.06, 0.06), 5, "$y$")
@@ -87,6 +98,9 @@ def _outer_lobe(sheet, frame, flux):
 
 def _inner_lobe(sheet, frame, flux):
     x, y = flux["branch_x"].values[0], flux["branch_y"].values[0]
+    if np.isnan(x[0]):
+        _no_lobe(sheet, frame)
+        return
     order = np.argsort(y, kind="stable")
     half = float(min(y.max(), -y.min()))
     at = half * (np.arange(-200, 201) / 200.0)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
-from ..axes.limits import refuse_empty
+from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.panel import Axis, Panel, corner, key
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -25,7 +25,7 @@ def draw(scene, manifolds, horseshoe):
     Parameters
     ----------
     scene : dict
-        Its axes are x, y, p and q.
+        Its axes x, y, p and q, where it gives none, are those of the data.
     manifolds : xarray.Dataset
         Of that stage.
     horseshoe : xarray.Dataset
@@ -40,6 +40,14 @@ def draw(scene, manifolds, horseshoe):
     ValueError
         Axes that show none of the sets, or nothing of the image.
     """
+    line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    scene = complete(
+        scene,
+        x=lambda: of_data(line_x, horseshoe["x"].values),
+        y=lambda: of_data(line_y, horseshoe["y"].values),
+        p=lambda: of_data(horseshoe["image_p"].values),
+        q=lambda: of_data([-1.0, 1.0]),
+    )
     refuse_empty(scene["axes"], {name: horseshoe[name].values for name in "xy"})
     for name in "pq":
         refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})

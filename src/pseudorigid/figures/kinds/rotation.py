@@ -51,7 +51,8 @@ def _first_energy(sheet, scene, rotation):
     good = regular(grown, rotation.attrs["impacts"])
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     across = Axis((at - 0.03, 1.0), (-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1), _STARTS)
-    limits = wider(turns[good].min(), max(fixed, turns[good].max()), 0.1, 0.1)
+    regulars = turns[good] if good.any() else turns
+    limits = wider(*_span(np.append(regulars, fixed)), 0.1, 0.1)
     above = _LEFT, 1565, _RIGHT, 1875
     panel = Panel(sheet, above, across.blank(), linear(*limits, 5, "Rotation number"))
     shown = ~good & (turns > limits[0]) & (turns < limits[1])
@@ -65,13 +66,19 @@ def _first_energy(sheet, scene, rotation):
     panel.dots(place[good], grown[good], style.BLUE, size=1.6)
 
 
+def _span(values):
+    """Least and largest of some numbers that may have NaN, apart even where they are one."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    return (low, high) if high > low else (low - 0.01, high + 0.01)
+
+
 def _detail(sheet, frame, rotation):
     place, turns, grown = (
         rotation[f"detail_{name}"].values for name in ("place", "rotation", "exponent")
     )
     good = regular(grown, rotation.attrs["detail_impacts"])
     across = linear(place[0], place[-1], 4, _STARTS)
-    limits = wider(turns[good].min(), turns[good].max(), 0.05, 0.2)
+    limits = wider(*_span(turns[good] if good.any() else turns), 0.05, 0.2)
     panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     for p, q, first, last in plateaus(place[good], turns[good]):
@@ -91,7 +98,8 @@ def _energies(sheet, frame, rotation):
         place = rotation["place"].values[row, keep] - fixed
         change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), place, change))
-    far = max(float(place[np.abs(change) < _HIGH].max()) for _, place, change in curves)
+    near = [place[np.abs(change) < _HIGH] for _, place, change in curves]
+    far = max((float(place.max()) for place in near if place.size), default=0.0)
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
     name = "Rotation number, less the fixed point's"

@@ -16,7 +16,7 @@ def draw(scene, twist):
     Parameters
     ----------
     scene : dict
-        Its marks, energies among its own, are marked as dots and named, the zero as a ring.
+        Its marks, energies among its own, are marked as dots and named, its zero as a ring.
     twist : xarray.Dataset
         As from `proofs.theorems.pictures.twist_data`.
 
@@ -41,13 +41,15 @@ def draw(scene, twist):
     (left, right), (bottom, _) = plane.across.limits, plane.up.limits
     zero = float(twist["zero"])
     plane.line([left, right], [0.0, 0.0], color=style.BACKDROP, lw=0.6)
-    plane.line([zero, zero], [bottom, 0.0], color=style.BACKDROP, lw=0.6)
+    if not np.isnan(zero):
+        plane.line([zero, zero], [bottom, 0.0], color=style.BACKDROP, lw=0.6)
     plane.line(energy, values, color=style.BLUE, lw=1.1)
     for mark in scene["marks"]:
         at = int(np.argmin(np.abs(energy - mark)))
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
         text = f"$E$ = {style.number(mark)}"
         plane.note(energy[at], values[at], text, shift=(4, 2), va="bottom")
-    plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
-    plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
+    if not np.isnan(zero):
+        plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
+        plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
     return plane.figure

@@ -56,21 +56,42 @@ def propose_zero(k, g, low, high, start, holds):
     -------
     str
     """
-    unit = 10**ENERGY_DIGITS
     with ctx.workprec(BITS):
-        point = [start]
-        while high - low > Fraction(1, unit):
-            middle = Fraction(round((low + high) / 2 * unit), unit)
-            surface = Surface(k, g, middle)
-            point = polished(surface, point)
-            if estimate(surface, point) > 0:
-                low = middle
-            else:
-                high = middle
-        surface = Surface(k, g, low)
-        centre = rows("points", decimals(polished(surface, point), DIGITS))
-    width = f"width = {float(high - low):.0e}\n"
+        surface, above, point = bisect_zero(k, g, low, high, [start])
+        centre = rows("points", decimals(point, DIGITS))
+    width = f"width = {float(above.energy - surface.energy):.0e}\n"
     return largest(header("zero of the twist", surface) + width + centre, "", holds)
+
+
+def bisect_zero(k, g, low, high, point):
+    """Two energies, ENERGY_DIGITS decimals each, between which the twist falls through zero.
+
+    Parameters
+    ----------
+    k, g : Fraction
+        The ball.
+    low, high : Fraction
+        Energies: the twist is above zero at the first, below at the other.
+    point : list of (float, float)
+        (x, y) of the fixed point at one of these energies.
+
+    Returns
+    -------
+    low, high : Surface
+    point : list of (arb, arb)
+        The fixed point at the first.
+    """
+    unit = 10**ENERGY_DIGITS
+    while high - low > Fraction(1, unit):
+        middle = Fraction(round((low + high) / 2 * unit), unit)
+        surface = Surface(k, g, middle)
+        point = polished(surface, point)
+        if estimate(surface, point) > 0:
+            low = middle
+        else:
+            high = middle
+    low = Surface(k, g, low)
+    return low, Surface(k, g, high), polished(low, point)
 
 
 def estimate(surface, points):

@@ -1,6 +1,7 @@
 """What the pictures of the proofs show: datasets of doubles, rounded from balls."""
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -8,20 +9,21 @@ from flint import arb, ctx
 
 from ...dynamics.variables import ENERGY, LENGTH, SPEED, described
 from ..checks import birkhoff, horseshoe, periodic
+from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface, ball_of
-from .statements import THEOREMS, G, K
 
 EDGE = 33  # points along each edge of a set whose image is drawn
 RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at every energy
 
 
-def horseshoe_data(name="horseshoe-outer"):
+def horseshoe_data(surface, finding):
     """The sets of a proved horseshoe, and one covering relation in the target's coordinates.
 
     Parameters
     ----------
-    name : str
-        Of the theorem.
+    surface : Surface
+    finding : checks.certificate.Finding
+        As from `checks.horseshoe.check`.
 
     Returns
     -------
@@ -30,18 +32,11 @@ def horseshoe_data(name="horseshoe-outer"):
         along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
         of the set before the middle one, in units of the middle one's half widths, its two exit
         edges first.
-
-    Raises
-    ------
-    NotProvedError
-        Where the theorem's certificate does not hold.
     """
-    theorem = THEOREMS[name]
-    found = theorem.prove(theorem.text()).parts
+    found = finding.parts
     sets = [*found["saddles"], *found["chain"]]
     steps = len(found["chain"]) // 2
     index = [np.nan] * len(found["saddles"]) + [float(n) for n in range(-steps, steps + 1)]
-    surface = theorem.bounds["surface"]
     with ctx.workprec(horseshoe.BITS):
         around = [(1, 1), (1, -1), (-1, -1), (-1, 1)]
         corners = np.array(
@@ -78,35 +73,47 @@ def _image(surface, source, target, p, q):
     return [float(a) for a in target.place(image.x, image.y)]
 
 
-def twist_data(energies):
-    """The fixed point's twists against the energy, and the proved energy where the first is zero.
+def twist_data(k, g, energies):
+    """The fixed point's twist against the energy, and where it falls through zero.
 
     Parameters
     ----------
+    k, g : int, Fraction, Decimal or str
+        The ball, exact.
     energies : list of int, Fraction, Decimal or str
-        Exact; the fixed point is elliptic there, and none of its powers up to the fourth is 1.
+        Exact, in rising order; the fixed point is elliptic there, and none of its powers up to the
+        fourth is 1.
 
     Returns
     -------
     xarray.Dataset
-        energy, twist (energy); zero (a number): the energy at which the twist vanishes.
+        energy, twist (energy); zero (a number): the middle of a band of 1e-13, between two of the
+        energies, in which the twist is proved to fall through zero, NaN where there is none.
 
     Raises
     ------
-    NotProvedError
-        Where the fixed point, its type or its twist is not proved.
+    ValueError
+        An energy at which the fixed point, its type or its twist is not proved, with the reason.
     """
     from ..search import known
 
-    surfaces = [Surface(K, G, energy) for energy in energies]
-    values = []
+    surfaces = [Surface(k, g, energy) for energy in energies]
+    values, centres = [], []
     for surface in surfaces:
-        centre = [tuple(map(Fraction, z)) for z in known.points(surface, 1, "elliptic")]
-        with ctx.workprec(periodic.BITS):
-            orbit = periodic.prove(surface, centre, RADIUS)
-            values.append(float(birkhoff.normal_form(surface, orbit).twists[0]))
-    theorem = THEOREMS["twist-zero"]
-    zero = float(theorem.prove(theorem.text()).digits["energy"])
+        try:
+            centres.append(known.points(surface, 1, "elliptic"))
+            centre = [tuple(map(Fraction, z)) for z in centres[-1]]
+            with ctx.workprec(periodic.BITS):
+                orbit = periodic.prove(surface, centre, RADIUS)
+                values.append(float(birkhoff.normal_form(surface, orbit).twists[0]))
+        except (NotProvedError, ValueError, ArithmeticError) as error:
+            raise ValueError(f"no twist is proved at {surface}: {error}") from None
+    zeros = (
+        _zero(*surfaces[i : i + 2], centres[i])
+        for i, (low, high) in enumerate(pairwise(values))
+        if low > 0.0 >= high
+    )
+    zero = next((zero for zero in zeros if zero is not None), float("nan"))
     with ctx.workprec(64):
         axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
     data = {
@@ -115,6 +122,24 @@ def twist_data(energies):
         "zero": ((), zero, "energy at which the twist vanishes", ENERGY),
     }
     return _dataset(data, surfaces[0])
+
+
+def _zero(low, high, centre):
+    """The energy between two surfaces at which the twist is proved to be zero, or None."""
+    from ..search import twist as twists
+
+    with ctx.workprec(periodic.BITS):
+        low, high, point = twists.bisect_zero(low.k, low.g, low.energy, high.energy, centre)
+        band = Surface(low.k, low.g, low.energy, high.energy - low.energy)
+        box = [tuple(Fraction(float(a)) for a in z) for z in point]
+        signs = []
+        for surface in (low, high, band):  # continuous in the band, where no denominator is zero
+            try:
+                orbit = periodic.prove(surface, box, RADIUS)
+                signs.append(birkhoff.normal_form(surface, orbit).twists[0])
+            except (NotProvedError, ArithmeticError):
+                return None
+        return float(band.constants()[2]) if signs[0] > 0 > signs[1] else None
 
 
 def _dataset(variables, surface):

@@ -54,7 +54,7 @@ def prove_orbit(ball, orbit, energy=None):
         raise ValueError(f"{what} cannot be proved: {error}") from None
 
 
-def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
+def prove_horseshoe(ball, orbit, *, side, energy=None):
     """Prove a horseshoe on a hyperbolic orbit by its outer or inner symmetric connection.
 
     Parameters
@@ -65,12 +65,6 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
         As for `prove_orbit`.
     side : {"outer", "inner"}
         Which unstable branches the connection belongs to, as its first point's lies.
-    steps : int
-        How many sets the chain has on either side of the one on y = 0.
-    size : float
-        Of the sets at the orbit's points, in (x, y).
-    room : float
-        How much wider than its image, or narrower, a set is where chain and orbit meet.
     energy : int, Fraction, Decimal or str, optional
         As for `prove_orbit`.
 
@@ -97,11 +91,11 @@ def prove_horseshoe(ball, orbit, *, side, steps, size, room=1.12, energy=None):
     bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
     what = f"the horseshoe at {surface}"
     theorem = Theorem(what, what, horseshoe.check, bounds | {"window": None, "crossing": None})
-    plan = horseshoes.Plan(1 if side == "outer" else -1, steps, size, room)
+    sign = 1 if side == "outer" else -1
     try:
-        text = horseshoes.propose(surface, known.ball(surface), points, plan, theorem.prove)
+        text = horseshoes.search(surface, known.ball(surface), points, theorem.prove, sign)
         return text, theorem.prove(text)
-    except (NotProvedError, ArithmeticError) as error:
+    except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{what} cannot be proved: {error}") from None
 
 

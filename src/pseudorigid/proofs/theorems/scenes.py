@@ -1,20 +1,32 @@
-"""The stages behind the pictures of the proofs: theorems at the paper's numbers only."""
+"""The stages behind the pictures of the proofs, for any ball and energy."""
 
 from fractions import Fraction
 
+from ...dynamics.variables import of_type
+from ..enclosure.surface import Surface
 from .pictures import horseshoe_data, twist_data
-from .statements import HIGH, G, K
+from .requests import prove_horseshoe
+from .statements import THEOREMS
 
 
-def scene_horseshoe(ball, energy, connection):
-    """The sets of a proved horseshoe on the hyperbolic period-six orbit.
+def scene_horseshoe(ball, energy, periodic, period, type, connection):
+    """The sets of a proved horseshoe on an orbit, by one of its connections.
+
+    Where there is a theorem about this connection its certificate is used, otherwise one is
+    searched.
 
     Parameters
     ----------
     ball : Ball
-        The paper's, k = 1/5 and g = 1/25.
+        Its k and g are taken as the decimals that they print as.
     energy : float
-        The paper's, 1/100.
+        In m omega^2 R^2, taken likewise.
+    periodic : xarray.Dataset
+        Orbits of this period, as from `symmetric_orbits`.
+    period : int
+        Of the orbit.
+    type : {"hyperbolic"}
+        Of the orbit.
     connection : {"outer", "inner"}
 
     Returns
@@ -25,7 +37,7 @@ def scene_horseshoe(ball, energy, connection):
     Raises
     ------
     ValueError
-        Another ball or energy.
+        No such orbit, or what `prove_horseshoe` cannot prove.
 
     References
     ----------
@@ -34,14 +46,20 @@ def scene_horseshoe(ball, energy, connection):
 
     Examples
     --------
-    >>> from pseudorigid import Ball
-    >>> scene_horseshoe(Ball(k=0.2, g=0.04), 0.001, "outer")
-    Traceback (most recent call last):
-    ...
-    ValueError: no theorem at k = 0.2, g = 0.04, E = 0.001: they are at k = 1/5, g = 1/25, E = 1/100
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> ball = Ball(k=0.3, g=0.02)
+    >>> five = symmetric_orbits(ball, 0.002, 5)
+    >>> scene_horseshoe(ball, 0.002, five, 5, "hyperbolic", "outer").sizes["edge"]
+    4
     """
-    _check(ball, energy)
-    return horseshoe_data(f"horseshoe-{connection}")
+    orbit = of_type(periodic, type, period)
+    surface = Surface(*_exact(ball.k, ball.g, energy))
+    theorem = THEOREMS[f"horseshoe-{connection}"]
+    if (surface, period) == (theorem.bounds["surface"], theorem.bounds["period"]):
+        found = theorem.prove(theorem.text())
+    else:
+        _, found = prove_horseshoe(surface, orbit, side=connection)
+    return horseshoe_data(surface, found)
 
 
 def scene_twist(ball, energy, energies):
@@ -50,11 +68,11 @@ def scene_twist(ball, energy, energies):
     Parameters
     ----------
     ball : Ball
-        The paper's, k = 1/5 and g = 1/25.
+        Its k and g are taken as the decimals that they print as.
     energy : float
-        The paper's, 1/100.
+        Not used: the energies are those of the list.
     energies : list of float
-        Taken as the decimals they print as.
+        Taken as the decimals that they print as.
 
     Returns
     -------
@@ -64,7 +82,7 @@ def scene_twist(ball, energy, energies):
     Raises
     ------
     ValueError
-        Another ball or energy.
+        An energy at which the twist is not proved.
 
     References
     ----------
@@ -73,20 +91,13 @@ def scene_twist(ball, energy, energies):
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> scene_twist(Ball(k=0.3, g=0.04), 0.01, [0.01])
-    Traceback (most recent call last):
-    ...
-    ValueError: no theorem at k = 0.3, g = 0.04, E = 0.01: they are at k = 1/5, g = 1/25, E = 1/100
+    >>> twist = scene_twist(Ball(k=0.3, g=0.02), 0.002, [0.001, 0.002])["twist"].values
+    >>> bool(twist[0] > twist[1] > 0)
+    True
     """
-    _check(ball, energy)
-    return twist_data([str(value) for value in energies])
+    return twist_data(*_exact(ball.k, ball.g), _exact(*energies))
 
 
-def _check(ball, energy):
-    """ValueError unless ball and energy are those that the theorems are about."""
-    given = [Fraction(str(value)) for value in (ball.k, ball.g, energy)]
-    if given != [K, G, HIGH.energy]:
-        raise ValueError(
-            f"no theorem at k = {ball.k:g}, g = {ball.g:g}, E = {energy:g}: "
-            f"they are at k = {K}, g = {G}, E = {HIGH.energy}"
-        )
+def _exact(*values):
+    """The decimals that floats print as, as Fractions."""
+    return [Fraction(str(value)) for value in values]

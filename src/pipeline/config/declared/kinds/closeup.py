@@ -19,6 +19,16 @@ class Closeup(OfManifolds):
     framed_by = ("period", "type", "point", "window")
     telling = "x of the point"
     studied = "closeup"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    period: 6
+    type: hyperbolic
+    point: 1
+    window: {x: [-0.05, 0.05], xdot: [-0.05, 0.05]}
+    length: 1
+    resolution: {distance: 0.02, bend: 20}
+    """
 
     point: whole(0, 11)
     """which point of the orbit"""

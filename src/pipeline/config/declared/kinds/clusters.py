@@ -22,6 +22,17 @@ class Clusters(Scene):
 
     stages = ("clusters",)
     telling = "time between clusters"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.05
+    between: [0.55, 0.68]
+    orbits: 16
+    impacts: 2000
+    cuts: [15, 20]
+    lags: 2
+    resamples: 50
+    seed: 1
+    """
 
     between: Between
     """the part of y = 0 on which orbits start"""

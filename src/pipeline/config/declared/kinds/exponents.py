@@ -22,6 +22,13 @@ class Exponents(OfRecords):
     framed_by = ("impacts",)
     telling = "largest exponent"
     studied = "exponents"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.05
+    starts: [0.1, 0.5]
+    impacts: 2000
+    records: 50
+    """
 
     axes: axes_of("impact", "exponent", "largest") = None
 

@@ -20,6 +20,16 @@ class Flux(Scene):
 
     stages = ("flux",)
     telling = "lobes"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.001
+    period: 6
+    distance: 0.01
+    grid: 100
+    between: [0.8, 0.9]
+    orbits: 8
+    impacts: 500
+    """
 
     period: whole(2, 12, 2)
     """of the hyperbolic orbit"""
@@ -42,5 +52,11 @@ class Flux(Scene):
 
     @staticmethod
     def numbers(block, flux):
-        """Areas of the lobes in (x, y)."""
-        return {"lobes": listing(flux, "{} {:.10g}", "side", "area")}
+        """Areas of the lobes in (x, y), or why there are none."""
+        here = flux.dropna("side", subset=["area"])
+        missing = {
+            f"no {side} lobes": flux.attrs[f"missing_{side}"]
+            for side in flux["side"].values
+            if f"missing_{side}" in flux.attrs
+        }
+        return {"lobes": listing(here, "{} {:.10g}", "side", "area")} | missing

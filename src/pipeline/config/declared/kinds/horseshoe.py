@@ -25,11 +25,22 @@ class Horseshoe(OfBranches):
     """
 
     stages = ("manifolds", "horseshoe")
+    framed_by = ("period", "type", "branches", "connection")
     telling = "sets"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    period: 5
+    type: hyperbolic
+    branches: {outer: {length: 0.8}}
+    resolution: {distance: 0.02, bend: 20}
+    connection: outer
+    """
 
     connection: Side
     """along which branches the orbit is connected with itself"""
-    axes: axes_of("x", "y", "p", "q")
+    type: Annotated[Literal["hyperbolic"], Field(description="hyperbolic")]
+    axes: axes_of("x", "y", "p", "q") = None
 
     @staticmethod
     def numbers(block, periodic, manifolds, horseshoe):

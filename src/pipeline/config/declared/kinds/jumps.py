@@ -18,6 +18,15 @@ class Jumps(Portrait):
     stages = ("jumps", "orbits")
     telling = "jump curve"
     studied = None
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.01
+    energies: [0.0005, 0.002]
+    sides: 400
+    starts: [-0.3, 0.7]
+    impacts: [200, 2000]
+    sea: [1]
+    """
 
     energies: listed(Energy, "a list of energies", 1, 20)
     """further energies, drawn below"""

@@ -1,13 +1,13 @@
 """The last invariant curve of the main island."""
 
 from ..fields import LARGEST, Between, listed, whole
-from ..scene import Scene, listing
+from ..scene import Scene, listing, not_elliptic
 
 
 class LastCurve(Scene):
     """residues of the convergents of noble rotation numbers
 
-    Greene's residues of {{ s.convergents }} convergents of two noble rotation numbers at energy
+    Greene's residues of {{ s.convergents }} convergents of noble rotation numbers at energy
     {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}; below, in the same colours, an orbit
     that starts at the periodic point of the last convergent of each.
 
@@ -18,9 +18,20 @@ class LastCurve(Scene):
 
     stages = ("last_curve",)
     telling = "last residues"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    convergents: 4
+    between: [-0.3, 0.3]
+    impacts: 2000
+    drawn: 1000
+    """
 
-    nobles: listed(listed(whole(0, 1000), "a continued fraction"), "a list of continued fractions")
-    """rotation numbers, each a continued fraction with ones after its end"""
+    nobles: listed(
+        listed(whole(0, 1000), "a continued fraction"), "a list of 1 to 8 continued fractions", 1, 8
+    ) = None
+    """rotation numbers, each a continued fraction with ones after its end; without them one on
+    either side of the last curve that `between` shows"""
     convergents: whole(2, 20)
     """how many convergents of each"""
     between: Between
@@ -32,16 +43,23 @@ class LastCurve(Scene):
 
     @classmethod
     def faults(cls, block):
-        """Orbits that can be followed, and drawn."""
-        yield from super().faults(block)
-        for i, noble in enumerate(block["nobles"]):
+        """Orbits that can be followed, and drawn, from two places."""
+        faults = [*super().faults(block)]
+        yield from faults
+        if not faults:
+            yield from not_elliptic(block, "energy")
+        one, other = block["between"]
+        if one == other:
+            yield ("between",), block["between"], "two fractions that differ"
+        nobles = block.get("nobles", [[1], [1]])
+        for i, noble in enumerate(nobles):
             before, period = 0, 1
             for quotient in noble[1:] + [1] * (block["convergents"] - 1):
                 before, period = period, before + quotient * period
             if not 0 < period <= LARGEST:
                 what = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
                 yield ("nobles", i), noble, what
-        if block["drawn"] * len(block["nobles"]) > LARGEST:
+        if block["drawn"] * len(nobles) > LARGEST:
             what = f"at most {LARGEST} points drawn, counted over all nobles"
             yield ("drawn",), block["drawn"], what
 

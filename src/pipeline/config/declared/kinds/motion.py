@@ -20,6 +20,13 @@ class Motion(OfPeriodicOrbit):
     framed_by = ("period", "type", "duration")
     telling = "orbit"
     studied = "motion"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.01
+    period: 5
+    type: hyperbolic
+    duration: 40
+    """
 
     duration: real("a number with 0 < duration <= 10000", gt=0, le=10_000)
     """how much time is drawn"""

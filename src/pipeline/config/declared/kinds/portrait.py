@@ -23,6 +23,13 @@ class Portrait(OnSurface, OfOrbits):
     stages = ("orbits",)
     telling = "impacts"
     studied = "portrait"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.01
+    starts: [-0.3, {x: 0.1, y: 0.02}, 0.7]
+    impacts: [200, 200, 2000]
+    sea: [2]
+    """
 
     sea: listed(whole(0, LARGEST), PLACES, 0, None, distinct) = []
     """which orbits are chaotic, drawn in grey"""

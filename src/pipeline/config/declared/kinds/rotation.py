@@ -1,7 +1,7 @@
 """Rotation number and exponent against the start."""
 
 from ..fields import Between, Energy, listed, whole
-from ..scene import Scene, listing
+from ..scene import Scene, listing, not_elliptic
 
 
 class Rotation(Scene):
@@ -19,6 +19,15 @@ class Rotation(Scene):
 
     stages = ("rotation",)
     telling = "at the fixed point"
+    example = """
+    ball: {k: 0.1, g: 0.02}
+    energy: 0.01
+    energies: [0.001, 0.005]
+    starts: 80
+    impacts: 1000
+    detail: [-0.3, -0.2]
+    detail_impacts: 1000
+    """
 
     energies: listed(Energy, "a list of energies", 1, 20)
     """further energies, drawn with the first"""
@@ -30,6 +39,15 @@ class Rotation(Scene):
     """a part of y = 0 over which as many starts lie again"""
     detail_impacts: whole(100, 10_000_000)
     """impacts of each orbit there"""
+
+    @classmethod
+    def faults(cls, block):
+        """Rotation numbers are about an elliptic fixed point."""
+        faults = [*super().faults(block)]
+        yield from faults
+        if not faults:
+            yield from not_elliptic(block, "energy")
+            yield from not_elliptic(block, "energies")
 
     @staticmethod
     def numbers(block, rotation):

@@ -18,6 +18,20 @@ class Spread(OfRecords):
 
     stages = ("spread", "lyapunov")
     telling = "long-run exponent"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.05
+    orbits: 8
+    length: 2000
+    blocks: 20
+    regular: [-0.6]
+    regular_impacts: 1024
+    cells: 10
+    visits: 1000
+    starts: [0.3, 0.5]
+    impacts: 500
+    records: 20
+    """
 
     orbits: whole(2, 1000)
     """how many orbits start uniformly over the section"""
@@ -27,7 +41,7 @@ class Spread(OfRecords):
     """stretches into which each is cut"""
     regular: listed(Fraction, "a list of fractions")
     """starts of regular orbits"""
-    regular_impacts: whole(2, 10_000_000)
+    regular_impacts: whole(16, 10_000_000)
     """impacts of each of them"""
     cells: whole(2, 1000)
     """cells to a side of the grid over the section"""

@@ -1,7 +1,11 @@
 """The fixed point's twist against the energy."""
 
+import math
+
 from ..fields import Energy, axes_of, listed, rising
-from ..scene import Scene
+from ..scene import Scene, fixed_point_trace, not_elliptic
+
+CLOSE = 1e-9  # of a trace to one that belongs to a root of unity
 
 
 class Twist(Scene):
@@ -21,6 +25,12 @@ class Twist(Scene):
     stages = ("twist",)
     framed_by = ("energies",)
     telling = "zero of the twist"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    energies: [0.0005, 0.001, 0.002, 0.003, 0.004, 0.005]
+    marks: [0.002]
+    """
 
     energies: listed(Energy, "a list of energies in rising order", 2, 1000, rising)
     """where the coefficient is computed"""
@@ -30,13 +40,22 @@ class Twist(Scene):
 
     @classmethod
     def faults(cls, block):
-        """Marks are among the energies."""
-        yield from super().faults(block)
+        """Marks are among the energies; the fixed point has a twist at each of these."""
+        faults = [*super().faults(block)]
+        yield from faults
         for mark in block["marks"]:
             if mark not in block["energies"]:
                 yield ("marks",), mark, "one of energies"
+        if not faults:
+            yield from not_elliptic(block, "energies")
+            for i, energy in enumerate(block["energies"]):
+                trace = fixed_point_trace(block["ball"], energy)
+                if min(abs(trace - root) for root in (-1, 0)) < CLOSE:
+                    what = "an energy at which no power of the multiplier up to the fourth is 1"
+                    yield ("energies", i), energy, what
 
     @staticmethod
     def numbers(block, twist):
         """Where it vanishes."""
-        return {"zero of the twist": f"{float(twist['zero']):.12f}"}
+        zero = float(twist["zero"])
+        return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
