@@ -64,13 +64,6 @@ def test_a_scale_reaches_every_energy_and_leaves_numbers_of_starts():
     assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
 
 
-def test_axes_that_a_kind_must_have_stay():
-    document = shipped()
-    document["scenes"] = {"sets": document["proofs"]["horseshoe"]}
-    document |= {"variants": {"v": {"energy": 0.0099}}}
-    assert config.check(document)["variants"]["v"]["sets"]["axes"]["p"]["limits"] == [-1.6, 1.6]
-
-
 def test_a_variant_s_own_axes_stay():
     axes = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
     change = {"energy": 0.002, "scenes": {"fig3": {"axes": axes}}}

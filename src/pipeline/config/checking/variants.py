@@ -61,8 +61,7 @@ def _derived(block, variant, change):
     framing = ("ball", "energy", *kind.framed_by)
     moved = variant.get("scale", 1) != 1 or any(block.get(f) != after.get(f) for f in framing)
     if moved and "axes" not in change:
-        if "axes" in kind.model_fields and not kind.model_fields["axes"].is_required():
-            after.pop("axes", None)
+        after.pop("axes", None)
     elif moved:
         after["axes"] = change["axes"]
     return after
