@@ -120,7 +120,7 @@ class Tree:
 def _own_cache(path):
     """Where the copy at `path` keeps compiled code."""
     file = path / "src" / "pseudorigid" / "kernel" / "compiled.py"
-    spec = importlib.util.spec_from_file_location("compiled_elsewhere", file)
+    spec = importlib.util.spec_from_file_location("pseudorigid.kernel.compiled_elsewhere", file)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module._CACHE

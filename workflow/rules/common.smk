@@ -8,10 +8,14 @@ from pipeline.config import ConfigError, expected, load, places
 from pipeline.config.declared import study as parts
 from pipeline.config.declared.kinds import KINDS
 from pipeline.config.declared.stages import STAGES
+from pipeline.records.files import file_hash
 from pipeline.records.record import record_path
+from pipeline.records.sources import WORKFLOW
 from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
+# As they are now that snakemake reads them: jobs compare.
+READ = {path: file_hash(ROOT / path) for path in WORKFLOW}
 
 # Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
 sys.executable = shlex.quote(sys.executable)

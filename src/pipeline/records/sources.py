@@ -12,6 +12,12 @@ from pathlib import Path
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
 PACKAGES = ("pseudorigid", "pipeline")
+# What snakemake reads: it says which function a job calls, with what.
+WORKFLOW = ("Snakefile", "workflow/rules/common.smk", "workflow/rules/results.smk")
+# Module -> the files that it reads.
+_READS = {
+    "src/pseudorigid/proofs/theorems/statements.py": "src/pseudorigid/proofs/certificates/*.toml"
+}
 
 
 def code(script: str, *modules: str) -> list[str]:
@@ -27,10 +33,13 @@ def code(script: str, *modules: str) -> list[str]:
     Returns
     -------
     list of str
-        From the root, the script included.
+        From the root, the script and the workflow's own files included.
     """
-    scripts = [ROOT / "workflow" / "scripts" / name for name in (script, "job.py")]
-    return [os.path.relpath(file, ROOT) for file in (*scripts, *closure(*scripts, *modules))]
+    path = ROOT / "workflow" / "scripts" / script
+    files = [os.path.relpath(file, ROOT) for file in (path, *closure(path, *modules))]
+    for module in set(files) & set(_READS):
+        files += sorted(os.path.relpath(file, ROOT) for file in ROOT.glob(_READS[module]))
+    return [*WORKFLOW, *files]
 
 
 def closure(*starts: str | Path) -> list[Path]:

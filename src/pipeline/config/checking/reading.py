@@ -4,6 +4,8 @@ from pathlib import Path
 
 import yaml
 
+import pseudorigid
+
 from .document import check
 from .words import ConfigError
 
@@ -51,7 +53,9 @@ def load(path) -> dict:
 
 def _parse(path):
     try:
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+        data = path.read_bytes()
+        pseudorigid.note_loaded(path, data)
+        return yaml.load(data.decode("utf-8"), _Loader)
     except OSError as error:
         raise ConfigError(f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
