@@ -6,7 +6,7 @@ import signal
 import sys
 from contextlib import contextmanager, suppress
 
-from ..records.record import ChangedError, require_loaded_unchanged
+from ..records.record import require_loaded_unchanged
 from ..records.sources import ROOT
 
 
@@ -35,7 +35,7 @@ def one_line(about="", kind=ValueError):
 def locked():
     """Hold the lock of this folder; UsageError where another run has it. Death releases it.
 
-    UsageError at the end, too, where config.yaml or a module that was loaded has changed.
+    ChangedError at the end where config.yaml or a module that was loaded has changed.
     """
     try:
         lock = open(ROOT / ".lock", "w")  # noqa: SIM115  (closed below)
@@ -48,8 +48,7 @@ def locked():
         except OSError:
             raise UsageError("another ./reproduce is running in this folder") from None
         yield
-        with one_line(kind=ChangedError):
-            require_loaded_unchanged()
+        require_loaded_unchanged()
 
 
 def end_jobs() -> None:
