@@ -15,6 +15,7 @@ from ..records.differences import differing_block, differing_files, differing_pa
 from ..records.files import FileError, file_hash
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
+from ..records.sources import meaning
 from . import manifest
 
 # A difference in one of these alone leaves the committed bytes.
@@ -42,7 +43,7 @@ class Comparison:
         if entry is None or name not in entry["figures"]:
             return None
         sources = {path: self.committed["sources"][path] for path in entry["sources"]}
-        here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
+        here = {path: meaning(self.root / path) for path in self.contract.sources(scene)}
         was, now = "in the manifest", "in config.yaml"
         before = self.committed["environment"]
         layers = {

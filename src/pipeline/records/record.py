@@ -16,7 +16,7 @@ from pathlib import Path
 import pseudorigid
 
 from .files import file_hash, write_whole
-from .sources import ROOT
+from .sources import ROOT, meaning
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
@@ -100,19 +100,20 @@ def recorded(output, config, sources, inputs=()):
     ChangedError
         Where a source or an input changed from when it was loaded to now; no record is written.
     """
+    texts = {path: file_hash(path) for path in sorted(sources)}
     commit, dirty = _commit()
     record = {
         "commit": commit,
         "dirty": dirty,
         "config": config,
         "inputs": {path: file_hash(path) for path in sorted(inputs)},
-        "sources": {path: file_hash(path) for path in sorted(sources)},
+        "sources": {path: meaning(path) for path in texts},
         "environment": versions(),
         "python": platform.python_version(),
     }
-    require_unchanged(record["sources"])
+    require_unchanged(texts)
     yield
-    require_unchanged(record["sources"] | record["inputs"])
+    require_unchanged(texts | record["inputs"])
     about = {"file": output, "sha256": file_hash(output)}
     if output.endswith(".nc"):
         from .artifacts import content_hash, load
