@@ -81,6 +81,29 @@ def test_a_stale_pyc_does_not_reach_the_machine_code(src, tmp_path):
     shutil.rmtree(tmp_path / "cache")
     assert says(src, undone, **cache) == "3.0"
     assert says(src, show, **cache) == "2.0"
+    # Edited between the import of what is called and of what calls it, and left so.
+    shutil.rmtree(tmp_path / "cache")
+    between = "import pathlib, pseudorigid.kernel.callee; "
+    between += f"p = pathlib.Path({str(file)!r}); p.write_text(p.read_text().replace('2.0', '4.0'))"
+    assert says(src, f"{between}; {show}", **cache) == "2.0"
+    assert says(src, show, **cache) == "4.0"
+
+
+def test_a_comment_compiles_nothing_again_and_a_constant_does(src, tmp_path):
+    constants = src / "pseudorigid/kernel/constants.py"
+    constants.write_text("ONE = 1.0\n")
+    caller = "from . import constants\nfrom .compiled import jit\n\nONE = constants.ONE\n\n\n@jit\n"
+    (src / "pseudorigid/kernel/caller.py").write_text(f"{caller}def f():\n    return ONE\n")
+    show = "from pseudorigid.kernel.caller import f; print(f(), sum(f.stats.cache_hits.values()))"
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    assert says(src, show, **cache) == "1.0 0"
+    assert says(src, show, **cache) == "1.0 1"
+    for file in ("caller", "constants", "compiled/__init__", "compiled/locator"):
+        path = src / f"pseudorigid/kernel/{file}.py"
+        path.write_text(f"# A comment before everything.\n{path.read_text()}")
+    assert says(src, show, **cache) == "1.0 1"
+    constants.write_text("ONE = 2.0\n")
+    assert says(src, show, **cache) == "2.0 0"
 
 
 def test_what_was_loaded_is_noted():

@@ -17,6 +17,7 @@ from .closure import closure
 from .meaning import facts
 
 SRC = Path(__file__).parents[3]
+_SEEN = set()  # modules and names of functions
 
 
 class Locator(_CacheLocator):
@@ -34,10 +35,12 @@ class Locator(_CacheLocator):
         """Whether the machine code of a function is kept; else every process compiles for itself.
 
         It is not where the folder cannot be written, nor where this process loaded one of the files
-        behind the function when that had another text.
+        behind the function when that had another text, nor for a second function of one name.
         """
-        module = function.__module__
-        return module.startswith("pseudorigid.") and _path(module) is not None
+        module, name = function.__module__, function.__qualname__
+        first = (module, name) not in _SEEN
+        _SEEN.add((module, name))
+        return first and module.startswith("pseudorigid.") and _path(module) is not None
 
     def get_cache_path(self):
         return _path(self._module)

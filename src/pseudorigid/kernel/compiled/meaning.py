@@ -59,10 +59,11 @@ def facts(name, data):
         The hash, and for each import the number of dots, the module and the names; names are empty
         for `import module`.
     """
-    key = f"{Path(name).suffix} {hashlib.sha256(data).hexdigest()}"
+    suffix = ".smk" if name == "Snakefile" else Path(name).suffix
+    key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
     known = _known()
     if key not in known:
-        known[key] = _facts(Path(name).suffix, data)
+        known[key] = _facts(suffix, data)
         known["new"] = True
     return known[key]
 
