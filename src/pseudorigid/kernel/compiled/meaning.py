@@ -17,7 +17,9 @@ from contextlib import suppress
 from pathlib import Path
 
 SCHEME = 1  # to be raised when the same text gets another hash
-_KEPT = Path(__file__).parents[1] / "__pycache__" / f"meanings-{SCHEME}.json"
+# What other processes found, by this text of this module.
+_OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
+_KEPT = Path(__file__).parents[1] / "__pycache__" / f"meanings-{_OWN}.json"
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 # They follow from the place of a node, or are of no consequence.
@@ -62,7 +64,7 @@ def facts(name, data):
     suffix = ".smk" if name == "Snakefile" else Path(name).suffix
     key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
     known = _known()
-    if key not in known:
+    if not (isinstance(known.get(key), list) and len(known[key]) == 2):
         known[key] = _facts(suffix, data)
         known["new"] = True
     return known[key]
