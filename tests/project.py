@@ -1,19 +1,17 @@
 """A copy of the project in a folder of its own, driven as a user drives it."""
 
 import fcntl
-import importlib.util
 import os
 import re
 import shutil
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import yaml
-from numba.core.caching import _CacheLocator
 
-from pseudorigid.kernel import compiled
+from pseudorigid.kernel.compiled import locator
 
 ROOT = Path(__file__).parents[1]
 # The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
@@ -54,20 +52,17 @@ class Tree:
         self.write(document)
 
     def warm(self):
-        """Bring compiled code along, also after an edit that leaves the machine code as it is.
-
-        Numba keeps it in a folder named after the text of the sources, and in it for each folder
-        of sources in one named after that folder's place.
-        """
-        here, there = Path(compiled._CACHE), Path(_own_cache(self.path))
-        package = self.path / "src" / "pseudorigid"
-        for folder in (package, *(p for p in package.rglob("*") if p.is_dir())):
-            theirs = ROOT / folder.relative_to(self.path) / "x.py"
-            old, new = map(
-                _CacheLocator.get_suitable_cache_subpath, map(str, (theirs, folder / "x.py"))
-            )
-            if (here / old).is_dir() and not (there / new).exists():
-                shutil.copytree(here / old, there / new)
+        """Bring compiled code along, as far as the copy means the same, and what files mean."""
+        here, there = Path(locator.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
+        there.mkdir(exist_ok=True)
+        for kept in here.glob("meanings-*.json"):
+            shutil.copy(kept, there)
+        for kept in here.glob("pseudorigid.*-*"):
+            module = kept.name.rpartition("-")[0]
+            subfolder = locator.subfolder.__wrapped__
+            with suppress(ValueError):  # of a module that is there no more
+                if subfolder(self.path / "src", module)[0] == kept.name:
+                    shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)
 
     def command(self, *arguments):
         """What ./reproduce runs once .venv is ready."""
@@ -115,15 +110,6 @@ class Tree:
         tree = Tree(path)
         tree.warm()
         return tree
-
-
-def _own_cache(path):
-    """Where the copy at `path` keeps compiled code."""
-    file = path / "src" / "pseudorigid" / "kernel" / "compiled.py"
-    spec = importlib.util.spec_from_file_location("compiled_elsewhere", file)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module._CACHE
 
 
 def fresh_tree(path, document=None):

@@ -2,10 +2,10 @@
 
     python tests/warm.py
 
-Machine code is kept where pseudorigid.kernel.compiled says, in a folder that any edit of what is
-compiled renames; a second call does nothing.
+Machine code is kept where pseudorigid.kernel.compiled.locator says; a second call does nothing.
 """
 
+import hashlib
 import os
 import sys
 from pathlib import Path
@@ -46,9 +46,12 @@ def compile_the_rest():
 
 
 if __name__ == "__main__":
-    from pseudorigid.kernel import compiled
+    from pseudorigid.kernel.compiled import locator
+    from pseudorigid.kernel.compiled.meaning import meaning
 
-    done = Path(compiled._CACHE) / "by the tests"
+    files = sorted((locator.SRC / "pseudorigid").rglob("*.py"))
+    digest = hashlib.sha256(" ".join(map(meaning, files)).encode()).hexdigest()
+    done = Path(locator.folder(), f"by the tests {digest[:16]}")
     if not done.exists():
         if child := os.fork():
             compile_stages()

@@ -17,7 +17,11 @@ All of them read numbers by one rule:
 - What is refused raises ValueError with one line: the name, the value, and what is allowed.
 """
 
+import hashlib
 import importlib
+import os
+import sys
+from importlib.machinery import PathFinder, SourceFileLoader
 
 _HOMES = {
     "Ball": "dynamics.ball",
@@ -28,6 +32,13 @@ _HOMES = {
 }
 
 __all__ = list(_HOMES)
+
+# Modules of this package are compiled from their text, which takes milliseconds, and the hash of
+# each text is noted here. Python itself would run a cached .pyc whenever the source still has the
+# size and the second that the .pyc states, so that an edit of the same length within one second
+# goes unseen. No .pyc of this package is read or written.
+LOADED = {}  # real path of a file -> sha256 of each text that this process loaded from it
+_FROM_TEXT = set()
 
 
 def __getattr__(name):
@@ -52,3 +63,55 @@ def _version():
     if (root / "src" / __name__).is_dir():
         return tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
     return metadata.version(__name__)
+
+
+def note_loaded(path, data):
+    """Note that this process loaded a file.
+
+    Parameters
+    ----------
+    path : path
+    data : bytes
+        What was read from it.
+    """
+    digest = hashlib.sha256(data).hexdigest()
+    LOADED.setdefault(os.path.realpath(str(path)), set()).add(digest)
+
+
+def load_from_text(package):
+    """Load the modules of a package from their text from now on.
+
+    Parameters
+    ----------
+    package : str
+        Its name.
+    """
+    _FROM_TEXT.add(package)
+    if _Finder not in sys.meta_path:
+        sys.meta_path.insert(0, _Finder)
+
+
+class _Loader(SourceFileLoader):
+    """Compile a module from the text that its file has now."""
+
+    def get_code(self, fullname):
+        path = self.get_filename(fullname)
+        data = self.get_data(path)
+        note_loaded(path, data)
+        return self.source_to_code(data, path)
+
+
+class _Finder:
+    """Find the modules of packages that are loaded from their text."""
+
+    @staticmethod
+    def find_spec(fullname, path=None, target=None):
+        if fullname.partition(".")[0] not in _FROM_TEXT:
+            return None
+        spec = PathFinder.find_spec(fullname, path, target)
+        if spec is not None and type(spec.loader) is SourceFileLoader:
+            spec.loader = _Loader(fullname, spec.loader.path)
+        return spec
+
+
+load_from_text(__name__)

@@ -67,7 +67,7 @@ def test_a_result_made_by_other_code(moved):
     module = moved.path / MOTION
     text, then = module.read_text(), module.stat()
     with module.open("a") as file:
-        file.write("# edited\n")
+        file.write("_EDITED = 1\n")
     moved.warm()
     target = "results/paper/motion_fig3.nc"
     assert moved.run(target).returncode == 0

@@ -88,7 +88,7 @@ def test_source(moved):
     """Stale until it is made again; then the bytes are the committed ones, and that is a note."""
     module = "src/pseudorigid/dynamics/motion.py"
     with (moved.path / module).open("a") as file:
-        file.write("# edited\n")
+        file.write("_EDITED = 1\n")
     found = verified(moved)
     assert (found.status, found.wrong) == (1, {})
     words = f"made by other code than this tree's: {module} differs: run ./reproduce"

@@ -158,6 +158,8 @@ def bare(tmp_path):
     """What `reproduce` needs to answer, in a folder whose name has spaces and a colon."""
     folder = tmp_path / "a clone: here"
     shutil.copytree(ROOT / "src/pipeline", folder / "src/pipeline")
+    (folder / "src/pseudorigid").mkdir()
+    shutil.copy(ROOT / "src/pseudorigid/__init__.py", folder / "src/pseudorigid")
     shutil.rmtree(folder / "src/pipeline/__pycache__", ignore_errors=True)
     for cache in folder.rglob("__pycache__"):
         shutil.rmtree(cache)

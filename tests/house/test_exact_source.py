@@ -20,7 +20,8 @@ INEXACT = re.compile(
 def behind_the_figures():
     """Every file of the project whose bits can reach a figure."""
     results = expected.of_scenes(config.load(SHIPPED)["variants"])
-    return sorted({file for made in results.values() for file in made.sources})
+    files = {file for made in results.values() for file in made.sources}
+    return sorted(file for file in files if file.endswith(".py"))
 
 
 def inexact(tree):

@@ -221,7 +221,7 @@ def test_a_stage_of_three_files(copy):
     assert flights.attrs["stage"] == "flights"
     assert "| `flights` |  | `orbits` | does not depend on it |" in docs(copy)
     with (copy.path / "src" / "pseudorigid" / "dynamics" / "flights.py").open("a") as file:
-        file.write("# edited\n")
+        file.write("_EDITED = 1\n")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
 
 

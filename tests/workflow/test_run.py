@@ -110,7 +110,7 @@ def test_each_edit_makes_again_what_uses_it_alone(done):
     (dynamics / "orbits.py").touch()
     then = (dynamics / "manifolds.py").stat()
     with (dynamics / "manifolds.py").open("a") as file:
-        file.write("# edited\n")
+        file.write("_EDITED = 1\n")
     os.utime(dynamics / "manifolds.py", ns=(then.st_atime_ns, then.st_mtime_ns))
     shutil.rmtree(done.path / ".snakemake")  # its memory of parameters and times
     drawings = {f"fig{number}.png" for number in (3, 5, 6, 7)}

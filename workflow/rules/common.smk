@@ -9,12 +9,15 @@ from pipeline.config.declared import study as parts
 from pipeline.config.declared.kinds import KINDS
 from pipeline.config.declared.stages import STAGES
 from pipeline.records import sources
+from pipeline.records.files import file_hash
 from pipeline.records.record import record_path
 from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
 if not ROOT.samefile(sources.ROOT):
     sys.exit(f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here")
+# As they are now that snakemake reads them: jobs compare.
+READ = {path: file_hash(ROOT / path) for path in sources.WORKFLOW}
 
 # Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
 sys.executable = shlex.quote(sys.executable)

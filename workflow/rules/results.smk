@@ -54,5 +54,6 @@ for name, (result, program, scenes, given) in RULES.items():
             sources=made(result, "sources"),
             given=given,
             program=program,
+            workflow=READ,
         script:
             "../scripts/{params.program}.py"

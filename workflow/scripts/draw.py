@@ -2,9 +2,9 @@
 
 from importlib import import_module
 
-from job import one_line_errors, recorded
 from pipeline.records.artifacts import load
 from pipeline.records.drawings import save_figure
+from pipeline.records.job import one_line_errors, recorded
 
 with one_line_errors(snakemake), recorded(snakemake):
     picture = import_module(f"pseudorigid.figures.{snakemake.params.given}")

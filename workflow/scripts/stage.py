@@ -4,8 +4,8 @@ import os
 import sys
 from importlib import import_module
 
-from job import one_line_errors, recorded
 from pipeline.records import artifacts
+from pipeline.records.job import one_line_errors, recorded
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 

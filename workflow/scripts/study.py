@@ -2,8 +2,8 @@
 
 from importlib import import_module
 
-from job import one_line_errors, recorded
 from pipeline.records import artifacts
+from pipeline.records.job import one_line_errors, recorded
 from pseudorigid.study import failures, figure_errors, states, work
 from pseudorigid.study.machine import machine
 

@@ -1,7 +1,7 @@
 """One block of cells of a sweep, or its blocks as one dataset."""
 
-from job import one_line_errors, recorded
 from pipeline.records import artifacts
+from pipeline.records.job import one_line_errors, recorded
 from pseudorigid.sweep import blocks
 
 with one_line_errors(snakemake), recorded(snakemake):

@@ -5,6 +5,7 @@ from functools import cache
 from ..records.differences import differing_block, differing_files, differing_package
 from ..records.files import file_hash, obstacle
 from ..records.record import RecordError, read_record, versions
+from ..records.sources import meaning
 
 MISSING = "missing"
 DAMAGED = "changed after it was made"
@@ -23,6 +24,7 @@ class Currency:
     def __init__(self, root, expected):
         self.root, self.expected = root, expected
         self.digest = cache(lambda path: file_hash(root / path))
+        self.meaning = cache(lambda path: meaning(root / path))
         self.packages = versions()
         self.reason = cache(self._reason)
 
@@ -63,7 +65,7 @@ class Currency:
             return DAMAGED
         if words := differing_block(record["config"], made.config):
             return f"made from another config: {words}"
-        here = {file: self.digest(file) for file in made.sources}
+        here = {file: self.meaning(file) for file in made.sources}
         if words := differing_files(record["sources"], here):
             return f"made by other code than this tree's: {words}"
         if words := differing_package(record["environment"], self.packages):

@@ -21,6 +21,7 @@ from ..records.differences import (
 from ..records.files import FileError, file_hash, obstacle
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
+from ..records.sources import meaning
 from . import manifest
 from .currency import Currency
 from .sums import ContractError
@@ -87,7 +88,7 @@ class Comparison:
         if entry is None or name not in entry["figures"]:
             return None
         sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
-        here = {path: self.file_hash(path) for path in self.contract.sources(scene)}
+        here = {path: meaning(self.root / path) for path in self.contract.sources(scene)}
         was, now = "in the manifest", "in config.yaml"
         before = self.committed["environment"]
         layers = {

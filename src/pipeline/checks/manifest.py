@@ -14,6 +14,7 @@ from ..records.artifacts import canonical_json, canonical_values, load, plain_at
 from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
+from ..records.sources import meaning
 from .sums import SUMS, ContractError, text_of
 
 MANIFEST = "MANIFEST.json"
@@ -85,9 +86,7 @@ def build(root, contract):
     return {
         "environment": versions(),
         "texts": {path: file_hash(root / path) for path in contract.texts},
-        "sources": {
-            path: file_hash(root / path) for path in sorted(set().union(*sources.values()))
-        },
+        "sources": {path: meaning(root / path) for path in sorted(set().union(*sources.values()))},
         "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
         "scenes": {
             scene: {

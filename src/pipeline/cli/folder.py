@@ -6,6 +6,7 @@ import signal
 import sys
 from contextlib import contextmanager, suppress
 
+from ..records.record import require_loaded_unchanged
 from ..records.sources import ROOT
 
 
@@ -32,7 +33,10 @@ def one_line(about="", kind=ValueError):
 
 @contextmanager
 def locked():
-    """Hold the lock of this folder; UsageError where another run has it. Death releases it."""
+    """Hold the lock of this folder; UsageError where another run has it. Death releases it.
+
+    ChangedError at the end where config.yaml or a module that was loaded has changed.
+    """
     try:
         # Nothing is written into it: a FIFO or a link to another file does no harm.
         lock = os.fdopen(
@@ -47,6 +51,7 @@ def locked():
         except OSError:
             raise UsageError("another ./reproduce is running in this folder") from None
         yield
+        require_loaded_unchanged()
 
 
 def end_jobs() -> None:

@@ -37,7 +37,7 @@ def paths(checked) -> dict[str, str]:
 def derive(checked) -> None:
     """Make the dataset of the derivations by computer algebra, where it is not current."""
     ball, energy = checked["ball"], checked["scenes"]["fig2"]["energy"]
-    files = [str(f.relative_to(ROOT)) for f in sources.closure(PROOFS)]
+    files = sources.closure(PROOFS)
     made = Expected({"ball": ball, "energy": energy}, files)
     if not Currency(ROOT, {DERIVATIONS: made}).reason(DERIVATIONS):
         return

@@ -14,6 +14,7 @@ def main(words: list[str]) -> int:
     # What takes a while to import comes after what may be wrong with the words.
     from ..config import ConfigError
     from ..records.files import FileError
+    from ..records.record import ChangedError
     from ..records.sources import ROOT
     from .folder import UsageError, say, set_environment
 
@@ -28,7 +29,7 @@ def main(words: list[str]) -> int:
         return module.run(given)
     except ConfigError as error:
         print(error, file=sys.stderr)
-    except (UsageError, FileError) as error:
+    except (UsageError, FileError, ChangedError) as error:
         say(str(error))
         return getattr(error, "status", 1)
     except BrokenPipeError:  # of a reader that has seen enough, as `| head` does

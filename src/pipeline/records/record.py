@@ -13,7 +13,10 @@ from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 
+import pseudorigid
+
 from .files import file_hash, read_text, write_whole
+from .sources import ROOT, meaning
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
@@ -23,6 +26,10 @@ PACKAGES += ("pyparsing", "python-flint", "xarray")
 
 class RecordError(ValueError):
     """In words, why a record cannot be read."""
+
+
+class ChangedError(ValueError):
+    """One line about a file that changed while something was made from it."""
 
 
 def record_path(result):
@@ -87,18 +94,26 @@ def recorded(output, config, sources, inputs=()):
         The project's own files that make it.
     inputs : iterable of str
         The results it is made from.
+
+    Raises
+    ------
+    ChangedError
+        Where a source or an input changed from when it was loaded to now; no record is written.
     """
+    texts = {path: file_hash(path) for path in sorted(sources)}
     commit, dirty = _commit()
     record = {
         "commit": commit,
         "dirty": dirty,
         "config": config,
         "inputs": {path: file_hash(path) for path in sorted(inputs)},
-        "sources": {path: file_hash(path) for path in sorted(sources)},
+        "sources": {path: meaning(path) for path in texts},
         "environment": versions(),
         "python": platform.python_version(),
     }
+    require_unchanged(texts)
     yield
+    require_unchanged(texts | record["inputs"])
     about = {"file": output, "sha256": file_hash(output)}
     if output.endswith(".nc"):
         from .artifacts import content_hash, load
@@ -106,6 +121,36 @@ def recorded(output, config, sources, inputs=()):
         about["content"] = content_hash(load(output))
     text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
     write_whole(record_path(output), f"{text}\n")
+
+
+def require_unchanged(hashes):
+    """Refuse to go on where a file is not, or was not when it was loaded, what it should be.
+
+    Parameters
+    ----------
+    hashes : dict
+        File -> its sha256, or None where there is none; the current folder is the root.
+
+    Raises
+    ------
+    ChangedError
+    """
+    for path, digest in hashes.items():
+        loaded = pseudorigid.LOADED.get(os.path.realpath(path), set())
+        if file_hash(path) != digest or loaded - {digest}:
+            raise ChangedError(f"{path} changed during the run; run ./reproduce again")
+
+
+def require_loaded_unchanged():
+    """Refuse to go on where a file of this tree is not what this process loaded from it.
+
+    Raises
+    ------
+    ChangedError
+    """
+    for path, digests in pseudorigid.LOADED.items():
+        for digest in digests if Path(path).is_relative_to(ROOT) else ():
+            require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
 def versions():

@@ -49,7 +49,7 @@ def _cause(currency, path):
         return f"{path}: {error}"
     if told := changes(record["config"], made.config):
         return told
-    before, after = record["sources"], {file: currency.digest(file) for file in made.sources}
+    before, after = record["sources"], {file: currency.meaning(file) for file in made.sources}
     files = [f for f in sorted({*before, *after}) if before.get(f) != after.get(f)]
     if files:
         more = f" and {len(files) - 1} more" if len(files) > 1 else ""

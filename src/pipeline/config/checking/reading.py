@@ -4,7 +4,9 @@ from pathlib import Path
 
 import yaml
 
-from ...records.files import FileError, read_text
+import pseudorigid
+
+from ...records.files import FileError, read_bytes
 from .document import check
 from .words import ConfigError
 
@@ -58,7 +60,9 @@ def _parse(path):
     try:
         if path.is_file() and path.stat().st_size > LARGEST:
             raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST}")
-        return yaml.load(read_text(path), _Loader)
+        data = read_bytes(path)
+        pseudorigid.note_loaded(path, data)
+        return yaml.load(data.decode("utf-8"), _Loader)
     except FileError as error:
         raise ConfigError(str(error).removeprefix(f"{path}: ")) from None
     except OSError as error:

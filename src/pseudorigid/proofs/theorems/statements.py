@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from importlib import resources
 
+import pseudorigid
+
 from ..checks import horseshoe, jump, periodic, twist
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
@@ -88,7 +90,9 @@ class Theorem:
     def text(self):
         """The certificate as it stands in the package."""
         folder = resources.files(__package__.rpartition(".")[0]) / "certificates"
-        return (folder / self.certificate).read_text(encoding="utf-8")
+        data = (folder / self.certificate).read_bytes()
+        pseudorigid.note_loaded(folder / self.certificate, data)
+        return data.decode("utf-8")
 
     def prove(self, text):
         """What the checker finds of a certificate.

@@ -1,9 +1,16 @@
-"""What the scripts share: one line for a job that cannot be done, and records."""
+"""What the scripts of workflow/scripts share: one line for a job that fails, and records."""
 
 import sys
 import traceback
 from contextlib import contextmanager, suppress
 from pathlib import Path
+<<<<<<< HEAD:workflow/scripts/job.py
+=======
+
+import pseudorigid
+
+from . import record
+>>>>>>> 116ed434d89e9dc4b5fa3470c543751827897cff:src/pipeline/records/job.py
 
 
 def _uncaught(kind, error, trace):
@@ -11,6 +18,7 @@ def _uncaught(kind, error, trace):
         sys.__excepthook__(kind, error, trace)
 
 
+_PREAMBLE_ENDS = "######## snakemake preamble end #########\n"
 sys.excepthook = _uncaught  # Ctrl-C is no reason for a traceback
 
 
@@ -40,8 +48,13 @@ def _subject(wildcards):
 
 
 def recorded(snakemake):
-    """Write the record of what made the output, `config` being the block behind it."""
-    from pipeline.records.record import recorded
-
-    given = snakemake.params
-    return recorded(snakemake.output[0], given.block, given.sources, set(snakemake.input))
+    """Write the record of what made the output, once the body has made it."""
+    given, main = snakemake.params, sys.modules["__main__"]
+    # Snakemake runs a copy of the script, which it made when the job began.
+    copy = Path(main.__real_file__).read_text(encoding="utf-8").partition(_PREAMBLE_ENDS)[2]
+    same = Path(main.__file__).read_text(encoding="utf-8") == copy
+    text = Path(main.__file__).read_bytes() if same else copy.encode()
+    pseudorigid.note_loaded(main.__file__, text)
+    for path, digest in given.workflow.items():
+        pseudorigid.LOADED.setdefault(str(record.ROOT / path), set()).add(digest)
+    return record.recorded(snakemake.output[0], given.block, given.sources, set(snakemake.input))

@@ -1,0 +1,82 @@
+"""What changes while a run goes on is not recorded as what made the results."""
+
+import subprocess
+import sys
+
+import pytest
+
+DRAWING = "results/paper/figures/fig3.png"
+AGAIN = "changed during the run; run ./reproduce again"
+MOTION = "src/pseudorigid/figures/kinds/motion.py"  # not loaded by the server of jobs
+
+
+def plant(tree, code):
+    """Have the drawing of fig3 run a line of code when its module is loaded, by the job."""
+    file = tree.path / MOTION
+    line = f"import pathlib; root = pathlib.Path({str(tree.path)!r}); {code}\n"
+    file.write_text(file.read_text() + line)
+
+
+def append(path):
+    """Code that edits a file."""
+    return f"open(root / {path!r}, 'a').write('# edited\\n')"
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "src/pseudorigid/figures/canvas/style.py",  # loaded beforehand by the server of jobs
+        MOTION,
+        "src/pipeline/records/drawings.py",
+        "workflow/scripts/draw.py",
+        "workflow/rules/results.smk",
+        "results/paper/motion_fig3.nc",
+    ],
+)
+def test_a_file_that_changes_fails_the_job(done, path):
+    plant(done, append(path))
+    result = done.run("fig3", "--cores", "1")
+    assert result.returncode == 1
+    assert f"not made: {path} {AGAIN}" in result.stdout
+    assert "Traceback" not in result.stdout
+    assert not (done.path / DRAWING).exists()
+
+
+def test_an_edit_that_is_undone_fails_the_job_that_loaded_it(done):
+    """The server has loaded the file as it was; a job loads it as edited, and then it is undone."""
+    edited = "src/pseudorigid/figures/edited.py"
+    (done.path / edited).write_text("VALUE = 1\n")
+    plant(
+        done,
+        f"p = root / {edited!r}; p.write_text('VALUE = 2\\n'); "
+        "from pseudorigid.figures import edited; p.write_text('VALUE = 1\\n')",
+    )
+    result = done.run("fig3", "--cores", "1")
+    assert result.returncode == 1
+    assert f"not made: {edited} {AGAIN}" in result.stdout
+    assert not (done.path / DRAWING).exists()
+
+
+def test_a_run_says_that_the_config_changed(done):
+    plant(done, append("config.yaml"))
+    result = done.run("fig3", "--cores", "1")
+    assert result.returncode == 1
+    assert result.stdout.splitlines()[-1] == f"reproduce: config.yaml {AGAIN}"
+    assert done.run("fig3", "--cores", "1").returncode == 0
+
+
+def test_a_script_of_plain_snakemake_is_compared_too(done):
+    plant(done, append("workflow/scripts/draw.py"))
+    (done.path / DRAWING).unlink()
+    result = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--cores", "1", DRAWING],
+        cwd=done.path,
+        env=done.environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 1
+    log = done.path / "results/paper/logs/fig3.png.log"
+    line = f"pseudorigid: fig3: workflow/scripts/draw.py {AGAIN}"
+    assert log.read_text().splitlines()[-1] == line

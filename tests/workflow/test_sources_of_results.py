@@ -1,0 +1,152 @@
+"""What a job loads is what its record names, and what changes no meaning makes nothing again."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from project import ROOT, fresh_tree, of_scenes, shipped
+
+from pipeline.records.sources import BOOKKEEPING
+
+# Loaded at the start of each Python: at its end a job writes down what of the tree it had loaded.
+NOTES = """
+import atexit, json, os, sys
+
+def note():
+    job = getattr(sys.modules["__main__"], "snakemake", None)
+    if hasattr(job, "output"):
+        files = [getattr(module, "__file__", None) or "" for module in sys.modules.values()]
+        name = job.output[0].replace("/", " ")
+        with open(os.path.join(os.environ["NOTES"], name), "w") as file:
+            json.dump(files, file)
+
+atexit.register(note)
+"""
+
+
+def loaded(tree, folder, *targets):
+    """Result -> the files of the tree that its job, a Python of its own, had loaded at its end."""
+    (folder / "sitecustomize.py").write_text(NOTES)
+    notes = folder / "notes"
+    notes.mkdir()
+    paths = f"{folder}{os.pathsep}{tree.path / 'src'}"
+    result = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--cores", "2", *targets],
+        cwd=tree.path,
+        env=tree.environment() | {"PYTHONPATH": paths, "NOTES": str(notes)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
+    src = f"{tree.path.resolve()}/"
+    return {
+        note.name.replace(" ", "/"): {
+            file.removeprefix(src) for file in json.loads(note.read_text()) if file.startswith(src)
+        }
+        for note in notes.iterdir()
+    }
+
+
+def bookkeeping():
+    names = [f"src/{name.replace('.', '/')}" for name in BOOKKEEPING]
+    return {f"{name}.py" for name in names} | {f"{name}/__init__.py" for name in names}
+
+
+def undeclared(tree, found):
+    """Result -> what its job had loaded and its record does not name."""
+    for result, files in found.items():
+        _, variant, *_, name = Path(result).parts
+        record = tree.path / "results" / variant / "provenance" / f"{name}.json"
+        named = set(json.loads(record.read_text())["sources"])
+        if rest := files - named - bookkeeping():
+            yield result, rest
+
+
+@pytest.mark.slow
+def test_a_job_loads_what_its_record_names(tmp_path):
+    tree = fresh_tree(tmp_path / "tree", of_scenes("fig2", "fig3", "fig5", "fig7"))
+    found = loaded(tree, tmp_path)
+    assert len(found) >= 9
+    assert dict(undeclared(tree, found)) == {}
+    assert all("src/pipeline/records/record.py" in files for files in found.values())
+
+
+@pytest.mark.slow
+def test_jobs_of_the_other_kinds_load_what_their_records_name(tmp_path):
+    """What is proved, a picture of the claims and a sweep."""
+    whole = shipped()
+    few = of_scenes("fig3")
+    few["proofs"] = whole["proofs"]
+    few["claims"] = {"jumps": whole["claims"]["jumps"] | {"sides": 100}}
+    few["sweeps"] = {"line": whole["sweeps"]["line"] | {"starts": 60, "impacts": 200}}
+    few["sweeps"]["line"]["energy"] = {"from": 1.0, "to": 2.0, "count": 2}
+    tree = fresh_tree(tmp_path / "tree", few)
+    drawn = ("proofs/figures/horseshoe.png", "proofs/figures/twist.png", "claims/figures/jumps.png")
+    targets = [f"results/{name}" for name in (*drawn, "sweep/figures/line.png")]
+    found = loaded(tree, tmp_path, *targets)
+    assert len(found) >= 10
+    assert dict(undeclared(tree, found)) == {}
+
+
+def test_comments_formatting_and_docstrings_make_nothing_again(done):
+    python = [*(done.path / "src").rglob("*.py"), *(done.path / "workflow").rglob("*.py")]
+    rules = [done.path / "Snakefile", *(done.path / "workflow").rglob("*.smk")]
+    for file in (*python, *rules):
+        file.write_text(f"{file.read_text()}\n\n# edited\n")
+    stage = done.path / "src/pseudorigid/dynamics/motion.py"
+    text = stage.read_text()
+    stage.write_text(re.sub(r'^"""', '"""In other words: ', text, count=1))
+    assert stage.read_text() != text
+    format_ = [sys.executable, "-m", "ruff", "format", "-q", "--isolated", "--line-length", "88"]
+    subprocess.run([*format_, str(done.path / "src"), str(done.path / "workflow")], check=True)
+    changed = [f for f in python if f.read_text() != (ROOT / f.relative_to(done.path)).read_text()]
+    assert len(changed) > 200
+    result = done.run("-n")
+    assert (result.returncode, result.stdout) == (0, "nothing to make\n")
+    assert "recomputed" not in done.run().stdout
+
+
+def test_a_line_of_code_in_the_kernel_makes_the_datasets_again(done):
+    with (done.path / "src/pseudorigid/kernel/lanes.py").open("a") as file:
+        file.write("_UNUSED = 1\n")
+    planned = done.run("-n").stdout.splitlines()
+    assert planned[0].startswith("fig2: its source changed: lanes.py: orbits")
+    assert len(planned) == 7
+
+
+# In each module of bookkeeping a change of what it does, where it does anything.
+PLANTED = {
+    "pipeline": ("", ""),
+    "pipeline.records": ("", ""),
+    "pipeline.records.files": (".part", ".unfinished"),
+    "pipeline.records.job": ("pseudorigid: {_subject", "planted: {_subject"),
+    "pipeline.records.record": ('"python": platform', '"planted": platform'),
+    "pipeline.records.sources": ("return meanings.meaning(path)", "return 'planted'"),
+    "pseudorigid": ("_FROM_TEXT.add(package)", "pass"),
+    "pseudorigid.kernel.compiled.closure": ("    meaning.keep()\n", ""),
+    "pseudorigid.kernel.compiled.meaning": ("SCHEME = 1 ", "SCHEME = 99 "),
+}
+
+
+def test_changes_of_bookkeeping_do_not_reach_the_bytes(done):
+    """All of them at once: each result made again by the changed modules has the same bytes."""
+    assert set(PLANTED) == set(BOOKKEEPING)
+    for name, (old, new) in PLANTED.items():
+        path = done.path / "src" / name.replace(".", "/")
+        file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+        assert old in file.read_text()
+        file.write_text(f"{file.read_text().replace(old, new)}\n_PLANTED = {name!r}\n")
+    results = done.path / "results" / "paper"
+    made = [*results.glob("*.nc"), *results.glob("figures/*")]
+    before = {file: file.read_bytes() for file in made}
+    for file in (*made, *results.glob("provenance/*")):
+        file.unlink()
+    result = done.run()
+    assert result.returncode == 0, result.stdout
+    assert {file: file.read_bytes() for file in made} == before
+    assert '"planted": "' in next(results.glob("provenance/*.nc.json")).read_text()
