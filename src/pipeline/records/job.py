@@ -4,13 +4,10 @@ import sys
 import traceback
 from contextlib import contextmanager, suppress
 from pathlib import Path
-<<<<<<< HEAD:workflow/scripts/job.py
-=======
 
 import pseudorigid
 
 from . import record
->>>>>>> 116ed434d89e9dc4b5fa3470c543751827897cff:src/pipeline/records/job.py
 
 
 def _uncaught(kind, error, trace):
