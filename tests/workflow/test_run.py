@@ -77,6 +77,55 @@ def test_the_closing_table_and_the_list_say_what_is_committed(accepted, tmp_path
     assert "fig7  paper_figures/fig7.png  not the committed one\n" in listed
 
 
+def test_data_that_keep_their_bytes_have_nothing_drawn_from_them(done):
+    """A source changes its meaning and computes the same numbers; then other ones."""
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
+    text = module.read_text()
+    module.write_text(f"{text}\n_UNUSED = 1\n")
+    scenes = ("fig3", "fig4")
+    plan = "".join(
+        f"{scene}: its source changed: motion.py: motion; perhaps drawing\n" for scene in scenes
+    )
+    assert done.run("-n").stdout == plan
+    drawings = [
+        file
+        for scene in scenes
+        for file in (done.path / "results" / "paper" / "figures").glob(f"{scene}.*")
+    ]
+    before = [file.stat().st_ino for file in drawings]
+    said = done.run().stdout
+    assert re.findall(r"^(fig\d)  +(\w+) .* of \d+$", said, re.MULTILINE) == [
+        (scene, "motion") for scene in sorted(scenes, key=said.index)
+    ]
+    assert set(rows(said).values()) == {"current"}
+    assert [file.stat().st_ino for file in drawings] == before
+    assert done.run("-n").stdout == "nothing to make\n"
+    module.write_text(
+        f"{text}\n_MOTION = scene_motion\n\n\n"
+        "def scene_motion(*given, **fields):\n"
+        "    found = _MOTION(*given, **fields)\n"
+        "    return found.assign(strain=found['strain'] * 1.01)\n"
+    )
+    said = done.run().stdout
+    assert {file for file, state in rows(said).items() if state == "recomputed"} == {
+        file for file in rows(said) if any(scene in file for scene in scenes)
+    }
+
+
+def test_a_missing_result_waits_for_inputs_that_may_keep_their_bytes(done):
+    """Between a dataset that has to be made again and a deleted drawing lies one that may stay."""
+    paper = done.path / "results" / "paper"
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "periodic.py"
+    module.write_text(f"{module.read_text()}\n_UNUSED = 1\n")
+    motion = (paper / "motion_fig3.nc").stat().st_ino
+    (paper / "figures" / "fig3.png").unlink()
+    result = done.run("fig3")
+    assert result.returncode == 0, result.stdout
+    assert (paper / "figures" / "fig3.png").is_file()
+    assert (paper / "motion_fig3.nc").stat().st_ino == motion
+    assert done.run("fig3", "-n").stdout == "nothing to make\n"
+
+
 def test_a_second_run_has_nothing_to_do(done):
     before = done.published()
     start = time.monotonic()
