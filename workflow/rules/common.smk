@@ -54,6 +54,11 @@ def made(result, what):
     return lambda wildcards: getattr(EXPECTED[result.format(**wildcards)], what)
 
 
+def priority(result):
+    """Priority function: the seconds that a long job takes."""
+    return lambda wildcards: SECONDS.get(result.format(**wildcards), 0)
+
+
 def maker(stage, result):
     """Params function: module and function that compute a stage."""
     return lambda wildcards: STAGES[stage].maker(EXPECTED[result.format(**wildcards)].config)
