@@ -129,7 +129,7 @@ def judge(k, states, centre, expected, impacts):
         start, which = length, which[~decided]
         if not which.size:
             break
-        # not by a mask as index, which gives another order in memory, for which all is compiled again
+        # A mask as index would give another order in memory, for which all is compiled again.
         orbits, turned, growth = (np.compress(~decided, a, 1) for a in (orbits, turned, growth))
     return found
 
