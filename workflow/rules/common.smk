@@ -55,8 +55,8 @@ def made(result, what):
 
 
 def priority(result):
-    """Priority function: the seconds that a long job takes."""
-    return lambda wildcards: SECONDS.get(result.format(**wildcards), 0)
+    """Priority function: the seconds that a long job takes, or one that needs this result."""
+    return lambda wildcards: PRIORITIES.get(result.format(**wildcards), 0)
 
 
 def maker(stage, result):

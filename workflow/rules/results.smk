@@ -20,6 +20,13 @@ SECONDS = {
     "results/study/orbits.nc": 35,
     "results/study/edges_all.nc": 20,
 }
+# result -> the same of it, or of what is made from it.
+PRIORITIES = {
+    needed: seconds
+    for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
+    if path in EXPECTED
+    for needed in expected.needed(EXPECTED, [path])
+}
 # rule -> (its result, its script, its scenes, what the script is given beside the block of config)
 STUDY = "results/study/{scene}.nc"
 RULES = {
