@@ -67,10 +67,10 @@ for name, (result, program, scenes, given) in RULES.items():
             f"results/{folder}/logs/{file}.log",
         wildcard_constraints:
             scene=any_of(scenes),
+        priority: priority(result)
         conda:
             "../envs/python.yaml"
         threads: workflow.cores if name == "study_alone" else 1
-        priority: priority(result)
         params:
             block=made(result, "config"),
             sources=made(result, "sources"),
