@@ -14,7 +14,9 @@ from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
 if not ROOT.samefile(sources.ROOT):
-    sys.exit(f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here")
+    sys.exit(
+        f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here"
+    )
 
 # Snakemake pastes this path into shell commands as it stands; a folder's name may have spaces.
 sys.executable = shlex.quote(sys.executable)
