@@ -5,8 +5,11 @@ import re
 import shutil
 import time
 
-from project import fresh_tree
+from project import ROOT, SHIPPED, fresh_tree
 from runs import FIG3, contents, rows
+
+from pipeline.config import expected, load
+from pipeline.config.declared import study
 
 
 def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
@@ -239,3 +242,26 @@ def test_the_graph_is_printed(tree):
     result = tree.run("paper_figures/fig3.png", "--dag")
     assert result.returncode == 0
     assert "digraph snakemake_dag" in result.stdout
+
+
+def test_long_jobs_begin_first_and_only_two_parts_of_the_study_run_alone(tree):
+    parts = [f"results/study/{part}.nc" for part in (*study.FIXED, *study.MEASURED)]
+    said = tree.run(*parts, "-n", "--cores", "3", "--quiet", "host").stdout
+    jobs = {
+        re.search(r"output: results/(\S+)\.nc,", job)[1]: job
+        for job in re.split(r"^rule ", said, flags=re.MULTILINE)[1:]
+    }
+    alone = {name for name, job in jobs.items() if "threads: 3" in job}
+    assert alone == {"study/verdicts", "study/work_all"}
+    assert len(jobs) > len(parts)
+    assert "priority: 190" in jobs["study/verdicts"]
+    assert "priority: 90" in jobs["study/needs"]
+    assert "priority: 90" in jobs["paper/manifolds_fig5"]
+    assert "priority" not in jobs["study/edges"]
+
+
+def test_the_long_jobs_are_jobs():
+    rules = (ROOT / "workflow" / "rules" / "results.smk").read_text(encoding="utf-8")
+    long = re.findall(r'"(results/\S+)": \d+,', rules)
+    assert len(long) > 5
+    assert set(long) <= set(expected.of_all(load(SHIPPED)))
