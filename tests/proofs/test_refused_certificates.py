@@ -10,11 +10,12 @@ from certificates import numbers
 from flint import arb, ctx
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.proofs import THEOREMS, Surface, prove_horseshoe
+from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import horseshoe, jump, periodic
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.enclosure.surface import ball_of
+from pseudorigid.proofs.search import horseshoe as horseshoes
 from pseudorigid.proofs.search import jump as jumps
 from pseudorigid.proofs.search import known
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
@@ -91,8 +92,12 @@ def test_unreadable_certificates_are_refused(name):
     text = THEOREMS[name].text()
     another = re.sub(r"kind = .*", 'kind = "poem"', text)
     without = text.replace("k = ", "kk = ")
+    nested = "[" * 10_000
+    digits = text.replace('k = "1/5"', 'k = "\u0661/\u0665"')  # 1/5 in Arabic digits
     for broken in ("", text[: len(text) // 2], without, another, re.sub(r"\d+", "x", text)):
         refused(name, broken)
+    assert "cannot be read" in refused(name, text + f"more = {nested}")
+    assert "is not an exact number" in refused(name, digits)
 
 
 def test_what_is_refused_without_a_reason_is_not_proved():
@@ -278,9 +283,13 @@ def test_every_number_of_a_statement_is_given_to_its_checker(name):
 
 
 def test_a_longer_chain_is_refused_for_its_entropy():
-    six = symmetric_orbits(BALL, 0.01, 6).isel(orbit=1)
-    surface = THEOREMS["horseshoe-outer"].bounds["surface"]
-    text, _ = prove_horseshoe(surface, six, side="outer", steps=72, size=3e-5, room=1.06)
+    theorem = THEOREMS["horseshoe-outer"]
+    surface = theorem.bounds["surface"]
+    less = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(0)})
+    ball, points = known.ball(surface), known.points(surface, 6, "hyperbolic")
+    plan = horseshoes.Plan(side=1, steps=72, size=3e-5, room=1.06)
+    text = horseshoes.propose(surface, ball, points, plan, less.prove)
+    assert less.check(text).verdict == "proved"
     assert "entropy is not proved" in refused("horseshoe-outer", text)
 
 
