@@ -157,7 +157,7 @@ def test_the_map_is_not_proved_smooth_above_its_threshold():
     with pytest.raises(NotProvedError, match="no flight touches the floor"):
         at = Surface("1/5", "1/25", "11/6250")
         text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
-        jump.check(text, at, radius=Fraction(1), length=Fraction(0))
+        jump.check(text, at, radius=Fraction(1), length=Fraction(0), jump=Fraction(0))
 
 
 @pytest.mark.parametrize("energy", [-0.003, 0.001, 0.01, 0.03, 0.0599])
@@ -251,6 +251,7 @@ STRONGER = [
     ("one-fixed-point", "energy", lambda energy: energy * Fraction(101, 100)),
     ("diffeomorphism", "energy", lambda energy: energy * Fraction(101, 100)),
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
+    ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
     ("twist-zero", "width", lambda width: width / 2),
 ]  # fmt: skip
 
@@ -348,6 +349,9 @@ def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeyp
     other = jumps.propose(theorem.bounds["surface"], "-0.05", "1e-28")
     assert theorem.check(other).digits["point x"] != theorem.check().digits["point x"]
     assert theorem.check(other).verdict == "proved"
+    # not so one near the inner end, where the jump vanishes
+    inner = jumps.propose(theorem.bounds["surface"], "-0.117", "1e-28")
+    assert "within 0.27" in refused("jump-set", inner)
     for speed in ("0.2", "-0.2", "nan"):
         assert refused("jump-set", theorem.text().replace("speed = 0.02", f"speed = {speed}"))
     whole = jump.curve
