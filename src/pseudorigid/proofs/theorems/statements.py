@@ -293,8 +293,8 @@ _THEOREMS = (
     ),
     Theorem(
         "jump-set",
-        f"at E = {HIGH.energy} P is not continuous at the point below, where its two images are "
-        f"more than {float(_JUMPS['jump']):g} apart, and not a diffeomorphism; "
+        f"at E = {HIGH.energy} P is not continuous at the point below, where its one-sided limits "
+        f"are more than {float(_JUMPS['jump']):g} apart, and not a diffeomorphism; "
         f"the points where it jumps are one smooth curve longer than {float(_JUMPS['length']):g} "
         "in (x, y), from the rim to an inner end",
         jump.check,
