@@ -31,7 +31,7 @@ EXPECTED = {
     UNDECIDED: {30, 50, 51, 52, 57, 58, 62, 63, 70},
     PROVED: ALGEBRA,
 }
-PROVED_BY_THEOREMS = {21, 26, 30, 52}
+PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
 
 
 def test_verdicts_without_a_proof(verdicts):

@@ -10,11 +10,12 @@ from certificates import numbers
 from flint import arb, ctx
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.proofs import THEOREMS, Surface, prove_horseshoe
+from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import horseshoe, jump, periodic
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.enclosure.surface import ball_of
+from pseudorigid.proofs.search import horseshoe as horseshoes
 from pseudorigid.proofs.search import jump as jumps
 from pseudorigid.proofs.search import known
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
@@ -91,8 +92,12 @@ def test_unreadable_certificates_are_refused(name):
     text = THEOREMS[name].text()
     another = re.sub(r"kind = .*", 'kind = "poem"', text)
     without = text.replace("k = ", "kk = ")
+    nested = "[" * 10_000
+    digits = text.replace('k = "1/5"', 'k = "\u0661/\u0665"')  # 1/5 in Arabic digits
     for broken in ("", text[: len(text) // 2], without, another, re.sub(r"\d+", "x", text)):
         refused(name, broken)
+    assert "cannot be read" in refused(name, text + f"more = {nested}")
+    assert "is not an exact number" in refused(name, digits)
 
 
 def test_what_is_refused_without_a_reason_is_not_proved():
@@ -152,7 +157,7 @@ def test_the_map_is_not_proved_smooth_above_its_threshold():
     with pytest.raises(NotProvedError, match="no flight touches the floor"):
         at = Surface("1/5", "1/25", "11/6250")
         text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
-        jump.check(text, at, radius=Fraction(1), length=Fraction(0))
+        jump.check(text, at, radius=Fraction(1), length=Fraction(0), jump=Fraction(0))
 
 
 @pytest.mark.parametrize("energy", [-0.003, 0.001, 0.01, 0.03, 0.0599])
@@ -246,6 +251,7 @@ STRONGER = [
     ("one-fixed-point", "energy", lambda energy: energy * Fraction(101, 100)),
     ("diffeomorphism", "energy", lambda energy: energy * Fraction(101, 100)),
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
+    ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
     ("twist-zero", "width", lambda width: width / 2),
 ]  # fmt: skip
 
@@ -278,9 +284,13 @@ def test_every_number_of_a_statement_is_given_to_its_checker(name):
 
 
 def test_a_longer_chain_is_refused_for_its_entropy():
-    six = symmetric_orbits(BALL, 0.01, 6).isel(orbit=1)
-    surface = THEOREMS["horseshoe-outer"].bounds["surface"]
-    text, _ = prove_horseshoe(surface, six, side="outer", steps=72, size=3e-5, room=1.06)
+    theorem = THEOREMS["horseshoe-outer"]
+    surface = theorem.bounds["surface"]
+    less = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(0)})
+    ball, points = known.ball(surface), known.points(surface, 6, "hyperbolic")
+    plan = horseshoes.Plan(side=1, steps=72, size=3e-5, room=1.06)
+    text = horseshoes.propose(surface, ball, points, plan, less.prove)
+    assert less.check(text).verdict == "proved"
     assert "entropy is not proved" in refused("horseshoe-outer", text)
 
 
@@ -339,6 +349,9 @@ def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeyp
     other = jumps.propose(theorem.bounds["surface"], "-0.05", "1e-28")
     assert theorem.check(other).digits["point x"] != theorem.check().digits["point x"]
     assert theorem.check(other).verdict == "proved"
+    # not so one near the inner end, where the jump vanishes
+    inner = jumps.propose(theorem.bounds["surface"], "-0.117", "1e-28")
+    assert "within 0.27" in refused("jump-set", inner)
     for speed in ("0.2", "-0.2", "nan"):
         assert refused("jump-set", theorem.text().replace("speed = 0.02", f"speed = {speed}"))
     whole = jump.curve

@@ -79,7 +79,8 @@ def kam(proved):
     question”"""
     done = [name for name in KAM if proved(name)]
     word = PROVED if len(done) == len(KAM) else UNDECIDED
-    value = "invariant curves in every neighbourhood of the points of " if done else "not proved"
+    value = "invariant curves in every neighbourhood of the elliptic points of the theorems "
+    value = value if done else "not proved"
     return Verdict(word, value + ", ".join(done), "near the points", "./reproduce prove")
 
 

@@ -95,8 +95,9 @@ def half_of_it(*portraits):
 @claim(17, "(30)-(31)", "T", "derivations")
 def energy_bound(algebra):
     """“Thus, the restriction (30) can be equivalently stated as”"""
-    value = f"E < k/2 - g = {number_of(algebra, 'bound'):g}"
-    remark = "needs g < k, which the paper's ball fulfils"
+    value = f"E < k/2 - g = {number_of(algebra, 'bound'):g} is enough for x < 1; but (30) does not "
+    value += "follow from x < 1: it holds for 2g/k - 1 < x < 1 only"
+    remark = "exact; needs g < k, which the paper's ball fulfils"
     return derived(algebra, "bound", value=value, remark=remark)
 
 

@@ -19,7 +19,8 @@ VERDICTS = {
     "(`./reproduce prove`), or from identities that computer algebra verifies for all values of "
     "their symbols (`tests/proofs/test_derivations.py`). Of a question that the paper leaves open: "
     "what it misses is proved here. Numbers beside it are computed unless the row says otherwise.",
-    HOLDS: "Our numbers agree with it within the error given; no proof. Where the statement is a "
+    HOLDS: "Our numbers agree with it within the error given, or an argument by hand that the row "
+    "gives; no proof. Where the statement is a "
     "judgement (*appreciable*, *similar*), so is the verdict, and the numbers behind it are given.",
 }
 DERIVED = "tests/proofs/test_derivations.py"  # the evidence for what computer algebra settles

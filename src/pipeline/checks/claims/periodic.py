@@ -228,18 +228,20 @@ def last_curve(found):
     if not (gone.any() and broken.any()):
         return Verdict(UNDECIDED, "no break-up between the rotation numbers", "", evidence)
     inside, outside = float(numbers[gone].min()), float(numbers[broken].max())
-    value = f"a curve with rotation number {inside:.7f}, none with {outside:.7f}"
+    value = "by Greene's criterion, which is not proved for this map: a curve with rotation number "
+    value += f"{inside:.7f}, none with {outside:.7f}"
     last = int(found["period"].values[:, -1].min())
     return Verdict(HOLDS, value, f"residues of convergents up to period {last}", evidence)
 
 
-@claim(29, "Figures 5, 6", "FN", "fig6/manifolds")
-def window(manifolds):
+@claim(29, "Figures 5, 6", "FN", "fig6/manifolds", theorems=["six-hyperbolic"])
+def window(manifolds, proved):
     """one hyperbolic point lies in the window 0.21 < x < 0.2116, 0.0925 < xdot < 0.0932"""
     x, xdot = (float(manifolds.attrs[f"point_{name}"]) for name in ("x", "xdot"))
     inside = 0.21 < x < 0.2116 and 0.0925 < xdot < 0.0932
     value = f"x = {x:.12f}, xdot = {xdot:.12f}"
-    return decided(inside, value, "1e-12", "paper_figures/fig6.png")
+    evidence = "paper_figures/fig6.png, ./reproduce prove"
+    return decided(inside, value, "1e-12", evidence, proved("six-hyperbolic"))
 
 
 @claim(30, "4.1", "O", theorems=HORSESHOES)

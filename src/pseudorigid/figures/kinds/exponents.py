@@ -51,7 +51,7 @@ def draw(scene, lyapunov):
     inset = _inset(picture, scene["axes"]["largest"], *ends[:2], last=impact[-1])
     if inset:
         later = impact >= inset.across.limits[0]
-        refuse_empty(scene["axes"], {"largest": exponent[later, :, 0]})
+        refuse_empty(scene["axes"], {"largest": greatest[later]})
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
         there = ~np.isnan(exponent[:, orbit, 0])

@@ -59,7 +59,7 @@ class Certificate:
     def __init__(self, text, kind):
         try:
             self._fields = tomllib.loads(text, parse_float=str)
-        except (tomllib.TOMLDecodeError, ValueError, ArithmeticError) as error:
+        except (ValueError, ArithmeticError, RecursionError) as error:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
             raise NotProvedError(f"the certificate is not one of kind {kind!r}")

@@ -43,7 +43,7 @@ SHY = 1 - arb(2) ** -20  # of a bound's root: far enough for its value there to 
 SHORT = 0.95  # of the largest xdot: from there on flights from the rim are short
 
 
-def check(text, surface, *, radius, length):
+def check(text, surface, *, radius, length, jump):
     """Prove a certificate's point of the jump set with its two images, and the set's two ends.
 
     Parameters
@@ -56,13 +56,15 @@ def check(text, surface, *, radius, length):
         The most that a certificate's point may be off.
     length : Fraction
         A lower bound of the curve's length in (x, y), to be proved.
+    jump : Fraction
+        The two one-sided images must be further apart than that, in x or in y.
 
     Returns
     -------
     Finding
         digits: x and y of the point, its near and far image and the outer and inner end; margins:
-        jump, between the images, transversality, and length, by which a polygon on the curve is
-        longer than the bound.
+        jump and length, by which the images are further apart, and a polygon on the curve is
+        longer, than the bounds; transversality.
 
     Raises
     ------
@@ -100,13 +102,13 @@ def check(text, surface, *, radius, length):
                 if not abs(value - ball_of(at)) < ball_of(size):
                     raise NotProvedError(f"the {name} is not within the radius of the stated one")
         near, far = found["near image"], found["far image"]
-        gap = max(lowest(abs(a - b)) for a, b in zip(near, far, strict=True))
-        if not gap > 0:
-            raise NotProvedError("the two one-sided images may be one")
+        further = max(lowest(abs(a - b) - ball_of(jump)) for a, b in zip(near, far, strict=True))
+        if not further > 0:
+            raise NotProvedError(f"the one-sided images may be within {float(jump):g}")
         digits = {f"{name} {axis}": value for name, pair in found.items()
                   for axis, value in zip("xy", pair, strict=True)}  # fmt: skip
         return Finding(digits, {
-            "jump": gap, "transversality": margin, "length": lowest(longer),
+            "jump": further, "transversality": margin, "length": lowest(longer),
         })  # fmt: skip
 
 

@@ -76,11 +76,15 @@ def _largest():
 
 
 def bound() -> Formula:
-    """(31) follows from (30) where g < k, and not where g > k; value: at k = 0.2, g = 0.04."""
+    """(31) keeps x below 1 where g < k, and not where g > k; value: at k = 0.2, g = 0.04.
+
+    (30) is a product that is below zero between x = 2 g/k - 1 and x = 1, not for all x < 1.
+    """
     potential = k * x**2 / 2 - g * x
     limit = k / 2 - g
     largest = _largest()
-    follows = zero(potential.subs(x, 1) - limit) and zero(potential.subs(x, largest) - LEVEL)
+    follows = zero(potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k))
+    follows = follows and zero(potential.subs(x, largest) - LEVEL)
     more = sp.symbols("more", positive=True)
     at_limit = largest.subs(LEVEL, limit)
     below = sp.simplify(at_limit.subs(k, g + more)) == 1

@@ -11,7 +11,7 @@ from flint import arb, ctx, fmpq
 from .flight import UndecidedError, first_root
 from .jets import Jet, algebra
 
-_NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*")
+_NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
 
 def exact(name, value):

@@ -262,7 +262,10 @@ def _horseshoe_theorem(side, crossing, entropy):
     return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
 
 
-_JUMPS = {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048")}
+_JUMPS = {
+    "surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
+    "jump": Fraction("0.27"),
+}  # fmt: skip
 _THEOREMS = (
     *(orbit.theorem(name) for name, orbit in _ORBITS.items()),
     Theorem(
@@ -290,7 +293,8 @@ _THEOREMS = (
     ),
     Theorem(
         "jump-set",
-        f"at E = {HIGH.energy} P is not continuous at the point below, and not a diffeomorphism; "
+        f"at E = {HIGH.energy} P is not continuous at the point below, where its one-sided limits "
+        f"are more than {float(_JUMPS['jump']):g} apart, and not a diffeomorphism; "
         f"the points where it jumps are one smooth curve longer than {float(_JUMPS['length']):g} "
         "in (x, y), from the rim to an inner end",
         jump.check,

@@ -11,9 +11,9 @@ class LastCurve(Scene):
     {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}; below, in the same colours, an orbit
     that starts at the periodic point of the last convergent of each.
 
-    What to see: residues that fall to zero mean a curve of that rotation number. Residues that grow
-    mean that there is none: the orbit from there wanders through the sea and has no rotation
-    number. The last curve of the main island lies between.
+    What to see: by Greene's criterion, residues that fall to zero mean a curve of that rotation
+    number. Residues that grow mean that there is none: the orbit from there wanders through the
+    sea and has no rotation number. The last curve of the main island lies between.
     """
 
     stages = ("last_curve",)
