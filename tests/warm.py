@@ -26,6 +26,7 @@ def compile_the_rest():
 
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.ensemble import ImpactMap
+    from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
     from pseudorigid.study import figure_errors, states
     from pseudorigid.study.methods import counted
     from pseudorigid.sweep import cell
@@ -35,6 +36,7 @@ def compile_the_rest():
     state = states.BALL.start(np.linspace(-0.9, 0.9, 30), 0.01)
     for how in (None, (0.1, 1e-12)):
         ball = Ball(0.2, 0.04, ImpactMap(how))
+        lyapunov_spectrum(ball, state, 20, 1)
         for one in (state, [float(a[0]) for a in state]):
             for name in ("impact", "inverse_impact", "jacobian", "time_to_impact"):
                 getattr(ball, name)(*one)

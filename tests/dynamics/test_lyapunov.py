@@ -7,6 +7,7 @@ import xarray as xr
 from pipeline.checks.compare import exponents
 from pipeline.config.declared.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid.dynamics import lyapunov
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.evidence.spread import stretches
@@ -208,3 +209,10 @@ def test_no_largest_exponent_is_minus_zero():
     numbers = KINDS["exponents"].numbers({}, found)
     assert numbers["largest exponent"] == "0.0000"
     assert "-0.0000" not in numbers["all three of an orbit, at the end"]
+
+
+def test_few_orbits_do_not_wait_for_the_compilation_for_many(monkeypatch):
+    monkeypatch.setattr(lyapunov, "_spectrum", None)
+    states = Ball(0.2, 0.04).start(np.array([0.6, 0.62, 0.65]), 0.01)
+    found = lyapunov_spectrum(Ball(0.2, 0.04), states, 100, 1)["exponent"].values
+    assert found.shape == (1, 3, 3)

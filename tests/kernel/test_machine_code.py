@@ -50,14 +50,14 @@ def test_machine_code_is_strict():
 
 def test_the_loops_over_lanes_are_vector_instructions():
     """Whether the compiler sees that they may be depends on how an index is written."""
-    row, then, h = np.ones(lanes.SIZE), np.ones(lanes.SIZE), (0.1, 0.1)
+    row, h = np.ones(lanes.SIZE), (0.1, 0.1)
     states, flights = tangents.room()
     states[:] = flights[:] = 1.0
     frames = np.ones(15 * tangents.GROUP)
     for loop, arguments in (
         (lanes._march, (row, 0.04)),
         (lanes._land, (row,)),
-        (lanes._end_flights, (row, then, 0.2, 0.04, *h)),
+        (lanes._end_flights, (row, 0.2, 0.04, *h)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, *h)),
         (follow._observe, (np.ones(follow._ROWS), 64, 0.2, 1.0, *h, states, flights, 0)),
         (lyapunov._advance, (frames, 64, 0.2, 1.0, *h, states, flights, 0)),

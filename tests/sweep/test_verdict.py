@@ -74,3 +74,17 @@ def test_the_winding_number_of_a_small_circle_is_the_fixed_points_own():
     found = verdict.judge(k, states, [place], [rotation], 2000)
     assert found.regular[0]
     assert found.winding[0] == pytest.approx(rotation, abs=1e-7)
+
+
+def test_orbits_that_go_on_keep_their_order_in_memory(monkeypatch):
+    """In another order all that follows them would be compiled again."""
+    levels, follow = [], verdict.follow
+
+    def watched(orbits, k, start, stop, *sums):
+        levels.append(stop)
+        assert all(array.flags.c_contiguous for array in (orbits, *sums))
+        follow(orbits, k, start, stop, *sums)
+
+    monkeypatch.setattr(verdict, "follow", watched)
+    cell.cell(0.2, 6.25, 50, 1000)
+    assert levels == [500, 1000]

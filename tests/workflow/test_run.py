@@ -5,8 +5,11 @@ import re
 import shutil
 import time
 
-from project import fresh_tree
+from project import ROOT, SHIPPED, fresh_tree
 from runs import FIG3, contents, rows
+
+from pipeline.config import expected, load
+from pipeline.config.declared import study
 
 
 def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
@@ -75,6 +78,55 @@ def test_the_closing_table_and_the_list_say_what_is_committed(accepted, tmp_path
     assert "fig2  paper_figures/fig2.png  identical to the committed one\n" in listed
     assert "fig3  paper_figures/fig3.png  stale: duration 16 -> 15\n" in listed
     assert "fig7  paper_figures/fig7.png  not the committed one\n" in listed
+
+
+def test_data_that_keep_their_bytes_have_nothing_drawn_from_them(done):
+    """A source changes its meaning and computes the same numbers; then other ones."""
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
+    text = module.read_text()
+    module.write_text(f"{text}\n_UNUSED = 1\n")
+    scenes = ("fig3", "fig4")
+    plan = "".join(
+        f"{scene}: its source changed: motion.py: motion; perhaps drawing\n" for scene in scenes
+    )
+    assert done.run("-n").stdout == plan
+    drawings = [
+        file
+        for scene in scenes
+        for file in (done.path / "results" / "paper" / "figures").glob(f"{scene}.*")
+    ]
+    before = [file.stat().st_ino for file in drawings]
+    said = done.run().stdout
+    assert re.findall(r"^(fig\d)  +(\w+) .* of \d+$", said, re.MULTILINE) == [
+        (scene, "motion") for scene in sorted(scenes, key=said.index)
+    ]
+    assert set(rows(said).values()) == {"current"}
+    assert [file.stat().st_ino for file in drawings] == before
+    assert done.run("-n").stdout == "nothing to make\n"
+    module.write_text(
+        f"{text}\n_MOTION = scene_motion\n\n\n"
+        "def scene_motion(*given, **fields):\n"
+        "    found = _MOTION(*given, **fields)\n"
+        "    return found.assign(strain=found['strain'] * 1.01)\n"
+    )
+    said = done.run().stdout
+    assert {file for file, state in rows(said).items() if state == "recomputed"} == {
+        file for file in rows(said) if any(scene in file for scene in scenes)
+    }
+
+
+def test_a_missing_result_waits_for_inputs_that_may_keep_their_bytes(done):
+    """Between a dataset that has to be made again and a deleted drawing lies one that may stay."""
+    paper = done.path / "results" / "paper"
+    module = done.path / "src" / "pseudorigid" / "dynamics" / "periodic.py"
+    module.write_text(f"{module.read_text()}\n_UNUSED = 1\n")
+    motion = (paper / "motion_fig3.nc").stat().st_ino
+    (paper / "figures" / "fig3.png").unlink()
+    result = done.run("fig3")
+    assert result.returncode == 0, result.stdout
+    assert (paper / "figures" / "fig3.png").is_file()
+    assert (paper / "motion_fig3.nc").stat().st_ino == motion
+    assert done.run("fig3", "-n").stdout == "nothing to make\n"
 
 
 def test_a_second_run_has_nothing_to_do(done):
@@ -190,3 +242,26 @@ def test_the_graph_is_printed(tree):
     result = tree.run("paper_figures/fig3.png", "--dag")
     assert result.returncode == 0
     assert "digraph snakemake_dag" in result.stdout
+
+
+def test_long_jobs_begin_first_and_only_two_parts_of_the_study_run_alone(tree):
+    parts = [f"results/study/{part}.nc" for part in (*study.FIXED, *study.MEASURED)]
+    said = tree.run(*parts, "-n", "--cores", "3", "--quiet", "host").stdout
+    jobs = {
+        re.search(r"output: results/(\S+)\.nc,", job)[1]: job
+        for job in re.split(r"^rule ", said, flags=re.MULTILINE)[1:]
+    }
+    alone = {name for name, job in jobs.items() if "threads: 3" in job}
+    assert alone == {"study/verdicts", "study/work_all"}
+    assert len(jobs) > len(parts)
+    assert "priority: 190" in jobs["study/verdicts"]
+    assert "priority: 90" in jobs["study/needs"]
+    assert "priority: 90" in jobs["paper/manifolds_fig5"]
+    assert "priority" not in jobs["study/edges"]
+
+
+def test_the_long_jobs_are_jobs():
+    rules = (ROOT / "workflow" / "rules" / "results.smk").read_text(encoding="utf-8")
+    long = re.findall(r'"(results/\S+)": \d+,', rules)
+    assert len(long) > 5
+    assert set(long) <= set(expected.of_all(load(SHIPPED)))

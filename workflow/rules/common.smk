@@ -15,7 +15,9 @@ from snakemake.exceptions import WorkflowError
 
 ROOT = Path(workflow.basedir)
 if not ROOT.samefile(sources.ROOT):
-    sys.exit(f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here")
+    sys.exit(
+        f"reproduce: this is {ROOT}, but the code of {sources.ROOT} runs: use ./reproduce here"
+    )
 # As they are now that snakemake reads them: jobs compare.
 READ = {path: file_hash(ROOT / path) for path in sources.WORKFLOW}
 
@@ -55,6 +57,11 @@ def inputs(result):
 def made(result, what):
     """Params function: `what` makes a result, the block of config or the project's files."""
     return lambda wildcards: getattr(EXPECTED[result.format(**wildcards)], what)
+
+
+def priority(result):
+    """Priority function: the seconds that a long job takes, or one that needs this result."""
+    return lambda wildcards: PRIORITIES.get(result.format(**wildcards), 0)
 
 
 def maker(stage, result):

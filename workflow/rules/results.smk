@@ -8,14 +8,36 @@ localrules:
     atlas_draw,
 
 
+# Seconds on one core. The longest jobs begin first, or the last of them would keep one core busy
+# while the others have nothing to do.
+SECONDS = {
+    "results/claims/spread_spread.nc": 55,
+    "results/claims/rotation_rotation.nc": 10,
+    "results/claims/flux_flux.nc": 6,
+    "results/study/verdicts.nc": 190,
+    "results/study/needs.nc": 90,
+    "results/study/work_all.nc": 80,
+    "results/study/orbits.nc": 35,
+    "results/study/edges_all.nc": 20,
+}
+# result -> the same of it, or of what is made from it.
+PRIORITIES = {
+    needed: seconds
+    for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
+    if path in EXPECTED
+    for needed in expected.needed(EXPECTED, [path])
+}
 # rule -> (its result, its script, its scenes, what the script is given beside the block of config)
+STUDY = "results/study/{scene}.nc"
 RULES = {
-    "study_data": (
-        "results/study/{scene}.nc",
+    name: (
+        STUDY,
         "study",
-        (*parts.FIXED, *parts.MEASURED),
+        scenes,
         lambda wildcards: parts.artifacts(wildcards.scene, SCENES, places.served(VARIANTS)),
-    ),
+    )
+    for name, scenes in (("study_data", parts.SIDE_BY_SIDE), ("study_alone", parts.ALONE))
+} | {
     "study_chart": ("results/study/figures/{scene}.png", "draw", parts.CHARTS, "study"),
     "sweep_block": ("results/sweep/{scene}_{number}.nc", "sweep", SWEEPS, None),
     "sweep_join": ("results/sweep/{scene}.nc", "sweep", SWEEPS, None),
@@ -45,10 +67,10 @@ for name, (result, program, scenes, given) in RULES.items():
             f"results/{folder}/logs/{file}.log",
         wildcard_constraints:
             scene=any_of(scenes),
+        priority: priority(result)
         conda:
             "../envs/python.yaml"
-        # Seconds are measured there, and nothing else may run.
-        threads: workflow.cores if name == "study_data" else 1
+        threads: workflow.cores if name == "study_alone" else 1
         params:
             block=made(result, "config"),
             sources=made(result, "sources"),

@@ -26,6 +26,7 @@ class Currency:
         self.digest = cache(lambda path: file_hash(root / path))
         self.meaning = cache(lambda path: meaning(root / path))
         self.packages = versions()
+        self.own_reason = cache(self._own_reason)
         self.reason = cache(self._reason)
 
     def outdated(self, paths=None):
@@ -44,17 +45,42 @@ class Currency:
         reasons = {path: self.reason(path) for path in (self.expected if paths is None else paths)}
         return {path: why for path, why in reasons.items() if why}
 
+    def due(self, paths):
+        """What has to be made now, whatever comes of the other outdated results.
+
+        A result whose record fits, but whose inputs are outdated, waits for these: it stays as it
+        is if they are made again with the same bytes. So do all results behind it.
+
+        Parameters
+        ----------
+        paths : iterable of str
+            Results.
+
+        Returns
+        -------
+        list of str
+        """
+        waits = cache(
+            lambda path: any(
+                used in self.expected
+                and (waits(used) or (self.reason(used) and not self.own_reason(used)))
+                for used in self.expected[path].inputs
+            )
+        )
+        return [path for path in paths if self.own_reason(path) and not waits(path)]
+
     def _reason(self, path):
         """Why a result has to be made again, in words (MISSING where there is none), or None."""
-        made = self.expected[path]
-        if why := self._by_record(path, made):
+        if why := self.own_reason(path):
             return why
-        for used in made.inputs:
+        for used in self.expected[path].inputs:
             if used in self.expected and (why := self.reason(used)):
                 return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
         return None
 
-    def _by_record(self, path, made):
+    def _own_reason(self, path):
+        """Why a result has to be made again even if its inputs keep their bytes, or None."""
+        made = self.expected[path]
         if self.digest(path) is None:
             return obstacle(self.root / path) or MISSING
         try:

@@ -73,7 +73,8 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
     def some(x, v, w, out):
-        return _spectrum(x, v, w, ball.k, ball.g, at, out, ball.map.how)
+        spectra = _each if x.size < FEW else _spectrum  # the second one takes long to compile
+        return spectra(x, v, w, ball.k, ball.g, at, out, ball.map.how)
 
     missed = shared(some, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
@@ -257,14 +258,21 @@ def _one(x, v, w, k, g, at, out, how):
 
 
 @jit
+def _each(x, v, w, k, g, at, out, how):
+    """Write the exponents of orbits, one after the other, to out (n, m, 3), as `_spectrum` does."""
+    missed = 0
+    for i in range(x.size):
+        missed += _one(x[i], v[i], w[i], k, g, at, out[i], how)
+    return missed
+
+
+@jit
 def _group(x, v, w, k, g, at, out, how):
     """Write the exponents of at most GROUP orbits after each of `at` impacts to out (n, m, 3)."""
     n = x.size
     missed, done = 0, 0
     if n < FEW:
-        for i in range(n):
-            missed += _one(x[i], v[i], w[i], k, g, at, out[i], how)
-        return missed
+        return _each(x, v, w, k, g, at, out, how)
     head, low = transfer(k)
     states, flights = room()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))

@@ -151,7 +151,7 @@ def stride(depth, df, ddf, q, g, amplitude, reach):
 
 
 @jit
-def _march(depth, df, ddf, q, g, amplitude):
+def longest_stride(depth, df, ddf, q, g, amplitude):
     """The longest of these steps."""
     sure = sure_stride(depth, df, g, amplitude)
     reach = 2.0 * sure
@@ -232,7 +232,7 @@ def _first_impact(x, b, c, s, g):
     evaluations = 1
     low = t
     while f < 0.0 and not rises_to_its_root(-f, df, ddf, q, g, amplitude):
-        after = t + _march(-f, df, ddf, q, g, amplitude)
+        after = t + longest_stride(-f, df, ddf, q, g, amplitude)
         if after == t:
             return t, p, q, evaluations
         t = after

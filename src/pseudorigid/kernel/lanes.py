@@ -20,6 +20,7 @@ from .flight import (
     first_step,
     gap,
     impact_free_time,
+    longest_stride,
     newton,
     rises_to_its_root,
     rotated,
@@ -38,8 +39,8 @@ X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, RATE, FREE, EVALUATIONS = (
     i * LANES for i in range(13)
 )
 # What an evaluation gives; the next time by the march and 1 if that is a plain step of it; the step
-# to the root and 1 if it is the last; then the next time, 1 for an impact there, 1 for a lane left
-# to `_step_alone`.
+# to the root and 1 if it is the last; then the next time, 1 for an impact there, and whether the
+# lane is left to the functions for one orbit.
 F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
 AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
 SIZE = 29 * LANES
@@ -47,6 +48,9 @@ SIZE = 29 * LANES
 # or speeds near the rounding of numbers of order one.
 _MOST_EVALUATIONS = 50.0
 _TINY = 1e-15
+# The values of ODD: a lane in the common case, one that is left to `_step_alone`, and one whose
+# next step of the march is longer than `_march` can tell.
+_PLAIN, _ALONE, _LONG = 0.0, 1.0, 2.0
 
 
 @jit
@@ -106,7 +110,8 @@ def _follow(lanes, g):
         plain = (lands if landing else marches) & usual
         flag = 1.0 if landing else 0.0
         done = 1.0 if landing & last else 0.0
-        odd = 0.0 if plain else 1.0
+        odd = _ALONE if landing | (not usual) else _LONG
+        odd = _PLAIN if plain else odd
         following = after if landing else ahead
         lanes[NEXT + i], lanes[DONE + i], lanes[ODD + i] = following, done, odd
         lanes[LANDING + i], lanes[LOW + i], lanes[HIGH + i] = flag, low, high
@@ -114,10 +119,10 @@ def _follow(lanes, g):
 
 
 @jit
-def _end_flights(lanes, then, k, g, head, low):
+def _end_flights(lanes, k, g, head, low):
     """The next state where a flight has ended, and the flight from there.
 
-    Returns how many lanes want `_step_alone`.
+    Returns 0 where every lane goes on in the common case and no orbit has ended.
     """
     wanting = 0
     for i in range(LANES):
@@ -125,7 +130,6 @@ def _end_flights(lanes, then, k, g, head, low):
         rise, rate, free = lanes[RISE + i], lanes[RATE + i], lanes[FREE + i]
         evaluations, left = lanes[EVALUATIONS + i], lanes[LEFT + i]
         landing, after, odd = lanes[LANDING + i], lanes[NEXT + i], lanes[ODD + i]
-        low_end, high_end = lanes[LOW + i], lanes[HIGH + i]
         moved = (lanes[DONE + i] != 0.0) & (odd == 0.0) & (left > 0.0)
         p, q = rotated(lanes[P + i], lanes[Q + i], lanes[STEP + i])
         v1 = lanes[B + i] + g * after
@@ -140,12 +144,12 @@ def _end_flights(lanes, then, k, g, head, low):
         rise, rate, free = (rise1, rate1, free1) if moved else (rise, rate, free)
         landing, evaluations = (0.0, 0.0) if moved else (landing, evaluations)
         left = left - 1.0 if moved else left
-        odd = 1.0 if (odd != 0.0) & (left > 0.0) | moved & (left == 0.0) else 0.0
-        then[X + i], then[V + i], then[W + i], then[TAU + i] = x, v, w, tau
-        then[RISE + i], then[RATE + i], then[FREE + i], then[T + i] = rise, rate, free, t
-        then[LANDING + i], then[EVALUATIONS + i], then[LEFT + i] = landing, evaluations, left
-        then[ODD + i] = odd
-        then[LOW + i], then[HIGH + i] = low_end, high_end
+        ended = _ALONE if moved & (left == 0.0) else _PLAIN
+        odd = odd if (odd != _PLAIN) & (left > 0.0) else ended
+        lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, tau
+        lanes[RISE + i], lanes[RATE + i], lanes[FREE + i], lanes[T + i] = rise, rate, free, t
+        lanes[LANDING + i], lanes[EVALUATIONS + i], lanes[LEFT + i] = landing, evaluations, left
+        lanes[ODD + i] = odd
         wanting += int(odd)
     return wanting
 
@@ -165,6 +169,18 @@ def _begin_flight(lanes, i, k, g, head, low):
     usual = 1.0 / HUGE < size < HUGE  # or the unit of length has to be changed
     lanes[EVALUATIONS + i] = 0.0 if usual else math.inf
     lanes[LANDING + i] = 0.0
+
+
+@jit
+def _stride_alone(lanes, i, g):
+    """Do the next step of the march of lane i on its own; whether that moves it."""
+    t = lanes[T + i]
+    f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
+    ahead = t + longest_stride(-f, df, ddf, q, g, lanes[A + i])
+    if ahead < lanes[FREE + i] and ahead * lanes[RATE + i] >= lanes[RISE + i]:
+        ahead = lanes[FREE + i]
+    lanes[T + i] = ahead
+    return ahead > t
 
 
 @jit
@@ -211,7 +227,7 @@ def steps(x, v, w, k, g, impacts, tau, out):
         x, v, w and tau of every impact are written here, unless it is empty.
     """
     head, low = transfer(k)
-    lanes, then = np.zeros(SIZE), np.zeros(SIZE)
+    lanes = np.zeros(SIZE)
     begun = min(x.size, LANES)
     orbit = np.arange(begun)
     for i in range(LANES):
@@ -223,11 +239,12 @@ def steps(x, v, w, k, g, impacts, tau, out):
         _march(lanes, g)
         _land(lanes)
         _follow(lanes, g)
-        wanting = _end_flights(lanes, then, k, g, head, low)
-        lanes, then = then, lanes
+        wanting = _end_flights(lanes, k, g, head, low)
         if wanting > 0:
             for i in range(LANES):
-                if lanes[ODD + i] != 0.0 and lanes[LEFT + i] > 0.0:
+                if lanes[ODD + i] == 0.0 or lanes[LEFT + i] == 0.0:
+                    continue
+                if lanes[ODD + i] != _LONG or not _stride_alone(lanes, i, g):
                     _step_alone(lanes, i, k, g, head, low)
         if out.size > 0:
             _store(lanes, orbit, impacts, out)

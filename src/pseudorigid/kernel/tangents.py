@@ -16,7 +16,7 @@ from .impact import flight_derivatives, history, rebound, tangent, transfer
 # Impacts of a stretch, and orbits that are followed together: what is kept of them fits into the
 # processor's own memory.
 STRETCH = 32
-GROUP = 128
+GROUP = 256
 # Rows of GROUP numbers, one an orbit. Of the states: x, v, w before each impact, and the time of
 # the flight that led there, the first row of each from before the stretch. Of the flights: what
 # `flight_derivatives` returns.

@@ -129,7 +129,8 @@ def judge(k, states, centre, expected, impacts):
         start, which = length, which[~decided]
         if not which.size:
             break
-        orbits, turned, growth = (a[:, ~decided] for a in (orbits, turned, growth))
+        # A mask as index would give another order in memory, for which all is compiled again.
+        orbits, turned, growth = (np.compress(~decided, a, 1) for a in (orbits, turned, growth))
     return found
 
 

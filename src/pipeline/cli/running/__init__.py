@@ -8,7 +8,7 @@ from pathlib import Path
 
 import yaml
 
-from ...checks.currency import DAMAGED, MISSING
+from ...checks.currency import DAMAGED, MISSING, Currency
 from ...config.expected import needed
 from ...records.files import obstacle
 from ...records.record import record_path
@@ -120,15 +120,24 @@ def make(currency, wanted, arguments) -> int:
 
         print(*plan(currency, paths), sep="\n")
         return 0
-    if not (outdated or options):
-        return 0
-    again = [path for path, why in outdated.items() if why != MISSING]
+    if options:  # snakemake decides
+        return _run(paths, outdated, arguments)
+    status, tried = 0, set()
+    while due := [path for path in currency.due(paths) if path not in tried]:
+        status = _run(due, {path: currency.reason(path) for path in due}, arguments) or status
+        tried |= set(due)
+        if status == INTERRUPTED or tried >= set(outdated):
+            break
+        # What was made from these is outdated only if they have other bytes now.
+        currency = Currency(ROOT, currency.expected)
+    return status
+
+
+def _run(paths, outdated, arguments) -> int:
+    """Run snakemake in this process until some results are made; its exit status."""
+    forced = [path for path, why in outdated.items() if why != MISSING]
     computes = any(path.endswith(".nc") for path in outdated)
-    return _run([*paths, *map(record_path, paths)], again, computes, arguments)
-
-
-def _run(targets, forced, computes, arguments) -> int:
-    """Run snakemake in this process to its end; its exit status."""
+    targets = [*paths, *map(record_path, paths)]
     from . import server
 
     makes = not (arguments and only_says(arguments))

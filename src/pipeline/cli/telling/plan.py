@@ -11,7 +11,10 @@ NOT_YET = "not made yet"
 
 
 def plan(currency, paths) -> list[str]:
-    """A line for each scene of the outdated results among `paths`: why, and its stages."""
+    """A line for each scene of the outdated results among `paths`: why, and its stages.
+
+    Stages after `perhaps` are made again only if the data behind them change.
+    """
     scenes = {}
     for path in currency.outdated(paths):
         scene, stage = step(path)
@@ -19,14 +22,17 @@ def plan(currency, paths) -> list[str]:
     lines = []
     for scene, stages in scenes.items():
         words = why(currency, [path for made in stages.values() for path in made])
-        lines.append(f"{scene}: {words}: {', '.join(stages)}")
+        certain = [name for name, made in stages.items() if any(map(currency.own_reason, made))]
+        perhaps = [name for name in stages if name not in certain]
+        told = [", ".join(certain)] if certain else []
+        told += [f"perhaps {', '.join(perhaps)}"] if perhaps else []
+        lines.append(f"{scene}: {words}: {'; '.join(told)}")
     return lines or ["nothing to make"]
 
 
 def why(currency, paths) -> str:
     """Why some outdated results have to be made again: key, old -> new, or what else differs."""
-    derived = "made from results/"  # the cause is another result's
-    own = [path for path in paths if not currency.reason(path).startswith(derived)]
+    own = [path for path in paths if currency.own_reason(path)]
     causes = dict.fromkeys(_cause(currency, path) for path in own)
     if len(causes) > 1:
         causes.pop(NOT_YET, None)

@@ -6,6 +6,9 @@ from .kinds import KINDS
 # Data whose bytes are part of the contract, and measurements.
 FIXED = ("work", "edges", "orbits", "needs", "verdicts")
 MEASURED = ("work_all", "edges_all", "missed_all")
+# Beside these no other job runs: `verdicts` uses all cores, and `work_all` measures seconds.
+ALONE = ("verdicts", "work_all")
+SIDE_BY_SIDE = tuple(part for part in (*FIXED, *MEASURED) if part not in ALONE)
 # chart -> (its data, the function of figures.study, further arguments)
 CHARTS = {
     "work_uniform": ("work", "work", (0, "evaluations")),
