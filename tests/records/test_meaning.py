@@ -1,6 +1,7 @@
 """What a source file means, and that only what decides a result is a source of it."""
 
 import ast
+import os
 import re
 
 import pytest
@@ -9,6 +10,7 @@ from project import ROOT, SHIPPED
 from pipeline.config import expected, load
 from pipeline.records import sources
 from pseudorigid import proofs
+from pseudorigid.kernel.compiled import meaning as meanings
 from pseudorigid.kernel.compiled.meaning import facts
 
 TEXT = '''"""A module."""
@@ -144,3 +146,31 @@ def test_every_file_of_the_tree_can_be_read():
     for file in ROOT.glob("src/**/*.py"):
         assert ast.parse(file.read_text(encoding="utf-8"))
         assert facts(file.name, file.read_bytes()) != facts("x.toml", file.read_bytes())
+
+
+def test_a_fifo_has_no_meaning(tmp_path):
+    os.mkfifo(tmp_path / "module.py")
+    assert meanings.meaning(tmp_path / "module.py") is None
+
+
+@pytest.mark.parametrize("damage", ["value", "import", "cut", "folder", "FIFO"])
+def test_a_damaged_cache_of_meanings_is_not_used(tmp_path, monkeypatch, damage):
+    kept = tmp_path / "meanings.json"
+    monkeypatch.setattr(meanings, "_KEPT", kept)
+    fresh, data = meanings._known.__wrapped__, b"import os\n\nVALUE = 1\n"
+    known = fresh()
+    monkeypatch.setattr(meanings, "_known", lambda: known)
+    found = facts("module.py", data)
+    meanings.keep()
+    assert list(fresh().values()) == [found]
+    text = kept.read_text()
+    if damage in ("folder", "FIFO"):
+        kept.unlink()
+        (os.mkdir if damage == "folder" else os.mkfifo)(kept)
+    elif damage == "cut":
+        kept.write_text(text[:-1])
+    else:
+        edits = {"value": (found[0], "0" * 64), "import": ('"os"', '"re"')}
+        kept.write_text(text.replace(*edits[damage]))
+        assert kept.read_text() != text
+    assert fresh() == {}

@@ -8,5 +8,5 @@ with one_line_errors(snakemake), recorded(snakemake):
     block = snakemake.params.block
     parts = [artifacts.load(path) for path in snakemake.input.data]
     dataset = blocks.join(block, parts) if parts else blocks.compute(block)
-    title = artifacts.title_of(blocks.join if parts else blocks.compute)
+    title = "Cells of a sweep" if parts else "Block of cells of a sweep"
     artifacts.save(dataset, snakemake.output[0], block, title=title)

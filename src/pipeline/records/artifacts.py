@@ -32,7 +32,9 @@ ABOUT = {
 
 
 def title_of(function):
-    """The title of the datasets that a function returns: the first line of its docstring.
+    """The title of the datasets that a function returns: its name, in words.
+
+    Docstrings do not count as sources of a result, and so decide no byte of it.
 
     Parameters
     ----------
@@ -42,7 +44,7 @@ def title_of(function):
     -------
     str
     """
-    return function.__doc__.partition("\n")[0].rstrip(".")
+    return function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
 
 
 def save(dataset, path, config, **attributes):

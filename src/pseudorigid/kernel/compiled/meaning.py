@@ -37,12 +37,11 @@ def meaning(path):
     Returns
     -------
     str or None
-        In hex; None where there is no such file.
+        In hex; None where there is no regular file.
     """
-    try:
-        return facts(Path(path).name, Path(path).read_bytes())[0]
-    except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
-        return None
+    path = Path(path)
+    # Reading a FIFO would wait for ever.
+    return facts(path.name, path.read_bytes())[0] if path.is_file() else None
 
 
 def facts(name, data):
@@ -64,7 +63,7 @@ def facts(name, data):
     suffix = ".smk" if name == "Snakefile" else Path(name).suffix
     key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
     known = _known()
-    if not (isinstance(known.get(key), list) and len(known[key]) == 2):
+    if key not in known:
         known[key] = _facts(suffix, data)
         known["new"] = True
     return known[key]
@@ -77,18 +76,24 @@ def keep():
         part = _KEPT.with_name(f".{_KEPT.name}.{os.getpid()}.part")
         with suppress(OSError):
             _KEPT.parent.mkdir(exist_ok=True)
-            part.write_text(json.dumps(known), encoding="utf-8")
+            text = json.dumps(known)
+            part.write_text(f"{_hash(text)}\n{text}", encoding="utf-8")
             os.replace(part, _KEPT)
 
 
 @functools.cache
 def _known():
     """What `facts` found of texts, by this process and earlier ones."""
-    try:
-        known = json.loads(_KEPT.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return {}
-    return known if isinstance(known, dict) else {}
+    with suppress(OSError, ValueError):
+        if _KEPT.is_file():  # reading a FIFO would wait for ever
+            digest, text = _KEPT.read_text(encoding="utf-8").split("\n", 1)
+            if digest == _hash(text):  # else it is damaged
+                return json.loads(text)
+    return {}
+
+
+def _hash(text):
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _facts(suffix, data):
@@ -104,7 +109,7 @@ def _facts(suffix, data):
             words.append(data.hex())
     except (SyntaxError, ValueError, RecursionError):  # what cannot be read has its text alone
         words = [f"{SCHEME}", "unreadable", data.hex()]
-    return [hashlib.sha256("\n".join(words).encode()).hexdigest(), imports]
+    return [_hash("\n".join(words)), imports]
 
 
 def _imports(tree):
