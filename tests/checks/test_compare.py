@@ -108,7 +108,7 @@ def test_what_is_missing_is_made_and_everything_is_said(variants):
     said = (variants.path / "said of paper and low").read_text().partition("\npaper | low\n")[2]
     assert "  energy: 0.01 | 0.0017\n" in said
     assert "  cannot exist in low: no elliptic orbit of period 6 at energy 0.0017" in said
-    assert "  motion      5 of 5 variables differ, " in said
+    assert "  motion      5 of 5 variables differ; 5 of other lengths" in said
     assert "    period 1: kept: elliptic (rotation 0.179) | elliptic (rotation 0.1281)" in said
     assert "    period 6: lost: elliptic (rotation 0.1794)" in said
     assert "  impacts   3 of 60 " in said

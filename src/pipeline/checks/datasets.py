@@ -25,8 +25,8 @@ SMALL = {
     "manifolds": _SIX
     | {"point": 0, "window": {"x": [-0.01, 0.01], "xdot": [-0.01, 0.01]}, "length": 0.05}
     | {"resolution": {"distance": 0.5, "bend": 30}},
-    "spread": _SEA
-    | {"length": 8, "blocks": 4, "regular": [0.1], "regular_impacts": 4, "cells": 4, "visits": 4},
+    "spread": {"orbits": 4, "length": 2000, "blocks": 4, "regular": [0.1], "regular_impacts": 4}
+    | {"cells": 4, "visits": 4},
     "clusters": _SEA | {"impacts": 200, "cuts": [4, 6], "lags": 2, "resamples": 10, "seed": 1},
     "rotation": {
         "energies": [0.001],
@@ -44,7 +44,7 @@ SMALL = {
         "impacts": 100,
         "drawn": 10,
     },
-    "horseshoe": {"connection": "outer"},
+    "horseshoe": _SIX | {"connection": "outer"},
     "twist": {"energies": [0.01]},
     "lyapunov": {"starts": [0.6], "impacts": 10, "records": 2},
 }
@@ -82,7 +82,6 @@ ATTRIBUTES = {
     "impacts_missed": ("with a scan, impacts that it flew past", "1"),
     "detail_impacts": ("impacts of each orbit of the detail", "1"),
     "block_impacts": ("impacts of a block", "1"),
-    "energy_at_rest": ("energy at rest on the floor", "m omega^2 R^2"),
     "first_energy": ("energy from which on the map jumps", "m omega^2 R^2"),
     "section": ("area of the section in (x, y)", "omega R^2"),
     "multiplier": ("multiplier of the hyperbolic orbit", "1"),

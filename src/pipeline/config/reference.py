@@ -101,7 +101,7 @@ def _meanings(model):
             (declared,) = ast.parse(inspect.getsource(part)).body
             for field, text in pairwise(declared.body):
                 if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr):
-                    found[field.target.id] = text.value.value
+                    found[field.target.id] = " ".join(text.value.value.split())
     return found
 
 
