@@ -1,7 +1,6 @@
 """Files: what is read, what a full disk says, and what a failing job leaves."""
 
 import errno
-import importlib.util
 import os
 import socket
 import sys
@@ -9,7 +8,6 @@ from collections import namedtuple
 from types import SimpleNamespace
 
 import pytest
-from project import ROOT
 
 from pipeline.records import files
 
@@ -60,10 +58,9 @@ def test_a_disk_is_full_only_if_it_is(tmp_path, monkeypatch, number, usage, word
 
 def test_a_failing_job_makes_room_for_its_log(tmp_path, monkeypatch):
     """Its output goes first: on a full disk the reason could not be written beside it."""
-    spec = importlib.util.spec_from_file_location("job", ROOT / "workflow" / "scripts" / "job.py")
-    job = importlib.util.module_from_spec(spec)
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)  # which the module sets
-    spec.loader.exec_module(job)
+    from pipeline.records import job
+
     output, log = tmp_path / "x.nc", tmp_path / "x.log"
     output.touch()
     snakemake = SimpleNamespace(log=[log], output=[output, tmp_path / "none"], wildcards={})

@@ -222,7 +222,7 @@ class Comparison:
             or differing_package(self.committed["environment"], self.versions)
             or differing_block(*({k: block[k] for k in keys & {*block}} for block in blocks))
             or any(
-                self.file_hash(file) != self.committed["sources"].get(file)
+                meaning(self.root / file) != self.committed["sources"].get(file)
                 for each in made
                 for file in each.sources
             )

@@ -122,14 +122,21 @@ def make(currency, wanted, arguments) -> int:
         return 0
     if options:  # snakemake decides
         return _run(paths, outdated, arguments)
-    status, tried = 0, set()
-    while due := [path for path in currency.due(paths) if path not in tried]:
+    status, tried, due = 0, set(), currency.due(paths)
+    while due:
         status = _run(due, {path: currency.reason(path) for path in due}, arguments) or status
         tried |= set(due)
         if status == INTERRUPTED or tried >= set(outdated):
             break
-        # What was made from these is outdated only if they have other bytes now.
+        # What was made from these is outdated only if they have other bytes now; what could not be
+        # made is not tried again.
         currency = Currency(ROOT, currency.expected)
+        failed = {path for path in tried if currency.reason(path)}
+        due = [
+            path
+            for path in currency.due(paths)
+            if not failed.intersection(needed(currency.expected, [path]))
+        ]
     return status
 
 
