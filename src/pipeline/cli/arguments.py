@@ -70,7 +70,7 @@ WORDS = {
         "what differs between two variants, figure by figure",
         _one("a", "a variant of config.yaml, or paper"),
         _one("b", "another one"),
-        _any("figure", FIGURES),
+        _any("figure", "figures to compare, by the names in config.yaml; all without a name"),
         _switch("--all", "a line for each variable and each orbit that differs"),
     ),
     "sweep": Making("grids over k and E/g^2, into results/sweep/", *_SWEPT),

@@ -24,7 +24,7 @@ class Spread(OfRecords):
     orbits: 8
     length: 2000
     blocks: 20
-    regular: [-0.6]
+    regular: [-0.05]
     regular_impacts: 1024
     cells: 10
     visits: 1000
