@@ -20,6 +20,7 @@ def edited(document):
     scenes["fig4"]["ball"] = {"k": 0.21, "g": 0.04}
     scenes |= {name: block | {"formats": ["png"]} for name, block in SCENES.items()}
     scenes |= {f"my_{name}": document[part][name] for part in REQUESTED for name in document[part]}
+    scenes["my_twist"]["energies"] = [0.001, 0.01, 0.03]  # which every variant's ball can have
     assert {block["picture"] for block in scenes.values()} == set(KINDS)
     document["variants"]["lower-energy"]["energy"] = 0.0097
     document["variants"]["mine"] = {"energy": 0.0099}
