@@ -109,6 +109,7 @@ def interruptible():
 
 def say(*lines: str) -> None:
     """Lines for the user, on stderr."""
+    sys.stdout.flush()  # what was printed before stands before, also in a pipe
     for line in lines:
         print(f"reproduce: {line}", file=sys.stderr, flush=True)
 
