@@ -99,6 +99,12 @@ def ensemble_of(count, impacts):
     return digest(out)
 
 
+def spectra(count, impacts):
+    """The hash of the exponents of many orbits at once, in lanes and threads."""
+    state = BALL.start(np.linspace(-0.5, 0.6, count), ENERGY)
+    return digest(lyapunov.lyapunov_spectrum(BALL, state, impacts, 5)["exponent"])
+
+
 def scanned():
     """The hash of orbits, exponents and inverses by the paper's own method."""
     ball = Ball(BALL.k, BALL.g, ImpactMap((0.1, 1e-12)))
@@ -142,6 +148,7 @@ def everything():
     yield from short()
     yield "orbit", orbit(3000)
     yield "ensemble", ensemble_of(100, 300)
+    yield "spectra", spectra(100, 300)
     yield "scanned", scanned()
     folder = tempfile.TemporaryDirectory()
     hashes = {}
