@@ -14,68 +14,53 @@ SECONDS = {
     "results/claims/spread_spread.nc": 55,
     "results/claims/rotation_rotation.nc": 10,
     "results/claims/flux_flux.nc": 6,
+    "results/claims/derivations.nc": 3,
     "results/study/verdicts.nc": 190,
     "results/study/needs.nc": 90,
     "results/study/work_all.nc": 80,
     "results/study/orbits.nc": 35,
     "results/study/edges_all.nc": 20,
 }
-# result -> the same of it, or of what is made from it.
+# result -> its own seconds, or those of what is made from it.
 PRIORITIES = {
     needed: seconds
     for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
-    if path in EXPECTED
-    for needed in expected.needed(EXPECTED, [path])
+    if path in PLAN.specs
+    for needed in expected.needed(PLAN.specs, [path])
 }
-# rule -> (its result, its script, its scenes, what the script is given beside the block of config)
+# rule -> (its result, its scenes)
 STUDY = "results/study/{scene}.nc"
 RULES = {
-    name: (
-        STUDY,
-        "study",
-        scenes,
-        lambda wildcards: parts.artifacts(wildcards.scene, SCENES, places.served(VARIANTS)),
-    )
-    for name, scenes in (("study_data", parts.SIDE_BY_SIDE), ("study_alone", parts.ALONE))
-} | {
-    "study_chart": ("results/study/figures/{scene}.png", "draw", parts.CHARTS, "study"),
-    "sweep_block": ("results/sweep/{scene}_{number}.nc", "sweep", SWEEPS, None),
-    "sweep_join": ("results/sweep/{scene}.nc", "sweep", SWEEPS, None),
-    "atlas_draw": ("results/sweep/figures/{scene}.{extension}", "draw", SWEEPS, "atlas"),
+    "study_data": (STUDY, parts.SIDE_BY_SIDE),
+    "study_alone": (STUDY, parts.ALONE),
+    "study_chart": ("results/study/figures/{scene}.png", parts.CHARTS),
+    "sweep_block": ("results/sweep/{scene}_{number}.nc", SWEEPS),
+    "sweep_join": ("results/sweep/{scene}.nc", SWEEPS),
+    "atlas_draw": ("results/sweep/figures/{scene}.{extension}", SWEEPS),
+    "derivations": ("results/claims/{scene}.nc", ["derivations"]),
 }
 for name in STAGES:
     scenes = [scene for scene, block in ALL.items() if name in places.stages(block)]
-    result = f"results/{{variant}}/{name}_{{scene}}.nc"
-    RULES[name] = result, "stage", scenes, maker(name, result)
+    RULES[name] = f"results/{{variant}}/{name}_{{scene}}.nc", scenes
 for kind in KINDS:
     scenes = [scene for scene, block in ALL.items() if block["picture"] == kind]
-    result = "results/{variant}/figures/{scene}.{extension}"
-    RULES[f"draw_{kind}"] = result, "draw", scenes, f"kinds.{kind}"
+    RULES[f"draw_{kind}"] = "results/{variant}/figures/{scene}.{extension}", scenes
 
-for name, (result, program, scenes, given) in RULES.items():
-    _, folder, *_, file = Path(result).parts
+for name, (result, scenes) in RULES.items():
 
     rule:
         name:
             name
         input:
-            data=inputs(result),
+            inputs(result),
         output:
-            result,
-            record=record_path(result),
+            update(result),  # kept where the job finds that it is current after all
+            update(record_path(result)),
         log:
-            f"results/{folder}/logs/{file}.log",
+            log_path(result),
         wildcard_constraints:
             scene=any_of(scenes),
         priority: priority(result)
-        conda:
-            "../envs/python.yaml"
         threads: workflow.cores if name == "study_alone" else 1
-        params:
-            block=made(result, "config"),
-            sources=made(result, "sources"),
-            given=given,
-            program=program,
-            workflow=READ,
-        script:
-            "../scripts/{params.program}.py"
+        shell:
+            "{PYTHON:q} -S {MAKE:q} {output[0]:q}"

@@ -116,7 +116,7 @@ def contents(root, checked):
 def _public_record(root, path):
     """The record of a result without what is of one run and machine: commit and Python."""
     try:
-        record = read_record(root, path)
+        record = read_record(root, record_path(path))
     except ValueError:
         return b""
     kept = {name: record[name] for name in SHAPE}

@@ -4,7 +4,7 @@ from functools import cache
 
 from ..records.differences import differing_block, differing_files, differing_package
 from ..records.files import file_hash, obstacle
-from ..records.record import RecordError, read_record, versions
+from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import meaning
 
 MISSING = "missing"
@@ -18,7 +18,7 @@ class Currency:
     ----------
     root : pathlib.Path
     expected : dict
-        Result -> config.expected.Expected, for every result that may be asked about.
+        Result -> BuildSpec, for every result that may be asked about.
     """
 
     def __init__(self, root, expected):
@@ -28,6 +28,7 @@ class Currency:
         self.packages = versions()
         self.own_reason = cache(self._own_reason)
         self.reason = cache(self._reason)
+        self.refusal = cache(self._refusal)
 
     def outdated(self, paths=None):
         """What has to be made again.
@@ -45,32 +46,22 @@ class Currency:
         reasons = {path: self.reason(path) for path in (self.expected if paths is None else paths)}
         return {path: why for path, why in reasons.items() if why}
 
-    def due(self, paths):
-        """What has to be made now, whatever comes of the other outdated results.
-
-        A result whose record fits, but whose inputs are outdated, waits for these: it stays as it
-        is if they are made again with the same bytes. So do all results behind it.
-
-        Parameters
-        ----------
-        paths : iterable of str
-            Results.
-
-        Returns
-        -------
-        list of str
-        """
-        waits = cache(
-            lambda path: any(
-                used in self.expected
-                and (waits(used) or (self.reason(used) and not self.own_reason(used)))
-                for used in self.expected[path].inputs
-            )
-        )
-        return [path for path in paths if self.own_reason(path) and not waits(path)]
+    def _refusal(self, path):
+        """Why a result cannot exist, as a job for it or for an input found, in words, or None."""
+        made = self.expected[path]
+        for used in made.inputs:
+            if used in self.expected and (why := self.refusal(used)):
+                return why
+        try:
+            record = read_record(self.root, refusal_path(path))
+        except RecordError:
+            return None
+        return None if self._difference(record, made) else str(record["output"].get("refused"))
 
     def _reason(self, path):
         """Why a result has to be made again, in words (MISSING where there is none), or None."""
+        if why := self.refusal(path):
+            return f"cannot exist: {why}"
         if why := self.own_reason(path):
             return why
         for used in self.expected[path].inputs:
@@ -84,11 +75,15 @@ class Currency:
         if self.digest(path) is None:
             return obstacle(self.root / path) or MISSING
         try:
-            record = read_record(self.root, path)
+            record = read_record(self.root, record_path(path))
         except RecordError as error:
             return str(error)
         if self.digest(path) != record["output"]["sha256"]:
             return DAMAGED
+        return self._difference(record, made)
+
+    def _difference(self, record, made):
+        """How what a record says that made its result differs from what would make it now."""
         if words := differing_block(record["config"], made.config):
             return f"made from another config: {words}"
         here = {file: self.meaning(file) for file in made.sources}

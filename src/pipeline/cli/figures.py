@@ -1,17 +1,15 @@
 """The figures of the paper or of a variant: what is missing of them is made, then published."""
 
 import filecmp
-import json
 import shutil
 from pathlib import PurePath
 
 from ..checks.currency import Currency
 from ..checks.sums import left_over
 from ..config import expected, places, unknown
-from ..config.expected import Expected
 from ..records.differences import columns
-from ..records.files import FileError, identity, obstacle, read_text, replacing, write_whole
-from ..records.record import record_path, recorded
+from ..records.files import FileError, identity, obstacle, replacing
+from ..records.record import failure
 from ..records.sources import ROOT
 from . import running
 from .folder import MisuseError
@@ -56,16 +54,11 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
     before = before or {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
-    says = running.only_says(options)
-    absent = known_absent(variant) if says else _find_absent(variants, variant, currency)
-    possible = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
-    status = running.make(currency, possible, options)
-    if says or status == running.INTERRUPTED:
+    status = running.make(checked, currency, made.values(), options)
+    if running.only_says(options) or status == running.INTERRUPTED:
         return status
-    if options or currency.outdated(possible):
-        currency = Currency(ROOT, results)
-        absent = _find_absent(variants, variant, currency)
-    outdated = currency.outdated(before)
+    currency = Currency(ROOT, results)
+    outdated, absent = currency.outdated(before), known_absent(currency, variants, variant)
     missing = {scene for path, (scene, _) in wanted.items() if made[path] in outdated}
     if missing and missing <= set(absent):
         status = 0
@@ -73,7 +66,7 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     for path, (scene, behind) in wanted.items():
         rows[path] = scene, "recomputed"
         if made[path] in outdated:
-            why = next((running.REASONS[name] for name in behind if name in running.REASONS), None)
+            why = next(filter(None, map(failure, behind)), None)
             failed = f"not made: {why}" if why else "not made"
             rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
         elif identity(made[path]) == before[made[path]]:
@@ -105,8 +98,6 @@ def table(folder, rows, more=()) -> None:
         size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
         lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
     print("", *columns(lines), *more, sep="\n")
-    if running.LOGS:
-        print(f"snakemake's log: {running.LOGS[-1]}")
 
 
 def made(folder, files) -> int:
@@ -150,49 +141,13 @@ def publish(drawings) -> dict[str, str]:
     return problems
 
 
-def _find_absent(variants, variant, currency):
-    """Scene -> why its figure cannot exist, as far as the periodic orbits are known."""
-    serves, orbits = places.served(variants), {}  # scene -> type and dataset of its periodic orbit
-    for scene, block in variants[variant].items():
-        dataset = serves.get((variant, scene, "periodic"))
-        if "type" in block and dataset and not currency.reason(dataset):
-            orbits[scene] = [block["type"], dataset]
-    if not orbits:
-        return {}
-    path = places.absent_file(variant)
-    currency.expected[path] = made = Expected(orbits, [], sorted({p for _, p in orbits.values()}))
-    if currency.reason(path):
-        with recorded(path, *made):
-            _write_absent(variants, variant, orbits)
-    return known_absent(variant)
-
-
-def _write_absent(variants, variant, orbits) -> None:
-    from pseudorigid.dynamics.variables import of_type
-
-    from ..records.artifacts import load
-
-    found = {}
-    for scene, (kind, dataset) in orbits.items():
-        try:
-            of_type(load(ROOT / dataset), kind)
-        except ValueError as error:
-            found[scene] = str(error)
-            for extension in variants[variant][scene]["formats"]:
-                drawing = places.drawn(scene, extension, variant)
-                for old in (drawing, record_path(drawing)):
-                    (ROOT / old).unlink(missing_ok=True)
-    write_whole(ROOT / places.absent_file(variant), json.dumps(found, indent=1) + "\n")
-
-
-def known_absent(variant) -> dict[str, str]:
-    """Scene -> why its figure cannot exist, as the last run of a variant found."""
-    try:
-        found = json.loads(read_text(ROOT / places.absent_file(variant)))
-    except (OSError, ValueError, RecursionError):
-        return {}
-    # Somebody else may have written it: a cache of results comes from anywhere.
-    return {scene: str(why) for scene, why in found.items()} if isinstance(found, dict) else {}
+def known_absent(currency, variants, variant) -> dict[str, str]:
+    """Scene -> why its figure cannot exist, as far as the jobs of a variant have found."""
+    found = {
+        scene: currency.refusal(behind[-1])
+        for scene, behind in places.figures(variants, variant).values()
+    }
+    return {scene: why for scene, why in found.items() if why}
 
 
 def _missed_impacts(variants, variant, scenes):

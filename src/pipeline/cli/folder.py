@@ -63,48 +63,31 @@ def end_jobs() -> None:
             process.kill()
 
 
-GRACE = 10  # seconds from an interrupt to the end of this process, at the latest
-
-
 @contextmanager
 def interruptible():
     """Ctrl-C, SIGTERM or SIGHUP ends the jobs at once and raises KeyboardInterrupt in here.
 
-    Yields a list that then holds the signal's number: snakemake may catch the exception. Where
-    something else swallows it, the process ends after GRACE seconds.
+    Yields a list that then holds the signal's number.
     """
-    caught, usual = [], signal.signal
-    numbers = [signal.SIGINT, signal.SIGTERM]
+    caught, numbers = [], [signal.SIGINT, signal.SIGTERM]
     if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup
         numbers.append(signal.SIGHUP)
 
     def stop(number, frame):
         caught.append(number)
         for each in numbers:
-            usual(each, signal.SIG_IGN)  # once is enough
-        usual(signal.SIGALRM, end)
-        signal.alarm(GRACE)
+            signal.signal(each, signal.SIG_IGN)  # once is enough
         end_jobs()
         raise KeyboardInterrupt
 
-    def end(number, frame):
-        end_jobs()
-        say("interrupted: run it again to go on")
-        os._exit(130)
-
-    def set_by_others(number, handler):
-        """Snakemake would let running jobs finish on SIGTERM."""
-        return signal.getsignal(number) if number in numbers else usual(number, handler)
-
-    before = {number: usual(number, stop) for number in numbers}
-    signal.signal = set_by_others
+    before = {number: signal.signal(number, stop) for number in numbers}
     try:
         yield caught
     finally:
-        signal.alarm(0)
-        signal.signal = usual
+        if caught:
+            end_jobs()  # those that began meanwhile
         for number, handler in before.items():
-            usual(number, handler)
+            signal.signal(number, handler)
 
 
 def say(*lines: str) -> None:

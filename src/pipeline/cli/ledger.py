@@ -2,28 +2,20 @@
 
 import re
 
-from pseudorigid.dynamics.ball import Ball
-
 from ..checks import claims
 from ..checks.claims import soundness
 from ..checks.claims.ledger import UNDECIDED
 from ..checks.claims.render import render
-from ..checks.currency import Currency
 from ..config import places
-from ..config.expected import Expected
-from ..records import artifacts, sources
+from ..records import artifacts
 from ..records.files import write_whole
-from ..records.record import recorded
 from ..records.sources import ROOT
 from .folder import MisuseError, UsageError
-
-DERIVATIONS = "results/claims/derivations.nc"
-PROOFS = "pseudorigid.proofs.derivations"
 
 
 def paths(checked) -> dict[str, str]:
     """Name of each dataset that the checks need -> where it is."""
-    known = {"derivations": DERIVATIONS}
+    known = {"derivations": places.DERIVATIONS}
     known |= {f"atlas/{name}": places.sweep_dataset(name) for name in checked["sweeps"]}
     for (variant, scene, stage), path in places.served(checked["variants"]).items():
         own = variant in (places.PAPER, "claims")
@@ -32,21 +24,6 @@ def paths(checked) -> dict[str, str]:
         if name not in known:
             raise UsageError(f"config.yaml: no scene makes {name}, which claims need")
     return {name: known[name] for name in claims.needed()}
-
-
-def derive(checked) -> None:
-    """Make the dataset of the derivations by computer algebra, where it is not current."""
-    ball, energy = checked["ball"], checked["scenes"]["fig2"]["energy"]
-    files = sources.closure(PROOFS)
-    made = Expected({"ball": ball, "energy": energy}, files)
-    if not Currency(ROOT, {DERIVATIONS: made}).reason(DERIVATIONS):
-        return
-    from pseudorigid.proofs.derivations import derivations
-
-    about = {"stage": "derivations", **ball, "energy": float(energy)}
-    about["title"] = artifacts.title_of(derivations)
-    with recorded(DERIVATIONS, *made):
-        artifacts.save(derivations(Ball(**ball), energy), DERIVATIONS, made.config, **about)
 
 
 def load(checked, name, path):

@@ -1,44 +1,58 @@
-"""What each result should have been made from, by this config and this tree."""
+"""What each result should be made from and by, by this config and this tree."""
 
 from functools import cache
-from typing import NamedTuple
+from pathlib import PurePath
 
 from pseudorigid.sweep import grid
 
 from ..records import sources
+from ..records.build_spec import BuildSpec
 from . import places
 from .declared import study as parts
 from .declared.kinds import KINDS
 from .declared.stages import STAGES
 
-
-class Expected(NamedTuple):
-    """What makes a result: its block of config, the project's files, and earlier results."""
-
-    config: dict
-    sources: list[str]
-    inputs: list[str] = []
+_OWN = (*places.PUBLISHED, "study", "sweep")  # folders whose names go without saying
 
 
-def of_scenes(variants, variant=places.PAPER) -> dict[str, Expected]:
+@cache
+def _code(*modules):
+    return sources.closure(*modules)
+
+
+def _spec(result, name, step, config, program, *, given=None, modules=(), inputs=()):
+    """The BuildSpec of a result that the scene, sweep or part of the study `name` has."""
+    folder = PurePath(result).parts[1]
+    scene = name if folder in _OWN else f"{folder}/{name}"
+    code = _code(f"pipeline.jobs.{program}", *modules)
+    return BuildSpec(result, scene, step, config, program, given, code, list(inputs))
+
+
+def _drawing(result, name, config, module, inputs):
+    step = f"drawing {PurePath(result).suffix[1:]}"
+    modules = [f"pseudorigid.figures.{module}"]
+    return _spec(result, name, step, config, "draw", given=module, modules=modules, inputs=inputs)
+
+
+def of_scenes(variants, variant=places.PAPER) -> dict[str, BuildSpec]:
     """Each result of a variant's scenes, from the root, after those that it is made from."""
     return _of_scenes(variants, [variant])
 
 
-def _of_scenes(variants, names) -> dict[str, Expected]:
+def _of_scenes(variants, names) -> dict[str, BuildSpec]:
     """Each result of the scenes of some variants, after those that it is made from."""
-    serves, code, found = places.served(variants), cache(sources.code), {}
+    serves, found = places.served(variants), {}
     for variant, (scene, block) in ((v, item) for v in names for item in variants[v].items()):
         for stage, parameters in places.stages(block).items():
-            inputs = [serves[variant, scene, name] for name in STAGES[stage].inputs]
-            files = code("stage.py", STAGES[stage].maker(parameters)[0])
-            found[serves[variant, scene, stage]] = Expected(parameters, files, inputs)
+            path, maker = serves[variant, scene, stage], STAGES[stage].maker(parameters)
+            more = {"given": maker, "modules": maker[:1]}
+            more["inputs"] = [serves[variant, scene, name] for name in STAGES[stage].inputs]
+            found[path] = _spec(path, scene, stage, parameters, "stage", **more)
         kind = block["picture"]
-        files = code("draw.py", f"pseudorigid.figures.kinds.{kind}")
         inputs = [serves[variant, scene, stage] for stage in KINDS[kind].stages]
         for extension in block["formats"]:
             path = places.drawn(scene, extension, variant)
-            found[path] = Expected(places.drawing(block), files, inputs)
+            found[path] = _drawing(path, scene, places.drawing(block), f"kinds.{kind}", inputs)
     return found
 
 
@@ -51,41 +65,52 @@ def needed(expected, wanted) -> list[str]:
     return list(found)
 
 
-def of_variants(variants) -> dict[str, Expected]:
+def of_variants(variants) -> dict[str, BuildSpec]:
     """Each result of all variants, which share some."""
     return _of_scenes(variants, variants)
 
 
-def of_all(checked) -> dict[str, Expected]:
+def of_all(checked) -> dict[str, BuildSpec]:
     """Each result that a checked config can make, likewise."""
     variants = checked["variants"]
-    return of_variants(variants) | of_study(variants) | of_sweeps(checked["sweeps"])
+    found = of_variants(variants) | of_study(variants) | of_sweeps(checked["sweeps"])
+    return found | of_derivations(checked)
 
 
-def of_study(variants) -> dict[str, Expected]:
+def of_derivations(checked) -> dict[str, BuildSpec]:
+    """The result of computer algebra on the paper's formulas, at the ball and energy of fig2."""
+    if "fig2" not in checked["scenes"]:
+        return {}
+    block = {"ball": checked["ball"], "energy": checked["scenes"]["fig2"]["energy"]}
+    maker = "pseudorigid.proofs.derivations", "derivations"
+    more = {"given": maker, "modules": maker[:1]}
+    path = places.DERIVATIONS
+    return {path: _spec(path, "claims", "derivations", block, "stage", **more)}
+
+
+def of_study(variants) -> dict[str, BuildSpec]:
     """Each result of the study, likewise."""
     scenes, serves = variants[places.PAPER], places.served(variants)
     found = {}
     for part in (*parts.FIXED, *parts.MEASURED):
-        inputs = [path for *_, path in parts.artifacts(part, scenes, serves)]
-        block = parts.block(part, scenes)
-        found[parts.data(part)] = Expected(block, parts.code(part), sorted(set(inputs)))
+        path, taken = parts.data(part), parts.artifacts(part, scenes, serves)
+        more = {"given": taken, "modules": parts.modules(part)}
+        more["inputs"] = sorted({file for *_, file in taken})
+        found[path] = _spec(path, part, "data", parts.block(part, scenes), "study", **more)
     for chart in parts.CHARTS:
-        data = parts.data(parts.CHARTS[chart][0])
-        code = sources.code("draw.py", "pseudorigid.figures.study")
-        found[parts.drawn(chart)] = Expected(parts.drawing(chart), code, [data])
+        path, data = parts.drawn(chart), parts.data(parts.CHARTS[chart][0])
+        found[path] = _drawing(path, chart, parts.drawing(chart), "study", [data])
     return found
 
 
-def of_sweeps(sweeps) -> dict[str, Expected]:
+def of_sweeps(sweeps) -> dict[str, BuildSpec]:
     """Each block, dataset and picture of the sweeps, likewise."""
     found = {}
     for name, sweep in sweeps.items():
         blocks, data = places.block_files(name, sweep), places.sweep_dataset(name)
-        code, drawn = sources.code("sweep.py"), sources.code("draw.py", "pseudorigid.figures.atlas")
         for i, path in enumerate(blocks):
-            found[path] = Expected(grid.block(sweep, i), code)
-        found[data] = Expected(grid.whole(sweep), code, blocks)
+            found[path] = _spec(path, name, f"block {i}", grid.block(sweep, i), "sweep")
+        found[data] = _spec(data, name, "data", grid.whole(sweep), "sweep", inputs=blocks)
         for path in places.sweep_pictures(name, sweep):
-            found[path] = Expected(sweep, drawn, [data])
+            found[path] = _drawing(path, name, sweep, "atlas", [data])
     return found

@@ -17,6 +17,7 @@ PUBLISHED = {
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
 LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
+DERIVATIONS = "results/claims/derivations.nc"
 
 
 def stages(block: dict) -> dict[str, dict]:
@@ -68,11 +69,6 @@ def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[
             path = f"{PUBLISHED[variant]}/{name}.{extension}" if public else made
             found[path] = name, [*data, made]
     return found
-
-
-def absent_file(variant: str) -> str:
-    """Where it says which figures of a variant cannot exist: JSON, scene -> reason."""
-    return f"results/{variant}/absent.json"
 
 
 # ---- sweeps ----

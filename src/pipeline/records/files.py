@@ -180,7 +180,7 @@ def file_hash(path):
 
 
 def identity(path):
-    """What changes whenever a file is written anew.
+    """What changes whenever a file is written anew, and not when it is only touched.
 
     Parameters
     ----------
@@ -188,11 +188,10 @@ def identity(path):
 
     Returns
     -------
-    (int, int) or None
+    int or None
         None where there is no file.
     """
     try:
-        status = Path(path).stat()
+        return Path(path).stat().st_ino
     except OSError:
         return None
-    return status.st_ino, status.st_mtime_ns

@@ -9,6 +9,7 @@ import json
 import os
 import platform
 import subprocess
+import time
 from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
@@ -44,18 +45,40 @@ def record_path(result):
     -------
     str
     """
+    return _beside(result, "provenance", "json")
+
+
+def refusal_path(result):
+    """Where the record of why a result cannot be made is, as for `record_path`."""
+    return _beside(result, "logs", "json")
+
+
+def log_path(result):
+    """Where the log of a job that failed to make a result is, as for `record_path`."""
+    return _beside(result, "logs", "log")
+
+
+def failure(result):
+    """Why the last job that was to make a result failed, None where it did not or nobody knows."""
+    try:
+        return read_text(log_path(result)).splitlines()[-1].split(": ", 2)[2]
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def _beside(result, folder, suffix):
     _, variant, *_, name = Path(result).parts
-    return f"results/{variant}/provenance/{name}.json"
+    return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
 def read_record(root, path):
-    """The record of a result.
+    """Read the record of a result, or of why it cannot be made.
 
     Parameters
     ----------
     root : pathlib.Path
     path : str
-        Of the result, from the root.
+        Of the record, from the root.
 
     Returns
     -------
@@ -68,7 +91,7 @@ def read_record(root, path):
         In words, where there is none to be read.
     """
     try:
-        record = json.loads(read_text(root / record_path(path)))
+        record = json.loads(read_text(root / path))
         for name, kind in SHAPE.items():
             if not isinstance(record[name], kind):
                 raise TypeError
@@ -76,51 +99,54 @@ def read_record(root, path):
     except FileNotFoundError:
         raise RecordError("no record of what made it") from None
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        raise RecordError(f"its record {record_path(path)} cannot be read") from None
+        raise RecordError(f"its record {path} cannot be read") from None
     return record
 
 
 @contextmanager
-def recorded(output, config, sources, inputs=()):
+def recorded(spec):
     """Write the record of a result, once the body has made it; the current folder is the root.
+
+    An error with `lasting` says that the result cannot exist with what it is made from: this is
+    recorded in its place, so that it is not tried again before something of that changes.
 
     Parameters
     ----------
-    output : str
-        The result, from the root.
-    config : dict
-        The block behind it.
-    sources : iterable of str
-        The project's own files that make it.
-    inputs : iterable of str
-        The results it is made from.
+    spec : BuildSpec
 
     Raises
     ------
     ChangedError
         Where a source or an input changed from when it was loaded to now; no record is written.
     """
-    texts = {path: file_hash(path) for path in sorted(sources)}
+    texts = {path: file_hash(path) for path in sorted(spec.sources)}
     commit, dirty = _commit()
     record = {
         "commit": commit,
         "dirty": dirty,
-        "config": config,
-        "inputs": {path: file_hash(path) for path in sorted(inputs)},
+        "config": spec.config,
+        "inputs": {path: file_hash(path) for path in sorted(spec.inputs)},
         "sources": {path: meaning(path) for path in texts},
         "environment": versions(),
         "python": platform.python_version(),
     }
     require_unchanged(texts)
-    yield
+    start = time.monotonic()
+    try:
+        yield
+    except ValueError as error:
+        if getattr(error, "lasting", False):
+            require_unchanged(texts | record["inputs"])
+            _write(refusal_path(spec.result), record, {"sha256": None, "refused": str(error)})
+        raise
+    record["seconds"] = time.monotonic() - start
     require_unchanged(texts | record["inputs"])
-    about = {"file": output, "sha256": file_hash(output)}
-    if output.endswith(".nc"):
-        from .artifacts import content_hash, load
+    about = {"file": spec.result, "sha256": file_hash(spec.result)}
+    _write(record_path(spec.result), record, about)
 
-        about["content"] = content_hash(load(output))
-    text = json.dumps(record | {"output": about}, sort_keys=True, indent=1)
-    write_whole(record_path(output), f"{text}\n")
+
+def _write(path, record, output):
+    write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 
 
 def require_unchanged(hashes):

@@ -11,15 +11,15 @@ from pseudorigid.kernel.compiled import meaning as meanings
 
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
-# What snakemake reads: it says which function a job calls, with what.
-WORKFLOW = ("Snakefile", "workflow/rules/common.smk", "workflow/rules/results.smk")
 # Every job loads these, and none reaches the bytes of a result: they write records and whole files,
 # hash, load modules, and say why a job failed. Tests plant a change in each.
 BOOKKEEPING = (
     "pipeline",
+    "pipeline.jobs",
+    "pipeline.jobs.making",
     "pipeline.records",
+    "pipeline.records.build_spec",
     "pipeline.records.files",
-    "pipeline.records.job",
     "pipeline.records.record",
     "pipeline.records.sources",
     "pseudorigid",
@@ -32,39 +32,20 @@ _READS = {
 }
 
 
-def code(script: str, *modules: str) -> list[str]:
-    """The project's files that decide what a script of workflow/scripts makes.
+def closure(*modules: str) -> list[str]:
+    """The project's files behind some modules, without BOOKKEEPING.
 
     Parameters
     ----------
-    script : str
-        Its file's name.
     *modules : str
-        Those that the script imports by a name it is given.
-
-    Returns
-    -------
-    list of str
-        From the root, the script and the workflow's own files included.
-    """
-    path = ROOT / "workflow" / "scripts" / script
-    return [*WORKFLOW, os.path.relpath(path, ROOT), *closure(path, *modules)]
-
-
-def closure(*starts: str | Path) -> list[str]:
-    """The project's files behind some modules or scripts, without BOOKKEEPING.
-
-    Parameters
-    ----------
-    *starts : str or pathlib.Path
-        See pseudorigid.kernel.compiled.closure.
+        Dotted names, as for pseudorigid.kernel.compiled.closure.
 
     Returns
     -------
     list of str
         From the root.
     """
-    found = imports.closure(SRC, *starts, leave_out=BOOKKEEPING)
+    found = imports.closure(SRC, *modules, leave_out=BOOKKEEPING)
     files = [os.path.relpath(file, ROOT) for file in found]
     for module in set(files) & set(_READS):
         files += sorted(os.path.relpath(file, ROOT) for file in ROOT.glob(_READS[module]))

@@ -109,6 +109,12 @@ def orbit_dims(shape):
     return ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
 
 
+class NoOrbitError(ValueError):
+    """There is no periodic orbit of that type, and so nothing that is made from it."""
+
+    lasting = True
+
+
 def of_type(orbits, kind, period=None):
     """The first orbit of a type among those of `symmetric_orbits`.
 
@@ -127,15 +133,17 @@ def of_type(orbits, kind, period=None):
 
     Raises
     ------
+    NoOrbitError
+        Where there is none, saying what there is.
     ValueError
-        Where there is none, saying what there is, or where the orbits have another period.
+        Where the orbits have another period.
     """
     if period not in (None, orbits.sizes["point"]):
         raise ValueError(f"orbits of period {orbits.sizes['point']}, not {period}")
     (matches,) = np.nonzero(orbits["type"].values == kind)
     if matches.size == 0:
         there = ", ".join(sorted(set(orbits["type"].values.tolist()))) or "none at all"
-        raise ValueError(
+        raise NoOrbitError(
             f"no {kind} orbit of period {orbits.sizes['point']} "
             f"at energy {orbits.attrs['energy']:g} (found: {there})"
         )

@@ -6,7 +6,6 @@ behind it have.
 
 import base64
 import hashlib
-import json
 import struct
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from ...config.declared.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import PictureError
-from ...records.record import read_record
+from ...records.record import read_record, record_path
 from .. import contracts, manifest
 from ..claims import render as claims
 from ..claims.ledger import CORRECTED, FALSE
@@ -184,7 +183,8 @@ class _Page:
         """What made each result shown: file, sha256, commit, packages, and seconds if known."""
         found = []
         for path in self.shown:
-            record = read_record(self.root, path)
+            record = read_record(self.root, record_path(path))
+            seconds = record.get("seconds")
             commit = str(record.get("commit") or "no commit")[:12]
             found.append(
                 {
@@ -192,7 +192,7 @@ class _Page:
                     "sha256": record["output"]["sha256"],
                     "commit": commit + (", with changes" if record.get("dirty") else ""),
                     "packages": ", ".join(f"{n} {v}" for n, v in record["environment"].items()),
-                    "seconds": _seconds(self.root, path),
+                    "seconds": seconds if isinstance(seconds, float) else None,
                 }
             )
         return found
@@ -261,13 +261,3 @@ def _image(data):
 def _written(value):
     """A value as a caption has it: whole numbers with commas."""
     return f"{value:,}" if type(value) is int else value
-
-
-def _seconds(root, path):
-    """How long the job took that made a result, as snakemake noted it, or None."""
-    name = base64.urlsafe_b64encode(path.encode()).decode()
-    try:
-        job = json.loads(read_text(root / ".snakemake" / "metadata" / name))
-        return float(job["endtime"]) - float(job["starttime"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return None

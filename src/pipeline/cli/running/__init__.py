@@ -1,6 +1,8 @@
-"""Snakemake as ./reproduce runs it, and what it is told to make again."""
+"""Snakemake as ./reproduce runs it: what it is told to make again, and its options."""
 
+import os
 import signal
+import subprocess
 import sys
 from contextlib import nullcontext
 from functools import cache
@@ -10,15 +12,15 @@ import yaml
 
 from ...checks.currency import DAMAGED, MISSING, Currency
 from ...config.expected import needed
+from ...jobs import server
 from ...records.files import obstacle
 from ...records.record import record_path
 from ...records.sources import ROOT
 from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
+from ..telling.plan import plan
 
 INTERRUPTED = 130
-LOGS = []  # snakemake's own, of the runs of this process, from the root
-REASONS = {}  # result -> why it could not be made in a run of this process
 # Options with which a run would not be one of this folder, and what is so instead.
 _ELSEWHERE = {
     "directory": "results are made in the folder of ./reproduce: copy it to have them elsewhere",
@@ -33,16 +35,7 @@ _SAY += ("touch", "list_rules", "list_target_rules", "list_changes", "unlock")
 @cache
 def _parser():
     """Snakemake's parser of its options, which raises MisuseError."""
-    if not any(word.startswith("--report") for word in sys.argv):
-        # What makes reports takes long to import, and snakemake goes on where it is not there.
-        from snakemake_interface_report_plugins.registry import ReportPluginRegistry
-
-        sys.modules["snakemake.report"] = None
-        try:
-            ReportPluginRegistry()
-        finally:
-            del sys.modules["snakemake.report"]
-    from snakemake.cli import get_argument_parser
+    from snakemake.cli import get_argument_parser  # takes a while
 
     parser = get_argument_parser()
 
@@ -87,19 +80,21 @@ def asked(arguments) -> set[str]:
     return different - {"cores", "jobs", "targets"}
 
 
-def make(currency, wanted, arguments) -> int:
+def make(checked, currency, wanted, arguments) -> int:
     """Have snakemake make the results `wanted` where they are not current; its exit status.
 
     Parameters
     ----------
+    checked : dict
+        The checked config.
     currency : checks.currency.Currency
-        Of every result that may be needed.
+        Of every result of it.
     wanted : iterable of str
-        Results, from the root.
+        Results, from the root. Those that cannot be made are left out.
     arguments : list of str
         Options for snakemake; `-n` alone is answered here.
     """
-    paths = needed(currency.expected, wanted)
+    paths = needed(currency.expected, [path for path in wanted if not currency.refusal(path)])
     outdated = currency.outdated(paths)
     for path, why in outdated.items():
         if obstacle(ROOT / path):
@@ -116,77 +111,67 @@ def make(currency, wanted, arguments) -> int:
             raise UsageError(f"{where}: a file stands in a folder's place, move it away")
     options = asked(arguments)
     if options == {"dryrun"}:
-        from ..telling.plan import plan
-
         print(*plan(currency, paths), sep="\n")
         return 0
-    if options:  # snakemake decides
-        return _run(paths, outdated, arguments)
-    status, tried, due = 0, set(), currency.due(paths)
-    while due:
-        status = _run(due, {path: currency.reason(path) for path in due}, arguments) or status
-        tried |= set(due)
-        if status == INTERRUPTED or tried >= set(outdated):
-            break
-        # What was made from these is outdated only if they have other bytes now; what could not be
-        # made is not tried again.
-        currency = Currency(ROOT, currency.expected)
-        failed = {path for path in tried if currency.reason(path)}
-        due = [
-            path
-            for path in currency.due(paths)
-            if not failed.intersection(needed(currency.expected, [path]))
-        ]
-    return status
+    if not outdated and not options:
+        return 0
+    # An input that is made again with the same bytes leaves what was made from it current: this is
+    # decided when its job begins. With options, snakemake decides.
+    current = (lambda path: False) if options else _is_current(currency)
+    run = server.Plan(checked, currency.expected, set(outdated))
+    return _run(run, paths, outdated, arguments, current)
 
 
-def _run(paths, outdated, arguments) -> int:
-    """Run snakemake in this process until some results are made; its exit status."""
+def _is_current(currency):
+    """Whether a result is current when its inputs have been made."""
+
+    def current(path):
+        now = Currency(ROOT, currency.expected)
+        return now.own_reason(path) is None
+
+    return current
+
+
+def _run(run, paths, outdated, arguments, current) -> int:
+    """Run snakemake until some results are made; its exit status."""
     forced = [path for path, why in outdated.items() if why != MISSING]
-    computes = any(path.endswith(".nc") for path in outdated)
-    targets = [*paths, *map(record_path, paths)]
-    from . import server
-
-    makes = not (arguments and only_says(arguments))
-    if not makes:
-        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # of `| head`, which has seen enough
-    served = server.serving if makes and server.begin(computes) else nullcontext
-    from snakemake.cli import main as snakemake
-
-    from ..telling import steps
-
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
-    command = [*_profile(), *(["--forcerun", *forced] if forced else [])]
-    command += ["--nolock", "--workflow-profile", "none", *targets, *arguments]
-    given = options_of(arguments)
-    if given.cores is None and given.jobs is None:
+    command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
+    command += ["--forcerun", *forced] if forced else []
+    command += ["--nolock", "--workflow-profile", "none", *paths, *map(record_path, paths)]
+    given = options_of(arguments) if arguments else None
+    if given is None or (given.cores is None and given.jobs is None):
         command += ["--cores", "all"]
-    told = makes and not (given.logger or given.quiet or given.verbose)
-    if told:
-        command += ["--logger", steps.register()]
-    executable, status = sys.executable, 0
-    with interruptible() as caught, served():
-        steps.LogHandler.interrupted = caught
+    if given and any(getattr(given, name) for name in _SAY):
+        said = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
+        sys.stdout.write(said.stdout.decode(errors="replace"))
+        return said.returncode
+    if not (given and (given.logger or given.quiet or given.verbose)):
+        command += ["--logger", "reproduce"]
+    # On a cluster each job is a snakemake of its own, on another machine.
+    remote = given and given.executor not in (None, "local")
+    with interruptible() as caught:
         try:
-            snakemake(command)
-        except SystemExit as end:
-            status = end.code or 0
+            with nullcontext({}) if remote else server.serving(run, current) as variables:
+                status = _wait([*command, *arguments], os.environ | variables)
         except KeyboardInterrupt:
-            status = INTERRUPTED
-        finally:
-            sys.executable = executable  # the Snakefile quotes it for the shell
+            if not caught:
+                raise
     if caught:
         say("interrupted: run it again to go on")
         return INTERRUPTED
-    if isinstance(status, str):
-        print(status, file=sys.stderr)
-        return 1
-    if told and (handler := steps.LogHandler.last):
-        LOGS.extend([handler.log] if handler.log else [])
-        REASONS.update(handler.reasons)
-        if status and not handler.failed:
-            print(*handler.errors, sep="\n", file=sys.stderr)
     return status
+
+
+def _wait(command, environment) -> int:
+    """Run a command that Ctrl-C does not reach and whose stdin closes with this process."""
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # which is inherited
+    try:
+        child = subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)
+    finally:
+        signal.signal(signal.SIGINT, handler)
+    with child:
+        return child.wait()
 
 
 def _profile():

@@ -4,8 +4,7 @@ import os
 
 from ...checks.currency import DAMAGED, MISSING
 from ...records.differences import brief, differing_keys
-from ...records.record import RecordError, read_record
-from .names import step
+from ...records.record import RecordError, read_record, record_path
 
 NOT_YET = "not made yet"
 
@@ -17,8 +16,8 @@ def plan(currency, paths) -> list[str]:
     """
     scenes = {}
     for path in currency.outdated(paths):
-        scene, stage = step(path)
-        scenes.setdefault(scene, {}).setdefault(stage.split()[0], []).append(path)
+        made = currency.expected[path]
+        scenes.setdefault(made.scene, {}).setdefault(made.step.split()[0], []).append(path)
     lines = []
     for scene, stages in scenes.items():
         words = why(currency, [path for made in stages.values() for path in made])
@@ -50,7 +49,7 @@ def _cause(currency, path):
     if words in (MISSING, DAMAGED):
         return NOT_YET if words == MISSING else f"{path} was {words}"
     try:
-        record = read_record(currency.root, path)
+        record = read_record(currency.root, record_path(path))
     except RecordError as error:
         return f"{path}: {error}"
     if told := changes(record["config"], made.config):

@@ -26,20 +26,19 @@ def run(given) -> int:
             print(ledger.check(checked, given.check, f"{name}{mark}{given.start / file}"))
         return 0
     with locked():
-        targets = [path for path in ledger.paths(checked).values() if path != ledger.DERIVATIONS]
+        targets = [*ledger.paths(checked).values()]
         drawings = places.figures(checked["variants"], "claims").values()
         # They are made together with the data, before `figures.make` looks at them.
         before = {behind[-1]: identity(behind[-1]) for _, behind in drawings}
         targets += before
         currency = Currency(ROOT, expected.of_all(checked))
         with sweeping.progress(checked["sweeps"], currency, targets):
-            status = running.make(currency, targets, given.options)
+            status = running.make(checked, currency, targets, given.options)
         if status or running.only_says(given.options):
             return status
         if status := figures.make(checked, "claims", given.options, before=before):
             return status
         with interruptible():
-            ledger.derive(checked)
             verdicts = ledger.write(checked)
     counts = Counter(verdict.verdict for verdict in verdicts.values())
     print(f"\n{places.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))

@@ -17,7 +17,7 @@ RESULTS = ROOT / "results"
 _MORE = (
     "*/differences/*.png",
     "*/logs/*.log",
-    "*/absent.json",
+    "*/logs/*.json",
     "*/.*.part",
     "*/*/.*.part",
     "*/*.nc.part/*",

@@ -25,7 +25,7 @@ def run(given) -> int:
     rows = []
     for name in (name for name in variants if name not in PUBLISHED):
         drawn = [behind[-1] for _, behind in places.figures(variants, name).values()]
-        found = _states(currency, drawn, figures.known_absent(name))
+        found = _states(currency, drawn, figures.known_absent(currency, variants, name))
         for kind in dict.fromkeys(state for *_, state in found):
             files = [PurePath(path).name for _, path, state in found if state == kind]
             rows.append((name, kind, " ".join(files)))

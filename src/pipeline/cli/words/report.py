@@ -1,6 +1,8 @@
 """./reproduce report: one HTML page with the figures, their numbers and what made them."""
 
 from ... import config
+from ...checks.currency import Currency
+from ...config import expected
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures, running
@@ -14,7 +16,9 @@ def run(given) -> int:
     checked = given.checked
     with locked():
         status = figures.make(checked, config.PAPER, given.options)
-        absent = {name: figures.known_absent(name) for name in checked["variants"]}
+        variants = checked["variants"]
+        currency = Currency(ROOT, expected.of_variants(variants))
+        absent = {name: figures.known_absent(currency, variants, name) for name in variants}
         if running.only_says(given.options) or (status and not absent[config.PAPER]):
             return status
         from ...checks.report import page

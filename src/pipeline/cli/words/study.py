@@ -19,7 +19,7 @@ def run(given) -> int:
     made = expected.of_study(given.checked["variants"])
     with locked():
         currency = Currency(ROOT, expected.of_all(given.checked))
-        status = running.make(currency, made, given.options)
+        status = running.make(given.checked, currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
             files = {}
             for chart, (data, *_) in parts.CHARTS.items():

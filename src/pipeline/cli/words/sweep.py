@@ -32,7 +32,7 @@ def run(given) -> int:
     with locked():
         currency = Currency(ROOT, results)
         with sweeping.progress(sweeps, currency, targets):
-            status = running.make(currency, targets, options)
+            status = running.make(given.checked, currency, targets, options)
         if status == 0 and not running.only_says(options):
             status = figures.made(places.ATLAS, files)
     return status

@@ -1,6 +1,5 @@
 """What the study consists of: data, which of them are the same everywhere, and charts."""
 
-from ...records import sources
 from .kinds import KINDS
 
 # Data whose bytes are part of the contract, and measurements.
@@ -65,11 +64,11 @@ def artifacts(part, scenes, serves):
     ]
 
 
-def code(part):
-    """The project's files that a part runs, the libraries' rivals where they are measured."""
+def modules(part):
+    """The modules that a part imports by name, the libraries' rivals where they are measured."""
     own = ("verdicts",) if part == "verdicts" else ()
     rivals = ("methods.scipy_events", "methods.taylor") if part in MEASURED else ()
-    return sources.code("study.py", *(f"pseudorigid.study.{name}" for name in own + rivals))
+    return [f"pseudorigid.study.{name}" for name in own + rivals]
 
 
 def drawing(chart):

@@ -10,7 +10,7 @@ PACKAGES = ("pseudorigid", "pipeline")
 
 
 def closure(src, *starts, leave_out=()):
-    """The files of packages in a folder that are behind some modules or scripts.
+    """The files of packages in a folder that are behind some modules.
 
     What they import, what that imports, and so on; imports inside functions count, and so does the
     `__init__` of every package on the way.
@@ -19,9 +19,8 @@ def closure(src, *starts, leave_out=()):
     ----------
     src : pathlib.Path
         The folder.
-    *starts : str or pathlib.Path
-        A module's dotted name ("pseudorigid.dynamics.orbits"), whose own file is part of the
-        answer, or the path of a script, which is not.
+    *starts : str
+        Dotted names ("pseudorigid.dynamics.orbits"); their own files are part of the answer.
     leave_out : iterable of str
         Names of modules that are left out, with what only they import.
 
@@ -36,9 +35,7 @@ def closure(src, *starts, leave_out=()):
         A module that is not there, or a name from the package `pseudorigid`, which does not tell
         where such a name comes from.
     """
-    found, seen, pending = set(), set(leave_out), []
-    for start in starts:
-        pending += _read(src, start, "") if isinstance(start, Path) else [start]
+    found, seen, pending = set(), set(leave_out), [*starts]
     while pending:
         name = pending.pop()
         parent = name.rpartition(".")[0]

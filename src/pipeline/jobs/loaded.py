@@ -4,11 +4,9 @@ from contextlib import suppress
 from importlib import import_module
 
 for _name in (
-    "snakemake.script",
-    "snakemake.logging",
+    "pipeline.jobs.making",
     "pipeline.records.artifacts",
     "pipeline.records.drawings",
-    "pipeline.records.record",
     "pseudorigid.figures.axes.box",
 ):
     with suppress(Exception):
