@@ -1,6 +1,7 @@
 """Pictures have the same bytes for everyone, and hold exactly what was drawn."""
 
 import os
+import shutil
 import subprocess
 import sys
 from io import BytesIO
@@ -13,7 +14,7 @@ from project import ROOT
 from samples import KINDS, draw
 from slowly import slowly
 
-from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas import fonts, style
 from pseudorigid.figures.canvas.render import pixels, render
 
 HOSTILE = """\
@@ -108,6 +109,24 @@ def test_png_holds_exactly_the_pixels(kind):
         assert round(image.info["dpi"][0]) == style.DPI
         assert set(image.info) == {"dpi", "srgb"}
         assert np.array_equal(np.asarray(image), pixels(figure))
+
+
+def test_fonts_of_the_system_are_not_used(tmp_path):
+    from matplotlib import font_manager
+
+    manager = font_manager.fontManager
+    own = font_manager.findfont("DejaVu Serif")
+    copy = shutil.copy(own, tmp_path)
+    manager.addfont(copy)
+    manager.ttflist.insert(0, manager.ttflist.pop())
+    try:
+        assert font_manager.findfont("DejaVu Serif") == copy
+        with fonts.delivered():
+            assert font_manager.findfont("DejaVu Serif") == own
+    finally:
+        del manager.ttflist[0]
+        manager.addfont(own)  # clears what is remembered of the copy
+        manager.ttflist.pop()
 
 
 def test_drawing_leaves_matplotlib_as_it_was():

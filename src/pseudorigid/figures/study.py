@@ -53,11 +53,6 @@ COSTS = {
 }
 
 
-def draw(chart, data):
-    """Return the Figure that a function below makes: chart has its name and its arguments."""
-    return globals()[chart["chart"]](data, *chart["arguments"])
-
-
 @style.pinned()
 def work(data, which, cost):
     """Error and failures against cost: a work-precision diagram.
@@ -362,3 +357,11 @@ def _style(family, name=""):
     """The colour and mark of a family or a method; those of a new one until it has its own."""
     color, marker = STYLES.get(family, (style.FRAME, "o"))
     return SINGLE.get(name, color), marker
+
+
+CHARTS = {f.__name__: f for f in (work, edges, energy, separation, figure_errors, verdicts)}
+
+
+def draw(chart, data):
+    """Return the Figure of a chart: it has the name of one of CHARTS and its arguments."""
+    return CHARTS[chart["chart"]](data, *chart["arguments"])

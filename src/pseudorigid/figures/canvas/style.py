@@ -3,7 +3,8 @@
 from contextlib import contextmanager
 
 import matplotlib
-from matplotlib import font_manager
+
+from . import fonts
 
 DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
@@ -47,19 +48,10 @@ def pinned():
     Everything that makes or renders a picture runs inside; also a decorator. What was set before
     comes back afterwards.
     """
-    manager = font_manager.fontManager
-    found = manager.ttflist
-    own = matplotlib.get_data_path()
-    with matplotlib.rc_context():
+    with matplotlib.rc_context(), fonts.delivered():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
-        try:
-            manager.ttflist = [font for font in found if font.fname.startswith(own)]
-            manager._findfont_cached.cache_clear()
-            yield
-        finally:
-            manager.ttflist = found
-            manager._findfont_cached.cache_clear()
+        yield
 
 
 def pale(color):
