@@ -11,7 +11,7 @@ from project import NO_CACHES, ROOT
 # Each room may import those to its right, and the pipeline all of the science.
 FLOORS = {
     "pseudorigid": ("study", "figures", "sweep", "evidence", "proofs", "dynamics", "kernel"),
-    "pipeline": ("cli", "checks", "config", "records"),
+    "pipeline": ("cli", "jobs", "checks", "config", "records"),
 }
 MOST = 7  # rooms
 

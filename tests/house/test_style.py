@@ -78,10 +78,3 @@ def test_the_packages_of_the_tests_have_the_versions_of_the_lock():
     locked = pins("requirements/lock.txt")
     tested = pins("requirements/test.txt")
     assert {name: locked.get(name, version) for name, version in tested.items()} == tested
-
-
-def test_the_conda_environment_has_the_versions_of_the_lock():
-    locked = pins("requirements/study.txt") | pins("requirements/lock.txt")
-    wanted = pins("workflow/envs/python.yaml")
-    assert wanted
-    assert {name: locked[name] for name in wanted} == wanted

@@ -8,7 +8,7 @@ from pipeline.records import sources
 
 def of_stage(name):
     """The science's files behind a stage, without their package."""
-    files = sources.code("stage.py", STAGES[name].module)
+    files = sources.closure("pipeline.jobs.stage", STAGES[name].module)
     return {file.removeprefix("src/pseudorigid/") for file in files if "pseudorigid" in file}
 
 
@@ -23,7 +23,7 @@ def test_a_job_depends_on_what_it_imports_and_no_more():
     assert wanted <= used
     assert not used & {"dynamics/manifolds.py", "dynamics/periodic.py"}
     assert not {name for name in of_stage("orbits") if name.startswith("figures")}
-    drawing = sources.code("draw.py", "pseudorigid.figures.kinds.motion")
+    drawing = sources.closure("pipeline.jobs.draw", "pseudorigid.figures.kinds.motion")
     assert "src/pseudorigid/figures/kinds/motion.py" in drawing
     assert "src/pseudorigid/figures/kinds/portrait.py" not in drawing
     assert not [file for file in drawing if file.startswith("src/pipeline/config")]
