@@ -3,36 +3,42 @@
 import hashlib
 import json
 import logging
-import time
+import os
 
 import pytest
+import snakemake_logger_plugin_reproduce as steps
+from project import SHIPPED
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from pipeline.checks.currency import Currency
 from pipeline.cli.folder import UsageError, one_line
-from pipeline.cli.telling import plan, states, steps
-from pipeline.cli.telling.names import step
-from pipeline.config.expected import Expected
+from pipeline.cli.telling import plan, states
+from pipeline.config import expected, load
+from pipeline.jobs import server
+from pipeline.records.build_spec import BuildSpec
 from pipeline.records.record import record_path, recorded
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
 
 
-@pytest.mark.parametrize(
-    ("result", "scene", "stage"),
-    [
-        (ORBITS, "fig2", "orbits"),
-        (DRAWING, "fig2", "drawing png"),
-        ("results/claims/last_curve_last_curve.nc", "last_curve", "last_curve"),
-        ("results/paper/motion_my_fig_3.nc", "my_fig_3", "motion"),
-        ("results/thin-shell/figures/fig4.svg", "thin-shell/fig4", "drawing svg"),
-        ("results/sweep/plane_0012.nc", "plane", "block 12"),
-        ("results/sweep/plane.nc", "plane", "data"),
-        ("results/study/work.nc", "work", "data"),
-    ],
-)
-def test_a_result_has_the_name_of_its_scene_and_stage(result, scene, stage):
-    assert step(result) == (scene, stage)
+def test_a_result_has_the_name_of_its_scene_and_step():
+    checked = load(SHIPPED)
+    checked["variants"]["thin"] = {"fig4": checked["scenes"]["fig4"] | {"energy": 0.011}}
+    names = {path: (each.scene, each.step) for path, each in expected.of_all(checked).items()}
+    assert names[ORBITS] == ("fig2", "orbits")
+    assert names[DRAWING] == ("fig2", "drawing png")
+    assert names["results/thin/figures/fig4.png"] == ("thin/fig4", "drawing png")
+    assert names["results/claims/last_curve_last_curve.nc"] == ("last_curve", "last_curve")
+    assert names["results/claims/derivations.nc"] == ("claims", "derivations")
+    assert names["results/sweep/plane_0012.nc"] == ("plane", "block 12")
+    assert names["results/sweep/plane.nc"] == ("plane", "data")
+    assert names["results/study/work.nc"] == ("work", "data")
+
+
+def spec(path, step, config, sources, inputs=()):
+    """A result of fig2, made from few sources."""
+    config |= {"energy": 0.01}
+    return BuildSpec(path, "fig2", step, config, "stage", None, sources, [*inputs])
 
 
 @pytest.fixture
@@ -40,16 +46,14 @@ def made(tmp_path, monkeypatch):
     """A folder with orbits and a drawing of them, made by two sources; what is expected there."""
     monkeypatch.chdir(tmp_path)
     expected = {
-        ORBITS: Expected({"energy": 0.01, "ball": {"g": 0.04}}, ["a.py", "b.py"]),
-        DRAWING: Expected({"energy": 0.01, "view": {"elevation": 40}}, ["b.py"], [ORBITS]),
+        ORBITS: spec(ORBITS, "orbits", {"ball": {"g": 0.04}}, ["a.py", "b.py"]),
+        DRAWING: spec(DRAWING, "drawing png", {"view": {"elevation": 40}}, ["b.py"], [ORBITS]),
     }
     for source in ("a.py", "b.py"):
         (tmp_path / source).write_text(source)
-    for path, how in expected.items():
+    for path, made in expected.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        monkeypatch.setattr("pipeline.records.artifacts.load", lambda _: None)
-        monkeypatch.setattr("pipeline.records.artifacts.content_hash", lambda _: None)
-        with recorded(path, *how):
+        with recorded(made):
             (tmp_path / path).write_text(path)
     return tmp_path, expected
 
@@ -123,7 +127,12 @@ def event(kind, created, **about):
 
 @pytest.fixture
 def handler(tmp_path, monkeypatch):
-    monkeypatch.setattr(steps, "ROOT", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    specs = {
+        path: spec(path, step, {}, [])
+        for path, step in ((ORBITS, "orbits"), (DRAWING, "drawing png"))
+    }
+    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, specs, set()))
     return steps.LogHandler(None, None)
 
 
@@ -160,36 +169,25 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     assert handler.failed
 
 
-def test_an_interrupt_is_no_failure_of_its_jobs(handler, capsys, monkeypatch):
-    handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=0, output=[ORBITS]))
-    handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[0]))
-    monkeypatch.setattr(steps.LogHandler, "interrupted", [2])
-    handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=0))
-    assert capsys.readouterr().err == ""
-
-
-def test_a_log_of_an_earlier_run_is_no_reason(handler, capsys, tmp_path):
-    log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
-    log.parent.mkdir(parents=True)
-    log.write_text("pseudorigid: fig2: the disk is full\n")
-    handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=0, output=[ORBITS]))
-    handler.emit(event(LogEvent.JOB_STARTED, time.time() + 60, jobs=[0]))
-    handler.emit(event(LogEvent.JOB_ERROR, time.time() + 61, jobid=0))
-    assert capsys.readouterr().err.rstrip().endswith("not made: no reason is known")
-
-
-def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys):
-    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=["results/sweep/plane_0003.nc"]))
+def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys, monkeypatch):
+    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[ORBITS]))
+    block = spec(ORBITS, "block 3", {}, [])
+    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, set()))
     handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
     handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
     handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
     assert capsys.readouterr().err == ""
 
 
-def test_the_log_is_remembered(handler, tmp_path):
-    path = tmp_path / ".snakemake/log/x.snakemake.log"
-    handler.emit(event(None, 1.0, msg=f"Complete log(s): {path}"))
-    assert handler.log == ".snakemake/log/x.snakemake.log"
+def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
+    (tmp_path / DRAWING).parent.mkdir(parents=True)
+    (tmp_path / DRAWING).touch()
+    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[f"{DRAWING} (update)"]))
+    handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
+    os.utime(tmp_path / DRAWING)
+    handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
+    handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
+    assert "as it was" in capsys.readouterr().err
 
 
 def test_only_what_is_written_for_the_user_is_one_line():

@@ -28,8 +28,7 @@ def append(path):
         "src/pseudorigid/figures/canvas/style.py",  # loaded beforehand by the server of jobs
         MOTION,
         "src/pipeline/records/drawings.py",
-        "workflow/scripts/draw.py",
-        "workflow/rules/results.smk",
+        "src/pipeline/jobs/draw.py",
         "results/paper/motion_fig3.nc",
     ],
 )
@@ -65,8 +64,8 @@ def test_a_run_says_that_the_config_changed(done):
     assert done.run("fig3", "--cores", "1").returncode == 0
 
 
-def test_a_script_of_plain_snakemake_is_compared_too(done):
-    plant(done, append("workflow/scripts/draw.py"))
+def test_a_job_of_plain_snakemake_is_compared_too(done):
+    plant(done, append("src/pipeline/jobs/draw.py"))
     (done.path / DRAWING).unlink()
     result = subprocess.run(
         [sys.executable, "-m", "snakemake", "--cores", "1", DRAWING],
@@ -78,5 +77,5 @@ def test_a_script_of_plain_snakemake_is_compared_too(done):
     )
     assert result.returncode == 1
     log = done.path / "results/paper/logs/fig3.png.log"
-    line = f"pseudorigid: fig3: workflow/scripts/draw.py {AGAIN}"
+    line = f"pseudorigid: fig3: src/pipeline/jobs/draw.py {AGAIN}"
     assert log.read_text().splitlines()[-1] == line

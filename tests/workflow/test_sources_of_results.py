@@ -12,32 +12,38 @@ from project import ROOT, fresh_tree, of_scenes, shipped
 
 from pipeline.records.sources import BOOKKEEPING
 
-# Loaded at the start of each Python: at its end a job writes down what of the tree it had loaded.
+# Added to the module that makes results: once one is there, it writes down what had been loaded.
 NOTES = """
-import atexit, json, os, sys
 
-def note():
-    job = getattr(sys.modules["__main__"], "snakemake", None)
-    if hasattr(job, "output"):
+class _Noting:
+    def __init__(self, result, answer):
+        self.result, self.answer = result, answer
+
+    def send(self, made):
+        import json, os
+
         files = [getattr(module, "__file__", None) or "" for module in sys.modules.values()]
-        name = job.output[0].replace("/", " ")
-        with open(os.path.join(os.environ["NOTES"], name), "w") as file:
+        with open(os.path.join(os.environ["NOTES"], self.result.replace("/", " ")), "w") as file:
             json.dump(files, file)
+        self.answer.send(made)
 
-atexit.register(note)
+_make = make
+
+def make(spec, answer):
+    _make(spec, _Noting(spec.result, answer))
 """
 
 
 def loaded(tree, folder, *targets):
     """Result -> the files of the tree that its job, a Python of its own, had loaded at its end."""
-    (folder / "sitecustomize.py").write_text(NOTES)
+    with (tree.path / "src/pipeline/jobs/making.py").open("a") as making:
+        making.write(NOTES)
     notes = folder / "notes"
     notes.mkdir()
-    paths = f"{folder}{os.pathsep}{tree.path / 'src'}"
     result = subprocess.run(
         [sys.executable, "-m", "snakemake", "--cores", "2", *targets],
         cwd=tree.path,
-        env=tree.environment() | {"PYTHONPATH": paths, "NOTES": str(notes)},
+        env=tree.environment() | {"NOTES": str(notes)},
         capture_output=True,
         text=True,
         check=False,
@@ -122,9 +128,12 @@ def test_a_line_of_code_in_the_kernel_makes_the_datasets_again(done):
 # In each module of bookkeeping a change of what it does, where it does anything.
 PLANTED = {
     "pipeline": ("", ""),
+    "pipeline.jobs": ("", ""),
+    "pipeline.jobs.making": ("pseudorigid: {spec", "planted: {spec"),
+    "pipeline.jobs.server": ("the job was killed", "planted"),
     "pipeline.records": ("", ""),
+    "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),
-    "pipeline.records.job": ("pseudorigid: {_subject", "planted: {_subject"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
     "pipeline.records.sources": ("return meanings.meaning(path)", "return 'planted'"),
     "pseudorigid": ("_FROM_TEXT.add(package)", "pass"),

@@ -17,6 +17,7 @@ BOOKKEEPING = (
     "pipeline",
     "pipeline.jobs",
     "pipeline.jobs.making",
+    "pipeline.jobs.server",
     "pipeline.records",
     "pipeline.records.build_spec",
     "pipeline.records.files",
