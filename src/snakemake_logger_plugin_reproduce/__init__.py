@@ -41,7 +41,7 @@ class LogHandler(LogHandlerBase):
                 job, now = self.finished
                 result = self.results[job]
                 words = f"{now - self.started[job]:.1f} s"
-                if result and identity(result) == self.before[result]:
+                if identity(result) and identity(result) == self.before[result]:
                     words = "as it was"
                 self._tell(job, words, f"{record.done} of {record.total}")
             case LogEvent.JOB_ERROR:

@@ -6,10 +6,10 @@ import logging
 import os
 
 import pytest
-import snakemake_logger_plugin_reproduce as steps
 from project import SHIPPED
 from snakemake_interface_logger_plugins.common import LogEvent
 
+import snakemake_logger_plugin_reproduce as steps
 from pipeline.checks.currency import Currency
 from pipeline.cli.folder import UsageError, one_line
 from pipeline.cli.telling import plan, states

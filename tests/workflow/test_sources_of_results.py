@@ -1,7 +1,6 @@
 """What a job loads is what its record names, and what changes no meaning makes nothing again."""
 
 import json
-import os
 import re
 import subprocess
 import sys
