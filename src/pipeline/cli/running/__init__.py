@@ -14,7 +14,6 @@ from ...checks.currency import DAMAGED, MISSING, Currency
 from ...config.expected import needed
 from ...jobs import server
 from ...records.files import obstacle
-from ...records.record import record_path
 from ...records.sources import ROOT
 from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
@@ -119,7 +118,8 @@ def make(checked, currency, wanted, arguments) -> int:
     # decided when its job begins. With options, snakemake decides.
     current = (lambda path: False) if options else _is_current(currency)
     run = server.Plan(checked, currency.expected, set(outdated))
-    return _run(run, paths, outdated, arguments, current)
+    targets = paths if options else [*outdated]
+    return _run(run, targets, outdated, arguments, current)
 
 
 def _is_current(currency):
@@ -132,13 +132,13 @@ def _is_current(currency):
     return current
 
 
-def _run(run, paths, outdated, arguments, current) -> int:
-    """Run snakemake until some results are made; its exit status."""
+def _run(run, targets, outdated, arguments, current) -> int:
+    """Run snakemake until the targets are made; its exit status."""
     forced = [path for path, why in outdated.items() if why != MISSING]
     # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
     command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
     command += ["--forcerun", *forced] if forced else []
-    command += ["--nolock", "--workflow-profile", "none", *paths, *map(record_path, paths)]
+    command += ["--nolock", "--workflow-profile", "none", *targets]
     given = options_of(arguments) if arguments else None
     if given is None or (given.cores is None and given.jobs is None):
         command += ["--cores", "all"]
