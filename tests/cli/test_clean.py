@@ -30,7 +30,7 @@ FILES = {
     "results/paper/periodic_fig3.nc": True,  # its job was killed before it wrote a record
     "results/paper/logs/motion_fig3.nc.log": True,
     "results/paper/figures/.fig3.png.77.part": True,
-    "results/near/absent.json": True,
+    "results/near/logs/fig4.png.json": True,
     "results/gone/figures/fig9.png": True,  # of a variant that config.yaml no longer has
     "results/report/report.html": True,
     "results/compare/paper..near/fig3.png": True,
@@ -59,7 +59,7 @@ def test_all_that_was_made_goes_and_only_that(tree):
 
 def test_of_a_variant_alone(tree):
     assert tree.run("clean", "near", "--yes").returncode == 0
-    assert left(tree) == set(FILES) - {"results/near/absent.json"}
+    assert left(tree) == set(FILES) - {"results/near/logs/fig4.png.json"}
     result = tree.run("clean", "pape")
     said = "reproduce: no folder results/pape: did you mean paper?\n"
     assert (result.returncode, result.stdout) == (2, said)

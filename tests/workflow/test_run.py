@@ -26,9 +26,8 @@ def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
     assert [step[-3] for step in steps] == [str(i + 1) for i in range(len(steps))]
     assert {step[-1] for step in steps} == {str(len(steps))}
     assert len(said) + 2 <= 60  # with those of the set-up
-    assert said[-1].startswith("snakemake's log: .snakemake/log/")
-    # steps, an empty line, the header, the files, the log: nothing else
-    assert len(said) == len(steps) + 2 + len(finished.published()) + 1
+    # steps, an empty line, the header, the files: nothing else
+    assert len(said) == len(steps) + 2 + len(finished.published())
 
 
 def test_a_plan_is_in_our_words_and_makes_nothing(done):

@@ -160,6 +160,8 @@ def _run(run, targets, outdated, arguments, current) -> int:
     if caught:
         say("interrupted: run it again to go on")
         return INTERRUPTED
+    if status and (logs := sorted(ROOT.glob(".snakemake/log/*.log"))):
+        say(f"snakemake's log: {logs[-1].relative_to(ROOT)}")  # their names begin with the time
     return status
 
 
