@@ -187,7 +187,7 @@ def _turned(at, shift, side):
 def _fits(at, shift, side, size, low, high):
     """Whether a text so many pixels long, `shift` beside `at`, lies between low and high."""
     start = at + shift - {"left": 0.0, "bottom": 0.0, "center": 0.5}.get(side, 1.0) * size
-    return low <= start and start + size <= high
+    return low + POINT <= start and start + size <= high - POINT
 
 
 def vacant(sheet, frame, text):
