@@ -16,6 +16,7 @@ from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 from .actions import Law, Saddle, first_crossing, lobe
+from .parted import parted
 from .polygon import Polygon
 from .sea import sea_states
 
@@ -83,7 +84,8 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         of (x, y), which the map keeps, eq. (42), in omega R^2.
 
         A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
-        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it.
+        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it. Where a
+        jump cuts the region's edge only, what belongs to the region is NaN.
 
     Raises
     ------
@@ -144,13 +146,15 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
     traced, region, branch = _polygons(ball, energy, saddles, place, side, distance, primary)
-    polygon = Polygon(region)
-    inside = polygon.holds(*path)
-    left = np.mean(inside[:-1] & ~inside[1:])
+    counted = (math.nan,) * 5
+    if not np.isnan(region[0, 0]):
+        polygon = Polygon(region)
+        inside = polygon.holds(*path)
+        left = np.mean(inside[:-1] & ~inside[1:])
+        counted = polygon.area(), *_carried(ball, energy, polygon, grid), inside.mean(), left
     x, y = chart(ball.k, *states)
     target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), traced, polygon.area()
-    counted = *_carried(ball, energy, polygon, grid), inside.mean(), left
+    areas = float(area), float(error), area.str(digits, radius=False), traced
     crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
     return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
@@ -197,7 +201,10 @@ def _primary(ball, energy, saddles, side):
 
 
 def _polygons(ball, energy, saddles, place, side, distance, primary):
-    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
+    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch.
+
+    The region is NaN where a jump of the map cuts its edge.
+    """
     first, second = primary
     steps = 2 * second.impacts - first.impacts
     ends = first.points[-1], second.points[min(first.impacts, steps)]
@@ -234,7 +241,19 @@ def _polygons(ball, energy, saddles, place, side, distance, primary):
         loop.append(chart(ball.k, *np.concatenate([arc, back[:, 1:]], axis=1)))
         for part in (arc, back):
             ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
-    return abs(area), _closed(loop), line[:, min(at) : max(at) + 1]
+    region = _closed(loop)
+    vertices = loop[0]  # of the edge between two saddles; the rest of the edge is its images
+
+    def image(t):
+        along = np.arange(vertices.shape[1])
+        x, y = (np.interp(t, along, values) for values in vertices)
+        states = [np.array(values) for values in ball.state_xy(x, y, energy)]
+        ball.map.steps(*states, ball.k, ball.g, len(loop) - 1, np.empty(t.size))
+        return np.stack(chart(ball.k, *states))
+
+    if parted(image, np.arange(vertices.shape[1], dtype=float)).any():
+        region = np.full(region.shape, math.nan)
+    return abs(area), region, line[:, min(at) : max(at) + 1]
 
 
 def _between(line, start, end, first, last):
