@@ -16,7 +16,6 @@ from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 from .actions import Law, Saddle, first_crossing, lobe
-from .parted import parted
 from .polygon import Polygon
 from .sea import sea_states
 
@@ -25,6 +24,7 @@ _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _FINER = (1, 2, 4)  # times these bits, where flights are not enclosed
 _LONGEST = 16.0  # section radii, of a branch
+_LONGEST_SIDE, _HALVINGS = 0.02, 30  # section radii, of a region's edge; longer then is a jump
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 _VARIABLES = {
     "side": ("side", "which branch"),
@@ -236,24 +236,29 @@ def _polygons(ball, energy, saddles, place, side, distance, primary):
     arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*one, energy))[:, None], axis=1)
     arc = arc[:, ~np.isnan(arc[0])]
     back = np.stack(ball.reflect(*arc[:, ::-1]))
-    loop = []
-    for _ in range(saddles.sizes["point"]):
-        loop.append(chart(ball.k, *np.concatenate([arc, back[:, 1:]], axis=1)))
-        for part in (arc, back):
-            ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
-    region = _closed(loop)
-    vertices = loop[0]  # of the edge between two saddles; the rest of the edge is its images
-
-    def image(t):
-        along = np.arange(vertices.shape[1])
-        x, y = (np.interp(t, along, values) for values in vertices)
-        states = [np.array(values) for values in ball.state_xy(x, y, energy)]
-        ball.map.steps(*states, ball.k, ball.g, len(loop) - 1, np.empty(t.size))
-        return np.stack(chart(ball.k, *states))
-
-    if parted(image, np.arange(vertices.shape[1], dtype=float)).any():
-        region = np.full(region.shape, math.nan)
+    states, points = np.concatenate([arc, back[:, 1:]], axis=1), saddles.sizes["point"]
+    loop = _images(ball, states, points)
+    region = np.full((2, _CORNERS), math.nan)
+    longest = _LONGEST_SIDE * ball.section(energy)[1]
+    for _ in range(_HALVINGS):
+        long = np.max(np.abs(np.diff(loop)), axis=(0, 1)) > longest
+        if not long.any():
+            region = _closed(loop)
+            break
+        middle = 0.5 * (loop[0][:, :-1] + loop[0][:, 1:])[:, long]
+        fresh = np.stack(ball.state_xy(*middle, energy))
+        states = np.insert(states, np.flatnonzero(long) + 1, fresh, axis=1)
+        loop = _images(ball, states, points)
     return abs(area), region, line[:, min(at) : max(at) + 1]
+
+
+def _images(ball, states, count):
+    """The chart's places of states (3, n) and of their images, `count` in all: a list of (2, n)."""
+    states, found = [np.array(values) for values in states], []
+    for _ in range(count):
+        found.append(np.stack(chart(ball.k, *states)))
+        ball.map.steps(*states, ball.k, ball.g, 1, np.empty(states[0].size))
+    return found
 
 
 def _between(line, start, end, first, last):

@@ -14,10 +14,12 @@ import xarray as xr
 from ..dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
 from ..kernel.arithmetic import sincos_each
 from ..kernel.law import rebound, transfer
-from .parted import parted
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
+_HALVINGS = 40  # of a side: a continuous image is then as good as one point
+_LEFT = 0.01  # of a side's image: more than this that is left is a jump
+_LEAST = 1e-9  # of the whole image: less is rounding
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
 _DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve, of the derivatives
 _LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
@@ -134,7 +136,29 @@ def _arc(ball, energy, points):
         x, y = rim(t)
         return np.stack(chart(k, *ball.impact(x, y / (1.0 + k), -y / (1.0 + k))[:3]))
 
-    return np.stack([*rim(t), *image(t)]), parted(image, t)
+    return np.stack([*rim(t), *image(t)]), _parted(image, t)
+
+
+def _parted(image, at):
+    """Which sides of a curve's image are no part of it, since the map jumps between their ends.
+
+    The curve's parameters (n,) are taken to points (2, n) by `image`; its vertices are `at`.
+    """
+    low, high = at[:-1], at[1:]
+    start, end = image(low), image(high)
+    sides = _apart(start, end)
+    extent = np.max(np.ptp(start, axis=1))
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        point = image(middle)
+        first = _apart(start, point) > _apart(point, end)
+        low, high = np.where(first, low, middle), np.where(first, middle, high)
+        start, end = np.where(first, start, point), np.where(first, point, end)
+    return _apart(start, end) > np.maximum(_LEFT * sides, _LEAST * extent)
+
+
+def _apart(one, other):
+    return np.max(np.abs(one - other), axis=0)
 
 
 def _derivatives(ball, energy, curve):
