@@ -11,6 +11,7 @@ from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005
 _COLUMNS = (1, 135, 550), (0, 590, 1005)  # y, which remembers more, and x: index and frame
+_LOWER = 240  # bottom of the lowest panels
 _NAMES = "$x$", "$y$"
 _MARKS = ("o", "s", "^", "D")
 _ROOM = 1.1  # of the largest number: its text stands above
@@ -51,8 +52,8 @@ def draw(scene, clusters):
         _marks(sheet, panel, clusters, rows)
         name = f"Variance of {_NAMES[i]} explained"
         rows = [values[..., i] for values in by_cell]
-        up = linear(0.0, most, 5, name)
-        panel = _by_lag(sheet, (left, 240, right, 560), clusters, up)
+        up = linear(min(0.0, _ROOM * float(np.min(by_cell))), most, 5, name)
+        panel = _by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
         _marks(sheet, panel, clusters, rows)
     names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
     entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
@@ -86,7 +87,7 @@ def _by_lag(sheet, frame, clusters, up):
         up = replace(up, labels=[""] * len(up.ticks))
     lags = [lag for lag in ticks(0.0, last, 9) if lag >= 1.0 and lag.is_integer()]
     across = Axis((0.6, last + 0.5), lags, "Clusters later")
-    return Panel(sheet, frame, across if up.limits[0] == 0.0 else across.blank(), up)
+    return Panel(sheet, frame, across if frame[1] == _LOWER else across.blank(), up)
 
 
 def _marks(sheet, panel, clusters, rows):
