@@ -3,15 +3,18 @@
 import warnings
 from importlib import import_module
 
+import numpy as np
 import pytest
 import yaml
 from jinja2 import Environment, StrictUndefined
+from legible import assert_text_is_whole_and_apart
 
 from pipeline.config import ConfigError, check
 from pipeline.config.declared.kinds import KINDS
 from pipeline.config.declared.stages import STAGES, behind
 from pipeline.config.reference import example
 from pseudorigid import Ball
+from pseudorigid.figures.axes.panel import Panel
 from pseudorigid.figures.canvas.render import render
 
 PAPER = {"k": 0.2, "g": 0.04}
@@ -23,7 +26,7 @@ def checked(block):
     return check({"ball": PAPER, "scenes": {"one": block}})["scenes"]["one"]
 
 
-def made(block):
+def made(block, legible=True):
     """The picture, the quantities and the caption of a complete block, computed here."""
     kind, data = KINDS[block["picture"]], {}
     ball, energy = Ball(**block["ball"]), block["energy"]
@@ -35,7 +38,10 @@ def made(block):
         data[name] = compute(ball, energy, *inputs, **fields)
         data[name].attrs |= {"k": ball.k, "g": ball.g, "energy": float(energy)}
     drawn = import_module(f"pseudorigid.figures.kinds.{block['picture']}").draw
-    picture = render(drawn(block, *(data[name] for name in kind.stages)), "png")
+    figure = drawn(block, *(data[name] for name in kind.stages))
+    if legible:
+        assert_text_is_whole_and_apart(figure, margin=1, slack=5)  # 10^-5 and 10^1 at a corner
+    picture = render(figure, "png")
     template = Environment(undefined=StrictUndefined).from_string(kind.caption())
     return picture, kind.numbers(block, **data), template.render(s=block)
 
@@ -53,6 +59,55 @@ def test_the_example_of_a_kind_is_made_without_a_warning(name):
     assert KINDS[name].telling in numbers
     assert "nan" not in " ".join(numbers.values())
     assert len(caption) > 100
+
+
+OTHER = {"k": 0.25, "g": 0.03}
+ELSEWHERE = [
+    ("rotation", {}),
+    ("rotation", {"ball": OTHER, "energy": 0.008, "energies": [0.002, 0.012]}),
+    ("rotation", {"detail": [-0.25, -0.24999]}),
+    ("clusters", {}),
+    ("clusters", {"ball": {"k": 0.3, "g": 0.005}, "energy": 0.01, "lags": 20,
+                  "cuts": [10, 20, 30, 35, 40, 45, 50]}),
+    ("jumps", {}),
+    ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0005]}),
+    ("last_curve", {"ball": PAPER, "energy": 0.01, "between": [-0.2, -0.0325639],
+                    "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
+    ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2], "convergents": 8}),
+    ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
+    ("spread", {"regular_impacts": 1_000_000}),
+    ("twist", {"ball": OTHER, "energies": [0.001, 0.004, 0.014], "marks": [0.001]}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "change"), ELSEWHERE)
+def test_no_data_are_moved_onto_a_frame(name, change, monkeypatch):
+    place, dots = Panel.place, Panel.dots
+
+    def within(axis, values):
+        part = axis.fraction(values)
+        assert not np.any((part < -1e-9) | (part > 1.0 + 1e-9)), axis.name
+
+    def placed(self, x, y):
+        if self.kept == (0.0, 1.0):
+            within(self.up, y)
+        return place(self, x, y)
+
+    def dotted(self, x, y, *what, **how):
+        within(self.across, x)
+        dots(self, x, y, *what, **how)
+
+    monkeypatch.setattr(Panel, "place", placed)
+    monkeypatch.setattr(Panel, "dots", dotted)
+    made(checked(yaml.safe_load(example(name)) | change))
+
+
+def test_a_horseshoe_shows_what_lies_within_its_limits_alone():
+    given = {"x": {"limits": [0, 0.1], "ticks": [0]}, "q": {"limits": [-0.9, 0.9], "ticks": [0]}}
+    made(checked(yaml.safe_load(example("horseshoe")) | {"axes": given}))
+    with pytest.raises(ValueError, match=r"axes.x.limits \[1.0, 2.0\]: all data lie beyond them"):
+        far = {"x": {"limits": [1.0, 2.0], "ticks": [1]}}
+        made(checked(yaml.safe_load(example("horseshoe")) | {"axes": far}))
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -109,7 +164,7 @@ def test_unusual_values_are_drawn_or_refused_in_words(name, change):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            made(block)
+            made(block, legible=False)
         except ValueError as error:
             assert "\n" not in str(error)
             for word in ("array", "convert float", "reduction", "broadcast", "shape"):
@@ -129,3 +184,4 @@ def test_flux_has_the_lobes_that_exist_and_says_why_others_do_not(change, sides)
     assert len(numbers["lobes"].split(", ")) == sides
     if sides == 1:
         assert numbers["no outer lobes"].startswith("a jump of the map cuts the branch")
+    assert ("no inner region" in numbers) == (block["ball"]["k"] == 0.3)

@@ -59,6 +59,21 @@ def test_the_map_jumps_across_the_curve():
         assert math.dist(*ends) > 0.01
 
 
+def test_the_curve_has_a_gap_where_the_map_jumps_across_it():
+    """Beside the gap the sides of finer curves shrink; across it they do not."""
+    ball = Ball(1 / 3, 0.02)
+    longest, lengths = [], []
+    for sides in (400, 4000):
+        found = jumps(ball, 0.01, [], sides)
+        x, y = found["x"].values[0], found["y"].values[0]
+        assert np.isnan(x).sum() == 1
+        longest.append(np.nanmax(np.hypot(np.diff(x), np.diff(y))))
+        lengths.append(float(found["length"].values[0]))
+    assert longest[1] < 0.5 * longest[0]
+    assert lengths[0] == pytest.approx(lengths[1], rel=0.03)  # the chord is 0.33 long
+    assert lengths[1] < 0.8
+
+
 def test_no_jump_below_the_threshold():
     found = jumps(BALL, 0.00175, [0.00177], 100)
     assert float(found["length"].values[0]) == 0.0

@@ -1,12 +1,12 @@
 """Text in pictures: nothing clipped, nothing on top of something else, large enough to read."""
 
 import pytest
+from legible import assert_text_is_whole_and_apart
 from samples import DATA, FLAT, KINDS, SCENES, SPACE, draw, exponents, module
 from slowly import slowly
 
 from pseudorigid.figures.axes import limits, plane
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.render import pixels
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -49,25 +49,6 @@ def test_names_of_exponents_that_coincide_are_moved_apart():
     texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
     names = [text.get_text() for text in texts if "lambda" in text.get_text()]
     assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
-
-
-def assert_text_is_whole_and_apart(figure):
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    with style.pinned():
-        renderer = FigureCanvasAgg(figure).get_renderer()
-        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
-    wide, high = figure.bbox.size
-    for text, extent in boxes:
-        assert min(extent.x0, extent.y0) >= 4, text
-        assert extent.x1 <= wide - 4, text
-        assert extent.y1 <= high - 4, text
-    for place, (text, extent) in enumerate(boxes):
-        for other, second in boxes[:place]:
-            assert not extent.overlaps(second), (text, other)
-    image = pixels(figure)
-    for side in (image[:3], image[-3:], image[:, :3], image[:, -3:]):
-        assert (side == 255).all()
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -24,6 +24,7 @@ _BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _FINER = (1, 2, 4)  # times these bits, where flights are not enclosed
 _LONGEST = 16.0  # section radii, of a branch
+_LONGEST_SIDE, _HALVINGS = 0.02, 30  # section radii, of a region's edge; longer then is a jump
 _BEND = 5.0  # degrees, of the lines that polygons are made of
 _VARIABLES = {
     "side": ("side", "which branch"),
@@ -83,7 +84,8 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         of (x, y), which the map keeps, eq. (42), in omega R^2.
 
         A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
-        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it.
+        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it. Where a
+        jump cuts the region's edge only, what belongs to the region is NaN.
 
     Raises
     ------
@@ -144,13 +146,15 @@ def _side(ball, energy, saddles, side, distance, grid, path):
     error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
     traced, region, branch = _polygons(ball, energy, saddles, place, side, distance, primary)
-    polygon = Polygon(region)
-    inside = polygon.holds(*path)
-    left = np.mean(inside[:-1] & ~inside[1:])
+    counted = (math.nan,) * 5
+    if not np.isnan(region[0, 0]):
+        polygon = Polygon(region)
+        inside = polygon.holds(*path)
+        left = np.mean(inside[:-1] & ~inside[1:])
+        counted = polygon.area(), *_carried(ball, energy, polygon, grid), inside.mean(), left
     x, y = chart(ball.k, *states)
     target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), traced, polygon.area()
-    counted = *_carried(ball, energy, polygon, grid), inside.mean(), left
+    areas = float(area), float(error), area.str(digits, radius=False), traced
     crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
     return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
@@ -197,7 +201,10 @@ def _primary(ball, energy, saddles, side):
 
 
 def _polygons(ball, energy, saddles, place, side, distance, primary):
-    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch."""
+    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch.
+
+    The region is NaN where a jump of the map cuts its edge.
+    """
     first, second = primary
     steps = 2 * second.impacts - first.impacts
     ends = first.points[-1], second.points[min(first.impacts, steps)]
@@ -229,12 +236,29 @@ def _polygons(ball, energy, saddles, place, side, distance, primary):
     arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*one, energy))[:, None], axis=1)
     arc = arc[:, ~np.isnan(arc[0])]
     back = np.stack(ball.reflect(*arc[:, ::-1]))
-    loop = []
-    for _ in range(saddles.sizes["point"]):
-        loop.append(chart(ball.k, *np.concatenate([arc, back[:, 1:]], axis=1)))
-        for part in (arc, back):
-            ball.map.steps(*part, ball.k, ball.g, 1, np.empty(part.shape[1]))
-    return abs(area), _closed(loop), line[:, min(at) : max(at) + 1]
+    states, points = np.concatenate([arc, back[:, 1:]], axis=1), saddles.sizes["point"]
+    loop = _images(ball, states, points)
+    region = np.full((2, _CORNERS), math.nan)
+    longest = _LONGEST_SIDE * ball.section(energy)[1]
+    for _ in range(_HALVINGS):
+        long = np.max(np.abs(np.diff(loop)), axis=(0, 1)) > longest
+        if not long.any():
+            region = _closed(loop)
+            break
+        middle = 0.5 * (loop[0][:, :-1] + loop[0][:, 1:])[:, long]
+        fresh = np.stack(ball.state_xy(*middle, energy))
+        states = np.insert(states, np.flatnonzero(long) + 1, fresh, axis=1)
+        loop = _images(ball, states, points)
+    return abs(area), region, line[:, min(at) : max(at) + 1]
+
+
+def _images(ball, states, count):
+    """The chart's places of states (3, n) and of their images, `count` in all: a list of (2, n)."""
+    states, found = [np.array(values) for values in states], []
+    for _ in range(count):
+        found.append(np.stack(chart(ball.k, *states)))
+        ball.map.steps(*states, ball.k, ball.g, 1, np.empty(states[0].size))
+    return found
 
 
 def _between(line, start, end, first, last):

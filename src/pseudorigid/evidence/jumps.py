@@ -17,6 +17,9 @@ from ..kernel.law import rebound, transfer
 
 # The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
 _LEFT_OUT = 2.0**-46
+_HALVINGS = 40  # of a side: a continuous image is then as good as one point
+_LEFT = 0.01  # of a side's image: more than this that is left is a jump
+_LEAST = 1e-9  # of the whole image: less is rounding
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
 _DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve, of the derivatives
 _LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
@@ -43,8 +46,9 @@ def jumps(ball, energy, energies, sides):
         (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
         much it differs from what half as many sides give, and what the ends left out make. On
         (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
-        under the map, where the inverse jumps. The map jumps on the mirror image (x, -y). On one
-        side of it the next impact is near (rim_x, -rim_y), on the other near the image of that,
+        under the map, where the inverse jumps, NaN next to a jump of the map. The map jumps on the
+        mirror image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the
+        other near the image of that,
         the point with the same index counted from the end. flight_x, flight_y (half_time, branch):
         the symmetry line Fix RP of flights symmetric in time, NaN where a flight is not the first
         to end. On distance, from the middle of the curve at the first energy along its normal:
@@ -71,13 +75,15 @@ def jumps(ball, energy, energies, sides):
     if sides % 4:
         raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
     levels = [float(energy), *map(float, energies)]
-    curves = np.stack([_arc(ball, level, sides + 1) for level in levels], axis=1)
-    fine, middle, coarse = (_lengths(curves[2:, :, ::step]) for step in (1, 2, 4))
+    arcs, gaps = zip(*(_arc(ball, level, sides + 1) for level in levels), strict=True)
+    curves, gaps = np.stack(arcs, axis=1), np.array(gaps)
+    fine, middle, coarse = (_lengths(curves[2:], gaps, step) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
     radii = [ball.section(level)[1] for level in levels]
     flight_x, flight_y = _symmetric_flights(ball, energy, sides)
     touched, missed = _derivatives(ball, energy, curves[2:, 0])
+    curves[2:, :, 1:][:, gaps] = np.nan
     curve, line = ("energy", "point"), ("half_time", "branch")
     data = {
         "rim_x": (curve, curves[0], "x of grazing states that leave the floor", LENGTH),
@@ -98,27 +104,61 @@ def jumps(ball, energy, energies, sides):
     return xr.Dataset(described(data), attrs={"first_energy": first})
 
 
-def _lengths(curves):
-    """Lengths of polylines (2, n, vertices), 0 for those of NaN: (n,)."""
-    steps = curves[:, :, 1:] - curves[:, :, :-1]
-    return np.nansum(np.sqrt(np.sum(steps * steps, axis=0)), axis=1)
+def _lengths(curves, gaps, every):
+    """Lengths (n,) of polylines (2, n, vertices) without their gaps, 0 for those of NaN.
+
+    Of the vertices only each `every`th counts.
+    """
+    steps = np.diff(curves[:, :, ::every], axis=2)
+    gaps = gaps.reshape(gaps.shape[0], -1, every).any(axis=2)
+    return np.nansum(np.where(gaps, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
 
 
 def _arc(ball, energy, points):
-    """x, y of the arc of the rim with x < -g, and of its image: (4, points)."""
+    """x, y of the arc of the rim with x < -g and of its image, (4, points); the image's gaps."""
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
     if not centre - radius < -g:
-        return np.full((4, points), math.nan)
+        return np.full((4, points), math.nan), np.zeros(points - 1, bool)
     # x = centre - radius (1 - t^2)/(1 + t^2), y = high 2 t/(1 + t^2), |t| < the t of x = -g
     high = math.sqrt(k * (1.0 + k)) * radius
     depth = (centre + g) / radius
     end = math.sqrt((1.0 - depth) / (1.0 + depth))
     t = end * (1.0 - _LEFT_OUT) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
-    x = centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t))
-    y = high * (2.0 * t / (1.0 + t * t))
-    states = x, y / (1.0 + k), -y / (1.0 + k)
-    return np.stack([x, y, *chart(k, *ball.impact(*states)[:3])])
+
+    def rim(t):
+        return (
+            centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t)),
+            high * (2.0 * t / (1.0 + t * t)),
+        )
+
+    def image(t):
+        x, y = rim(t)
+        return np.stack(chart(k, *ball.impact(x, y / (1.0 + k), -y / (1.0 + k))[:3]))
+
+    return np.stack([*rim(t), *image(t)]), _parted(image, t)
+
+
+def _parted(image, at):
+    """Which sides of a curve's image are no part of it, since the map jumps between their ends.
+
+    The curve's parameters (n,) are taken to points (2, n) by `image`; its vertices are `at`.
+    """
+    low, high = at[:-1], at[1:]
+    start, end = image(low), image(high)
+    sides = _apart(start, end)
+    extent = np.max(np.ptp(start, axis=1))
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        point = image(middle)
+        first = _apart(start, point) > _apart(point, end)
+        low, high = np.where(first, low, middle), np.where(first, middle, high)
+        start, end = np.where(first, start, point), np.where(first, point, end)
+    return _apart(start, end) > np.maximum(_LEFT * sides, _LEAST * extent)
+
+
+def _apart(one, other):
+    return np.max(np.abs(one - other), axis=0)
 
 
 def _derivatives(ball, energy, curve):

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..canvas import style
 from ..canvas.ragged import pieces
-from ..canvas.sheet import POINT
+from ..canvas.sheet import POINT, width
 
 _SIZE, _BESIDE = 8.0, 7.0  # points: text in a chart, and beside its lines
 _KEY = 60, 960  # pixels: where a key begins, and how wide it is
@@ -128,10 +128,22 @@ class Panel:
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
     def note(self, x, y, text, shift=(0.0, 0.0), ha="left", va="center"):
-        """Write `text` beside a point, `shift` points away."""
-        across, up = self.place(x, y)
-        across, up = float(across[0]) + shift[0] * POINT, float(up[0]) + shift[1] * POINT
-        self.sheet.text(across, up, text, ha=ha, va=va, size=self.small)
+        """Write `text` beside a point, `shift` points away.
+
+        Where it would leave the frame it stands opposite, or above, below or beside that.
+        """
+        left, bottom, right, top = self.frame
+        (x,), (y,) = self.place(x, y)
+        across = float(x), shift[0] * POINT, ha
+        up = float(y), shift[1] * POINT, va
+        wide, high = width(text, self.small), self.small * POINT
+        for pair in ((across, up), (_turned(*across), _turned(*up)),
+                     (across, _turned(*up)), (_turned(*across), up)):  # fmt: skip
+            if _fits(*pair[0], wide, left, right) and _fits(*pair[1], high, bottom, top):
+                across, up = pair
+                break
+        places = sum(across[:2]), sum(up[:2])
+        self.sheet.text(*places, text, ha=across[2], va=up[2], size=self.small)
 
     def _label(self, x, text):
         """Where the middle of a label below the frame is."""
@@ -142,6 +154,46 @@ class Panel:
 
     def _text(self, across, up, text, ha, va):
         self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
+
+
+class Window(Panel):
+    """A panel that shows nothing of what lies beyond its axes."""
+
+    small = _SIZE
+    kept = (-np.inf, np.inf)
+
+    def line(self, x, y, **how):
+        """Draw a line as far as it lies inside, broken where a coordinate is NaN."""
+        beyond = not self._shown(x, y).all()
+        super().line(x, y, clip=self.frame if beyond else None, **how)
+
+    def dots(self, x, y, *what, **how):
+        """Draw those marks that lie inside."""
+        there = self._shown(x, y)
+        super().dots(np.asarray(x)[there], np.asarray(y)[there], *what, **how)
+
+    def _shown(self, x, y):
+        """Whether each point is within the limits; NaN counts as such."""
+        fractions = self.across.fraction(x), self.up.fraction(y)
+        return ~np.logical_or.reduce([(part < 0.0) | (part > 1.0) for part in fractions])
+
+
+def _turned(at, shift, side):
+    """Turn a text over to the other side of the place `at`."""
+    other = {"left": "right", "right": "left", "bottom": "top", "top": "bottom"}
+    return at, -shift, other.get(side, side)
+
+
+def _fits(at, shift, side, size, low, high):
+    """Whether a text so many pixels long, `shift` beside `at`, lies between low and high."""
+    start = at + shift - {"left": 0.0, "bottom": 0.0, "center": 0.5}.get(side, 1.0) * size
+    return low + POINT <= start and start + size <= high - POINT
+
+
+def vacant(sheet, frame, text):
+    """Say in the middle of a frame why nothing is drawn there."""
+    middle = 0.5 * (frame[0] + frame[2]), 0.5 * (frame[1] + frame[3])
+    sheet.text(*middle, text, ha="center", va="center", size=_BESIDE)
 
 
 def corner(sheet, frame, text):

@@ -1,5 +1,6 @@
 """Coloured cells between axes, their scale of colours, and round ticks."""
 
+from fractions import Fraction
 from itertools import cycle
 
 import matplotlib
@@ -12,6 +13,7 @@ from .panel import Axis, log10
 _SIZE = 6.0  # points: text beside a scale
 _STEPS = 64  # colours of a scale
 _MINOR = 1.5  # points: the length of a minor tick
+_LONGEST = 7  # characters of a tick's label that have room at the left of a chart
 
 
 def cells(panel, sweep, shades, table):
@@ -93,9 +95,18 @@ def wider(low, high, below, above):
 
 
 def linear(low, high, count, name=""):
-    """An axis with about `count` round ticks."""
+    """An axis with about `count` round ticks; what long labels have in common goes to its name."""
     low, high = float(low), float(high)
-    return Axis((low, high), ticks(low, high, count) if count else (), name)
+    places = ticks(low, high, count) if count else ()
+    if all(len(style.number(place)) <= _LONGEST for place in places):
+        return Axis((low, high), places, name)
+    power = int(f"{(high - low) / count:e}".partition("e")[2])
+    unit = Fraction(10) ** power
+    base = 1000 * unit * (Fraction(repr(places[0])) // (1000 * unit))
+    labels = [style.number(float((Fraction(repr(place)) - base) / unit)) for place in places]
+    if base:
+        name = f"{name}, less {style.number(float(base))}"
+    return Axis((low, high), places, rf"{name}, / $10^{{{power}}}$", labels=labels)
 
 
 def ticks(low, high, count):

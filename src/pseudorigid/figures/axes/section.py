@@ -11,10 +11,11 @@ from .raster import linear
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
 _SIDES = 720
+_STEP = 0.06  # of the frame's height, in halves of its width
 
 
 class Section(Panel):
-    """A panel around a section, half as high as wide in the units of the axes.
+    """A panel around a section, with the room above and below it that rounding to a step leaves.
 
     Parameters
     ----------
@@ -35,14 +36,15 @@ class Section(Panel):
 
     def __init__(self, sheet, frame, ball, radius, room, ticks=0, names=("", "")):
         self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius
+        self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
         half = room * radius
-        spans = (self.centre - half, self.centre + half), (-0.54 * half, 0.54 * half)
+        up = _STEP * math.ceil(self.high / _STEP) * half
+        spans = (self.centre - half, self.centre + half), (-up, up)
         axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
         super().__init__(sheet, frame, *axes, grid=False)
 
     def rim(self, **how):
         """Draw the rim."""
         sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
-        high = math.sqrt(self.k * (1.0 + self.k)) * self.radius
         x = self.centre + self.radius * cosine
-        self.line(x, high * sine, color=style.BLACK, lw=0.8, **how)
+        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, **how)

@@ -8,7 +8,9 @@ the resolution.
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
+from matplotlib.textpath import text_to_path
 from matplotlib.transforms import Bbox, TransformedBbox
 
 from . import style
@@ -68,6 +70,12 @@ class Sheet:
         across, up = (float(settle(value)) / style.DPI for value in (across, up))
         inches = self.figure.dpi_scale_trans
         self.figure.text(across, up, text, ha=ha, va=va, size=size, transform=inches)
+
+
+def width(text, size):
+    """Return the width in pixels of `text` at `size` points."""
+    how = FontProperties(size=size), "$" in text
+    return float(text_to_path.get_text_width_height_descent(text, *how)[0]) * POINT
 
 
 def settle(pixels):

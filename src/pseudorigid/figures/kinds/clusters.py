@@ -5,13 +5,16 @@ from dataclasses import replace
 import numpy as np
 
 from ..axes.panel import Axis, Panel, corner, key
+from ..axes.raster import linear, ticks
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005
 _COLUMNS = (1, 135, 550), (0, 590, 1005)  # y, which remembers more, and x: index and frame
+_LOWER = 240  # bottom of the lowest panels
 _NAMES = "$x$", "$y$"
 _MARKS = ("o", "s", "^", "D")
+_ROOM = 1.1  # of the largest number: its text stands above
 _CAP = 0.04  # half the width of the line at a bar's end, in clusters
 
 
@@ -36,20 +39,21 @@ def draw(scene, clusters):
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
-    linear = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
-    span = 0.1 * (int(10.0 * float(np.abs(linear).max())) + 1)
-    ticks = tuple(0.1 * i for i in range(-8, 9, 2) if abs(0.1 * i) <= span + 1e-9)
+    by_line = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
+    span = 0.1 * (int(_ROOM * 10.0 * float(np.abs(by_line).max())) + 1)
     by_cell = [clusters[f"dependence{end}"].values for end in ("", "_low", "_high")]
+    most = max(np.ceil(_ROOM * 10.0 * float(np.max(by_cell))), 7.0) / 10.0
     for i, left, right in _COLUMNS:
         name = f"Correlation of {_NAMES[i]}"
-        rows = [values[..., i, i] for values in linear]
-        panel = _by_lag(sheet, (left, 680, right, 1010), clusters, (-span, span), ticks, name)
-        panel.line([0.0, 99.0], [0.0, 0.0], color=style.BLACK, lw=0.7)
+        rows = [values[..., i, i] for values in by_line]
+        up = linear(-span, span, 9, name)
+        panel = _by_lag(sheet, (left, 680, right, 1010), clusters, up)
+        panel.line(panel.across.limits, [0.0, 0.0], color=style.BLACK, lw=0.7)
         _marks(sheet, panel, clusters, rows)
         name = f"Variance of {_NAMES[i]} explained"
         rows = [values[..., i] for values in by_cell]
-        frame = (left, 240, right, 560)
-        panel = _by_lag(sheet, frame, clusters, (0.0, 0.7), (0, 0.2, 0.4, 0.6), name)
+        up = linear(min(0.0, _ROOM * float(np.min(by_cell))), most, 5, name)
+        panel = _by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
         _marks(sheet, panel, clusters, rows)
     names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
     entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
@@ -61,10 +65,9 @@ def _flights(sheet, frame, clusters):
     edges = clusters["bin_edge"].values
     share = clusters["flights"].values / clusters["flights"].values.sum()
     last = float(edges[-1])
-    across = Axis((0.0, last), tuple(range(int(last) + 1)), "Time of flight")
+    across = linear(0.0, last, 10, "Time of flight")
     tall = 0.01 * (int(100.0 * float(share.max())) + 1)
-    ticks = tuple(0.01 * i for i in range(round(100 * tall) + 1))
-    panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of flights"), grid=False)
+    panel = Panel(sheet, frame, across, linear(0.0, tall, 6, "Share of flights"), grid=False)
     corners = np.repeat(edges, 2)[1:-1]
     panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
     cuts = clusters["cut"].values
@@ -77,14 +80,14 @@ def _flights(sheet, frame, clusters):
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
-def _by_lag(sheet, frame, clusters, limits, ticks, name):
+def _by_lag(sheet, frame, clusters, up):
     """A panel against the number of clusters between, labelled at the left of the sheet only."""
-    lags = clusters["lag"].values.tolist()
-    up = Axis(limits, ticks, name)
+    last = int(clusters["lag"].values[-1])
     if frame[0] != _LEFT:
-        up = replace(up, labels=[""] * len(ticks))
-    across = Axis((0.6, lags[-1] + 0.5), lags, "Clusters later")
-    return Panel(sheet, frame, across if limits[0] == 0.0 else across.blank(), up)
+        up = replace(up, labels=[""] * len(up.ticks))
+    lags = [lag for lag in ticks(0.0, last, 9) if lag >= 1.0 and lag.is_integer()]
+    across = Axis((0.6, last + 0.5), lags, "Clusters later")
+    return Panel(sheet, frame, across if frame[1] == _LOWER else across.blank(), up)
 
 
 def _marks(sheet, panel, clusters, rows):
@@ -92,7 +95,7 @@ def _marks(sheet, panel, clusters, rows):
     value, low, high = rows
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i in range(cuts.size):
-        at = lags + 0.2 * (i - 0.5 * (cuts.size - 1))
+        at = lags + min(0.2, 0.8 / cuts.size) * (i - 0.5 * (cuts.size - 1))
         panel.bars(at, low[i], high[i], color=style.HUES[i], lw=0.7)
         for x, *ends in zip(at, low[i], high[i], strict=True):
             for end in ends:

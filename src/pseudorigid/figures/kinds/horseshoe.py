@@ -3,15 +3,15 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
-from ..axes.limits import complete, of_data, refuse_empty
-from ..axes.panel import Axis, Panel, corner, key
+from ..axes.limits import complete, inside, of_data, refuse_empty
+from ..axes.panel import Axis, Window, corner, key
 from ..canvas import style
 from ..canvas.ragged import rows
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import Sheet
 
 _HIGH = 1500
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
-_SIZE = 8.0  # points: text
+_ROOM = 1.3  # sides of the square to the top of the lower panel, whose name stands there
 
 
 @style.pinned()
@@ -46,15 +46,15 @@ def draw(scene, manifolds, horseshoe):
         x=lambda: of_data(line_x, horseshoe["x"].values),
         y=lambda: of_data(line_y, horseshoe["y"].values),
         p=lambda: of_data(horseshoe["image_p"].values),
-        q=lambda: of_data([-1.0, 1.0]),
+        q=lambda: of_data([-_ROOM, _ROOM], room=0.0),
     )
     refuse_empty(scene["axes"], {name: horseshoe[name].values for name in "xy"})
     for name in "pq":
         refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
     sheet = Sheet(style.COLUMN, _HIGH)
     x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
-    _tangle(Panel(sheet, _ABOVE, x, y), manifolds, horseshoe)
-    _relation(Panel(sheet, _BELOW, p, q), horseshoe)
+    _tangle(Window(sheet, _ABOVE, x, y), manifolds, horseshoe)
+    _relation(Window(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
     return sheet.figure
 
@@ -95,5 +95,5 @@ def _relation(panel, horseshoe):
         (0.0, -6.5, "(heavy: its two ends)"),
     )
     for up, gap, text in texts:
-        (x,), (y,) = panel.place(0.0, up)
-        panel.sheet.text(x, y + gap * POINT, text, ha="center", va="center", size=_SIZE)
+        if inside((panel.across.limits, panel.up.limits), (0.0, up)):
+            panel.note(0.0, up, text, shift=(0.0, gap), ha="center")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...dynamics.variables import chart, states_of
-from ..axes.panel import corner, key
+from ..axes.panel import corner, key, vacant
 from ..axes.section import NAME, Section
 from ..canvas import style
 from ..canvas.ragged import rows
@@ -83,6 +83,9 @@ def _births(sheet, jumps):
     energies = jumps["energy"].values
     born = jumps["length"].values > 0.0
     rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
+    if not rising:
+        text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
+        vacant(sheet, (_AT, 60, _AT + _WIDE, 60 + _SMALL), text)
     for number, row in enumerate(rising[:3]):
         left = 60 + number * (_SMALL + 60)
         frame = (left, 60, left + _SMALL, 60 + _SMALL)

@@ -10,6 +10,8 @@ from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 150, 1005
 _CRITICAL = 0.25
+_HUES = (*style.HUES, style.SEA)
+_MOST = 9  # decades with a number each; of more, every second, third, ...
 
 
 @style.pinned()
@@ -28,19 +30,21 @@ def draw(scene, last_curve):
         Above: the residues of the convergents against their period. Below: what becomes of an orbit
         that starts at the last convergent, in the plane (x, y).
     """
-    sheet = Sheet(style.COLUMN, 1575)
-    _residues(sheet, (_LEFT, 1030, _RIGHT, 1425), last_curve)
+    rows = -(-last_curve.sizes["noble"] // 2)  # of a key
+    more = 75 * -(-48 * (rows - 1) // 75)
+    sheet = Sheet(style.COLUMN, 1575 + 2 * more)
+    _residues(sheet, (_LEFT, 1030 + more, _RIGHT, 1425 + more), last_curve)
     _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
     corner(sheet, (_LEFT, 105, _RIGHT, 760), style.setting(scene))
     names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
     _key(sheet, names, sheet.high - 29)
     periods = last_curve["period"].values[:, -1]
-    _key(sheet, [f"orbit from period {period:.0f}" for period in periods], 850)
+    _key(sheet, [f"orbit from period {period:.0f}" for period in periods], 850 + 48 * (rows - 1))
     return sheet.figure
 
 
 def _key(sheet, names, top):
-    entries = [(name, hue, "o", False) for name, hue in zip(names, style.HUES, strict=False)]
+    entries = [(name, hue, "o", False) for name, hue in zip(names, _HUES, strict=False)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
@@ -54,16 +58,17 @@ def _residues(sheet, frame, last_curve):
     panel = Panel(sheet, frame, across, up)
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
     for i in range(periods.shape[0]):
-        panel.line(periods[i], size[i], color=style.HUES[i], lw=0.9)
+        panel.line(periods[i], size[i], color=_HUES[i], lw=0.9)
         above = last_curve["residue"].values[i] > 0.0
-        panel.dots(periods[i][above], size[i][above], style.HUES[i])
-        panel.dots(periods[i][~above], size[i][~above], style.HUES[i], hollow=True)
+        panel.dots(periods[i][above], size[i][above], _HUES[i])
+        panel.dots(periods[i][~above], size[i][~above], _HUES[i], hollow=True)
     panel.note(periods.max(), _CRITICAL, "critical: 1/4", shift=(0, 5), ha="right")
     corner(sheet, frame, "hollow: negative")
 
 
 def _whole(low, high):
-    return tuple(range(int(np.ceil(low)), int(np.floor(high)) + 1))
+    every = 1 + int(high - low) // _MOST
+    return tuple(range(int(np.ceil(low / every)) * every, int(np.floor(high)) + 1, every))
 
 
 def _orbits(sheet, frame, last_curve):
@@ -74,4 +79,4 @@ def _orbits(sheet, frame, last_curve):
     )
     panel = Panel(sheet, frame, across, up, grid=False)
     for i in reversed(range(x.shape[0])):
-        panel.dots(x[i], y[i], style.HUES[i], size=0.9)
+        panel.dots(x[i], y[i], _HUES[i], size=0.9)

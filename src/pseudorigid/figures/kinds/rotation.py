@@ -3,14 +3,14 @@
 import numpy as np
 
 from ...evidence.rotation import island, plateaus, regular
-from ..axes.panel import Axis, Panel, corner, key
-from ..axes.raster import linear, wider
+from ..axes.panel import Axis, Panel, corner, key, vacant
+from ..axes.raster import linear, ticks, wider
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 135, 1005
 _STARTS = "Start on $y=0$, section radii from the centre"
-_HIGH = 0.0125  # half the height of the lowest panel
+_FAR = 4.0  # medians of all curves: a curve that departs further does not set the lowest axis
 _HUES = (*style.HUES, style.SEA)
 
 
@@ -50,7 +50,7 @@ def _first_energy(sheet, scene, rotation):
     place, turns, grown = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
     good = regular(grown, rotation.attrs["impacts"])
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
-    across = Axis((at - 0.03, 1.0), (-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1), _STARTS)
+    across = linear(at - 0.03, 1.0, 10, _STARTS)
     regulars = turns[good] if good.any() else turns
     limits = wider(*_span(np.append(regulars, fixed)), 0.1, 0.1)
     above = _LEFT, 1565, _RIGHT, 1875
@@ -60,7 +60,8 @@ def _first_energy(sheet, scene, rotation):
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     panel.dots([at], [fixed], style.VERMILION, size=3.4)
     corner(sheet, above, style.setting(scene))
-    up = Axis((-0.02, 0.3), (0, 0.1, 0.2, 0.3), "Exponent")
+    top = max(np.ceil(10.0 * grown.max()), 1.0) / 10.0
+    up = linear(min(-top / 15.0, grown.min()), top, 5, "Exponent")
     panel = Panel(sheet, (_LEFT, 1265, _RIGHT, 1465), across, up)
     panel.dots(place[~good], grown[~good], style.SEA, size=1.6)
     panel.dots(place[good], grown[good], style.BLUE, size=1.6)
@@ -77,9 +78,11 @@ def _detail(sheet, frame, rotation):
         rotation[f"detail_{name}"].values for name in ("place", "rotation", "exponent")
     )
     good = regular(grown, rotation.attrs["detail_impacts"])
-    across = linear(place[0], place[-1], 4, _STARTS)
+    across = linear(place[0], place[-1], 5, _STARTS)
     limits = wider(*_span(turns[good] if good.any() else turns), 0.05, 0.2)
     panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
+    if not good.any():
+        vacant(sheet, frame, "all these starts are chaotic")
     panel.dots(place[good], turns[good], style.BLUE, size=1.6)
     for p, q, first, last in plateaus(place[good], turns[good]):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
@@ -98,19 +101,32 @@ def _energies(sheet, frame, rotation):
         place = rotation["place"].values[row, keep] - fixed
         change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), place, change))
-    near = [place[np.abs(change) < _HIGH] for _, place, change in curves]
+    low, high, places = _departures([change for _, _, change in curves])
+    within = [(low <= change) & (change <= high) for _, _, change in curves]
+    near = [place[shown] for (_, place, _), shown in zip(curves, within, strict=True)]
     far = max((float(place.max()) for place in near if place.size), default=0.0)
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
-    name = "Rotation number, less the fixed point's"
-    up = Axis((-_HIGH, _HIGH), (-0.01, -0.005, 0, 0.005, 0.01), name)
+    up = Axis((low, high), places, "Rotation number, less the fixed point's")
     panel = Panel(sheet, frame, across, up)
     entries = []
     for number, (energy, place, change) in enumerate(curves):
-        shown = np.abs(change) < _HIGH
+        shown = within[number]
         cut = shown.size if shown.all() else int(np.argmin(shown))
         hue, dashed = _HUES[number % len(_HUES)], number >= len(_HUES)
         panel.line(place[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
     deep = -(-len(entries) // 2)
     key(sheet, entries, frame[1] + 18 + 39 * (deep - 1), 2, _LEFT + 20, 370, 6.5)
+
+
+def _departures(curves):
+    """Limits and ticks for all curves; if one is far longer than most, for as much as most need."""
+    sizes = [float(np.abs(curve).max()) for curve in curves if curve.size] or [0.0]
+    most = max(sizes) if max(sizes) <= _FAR * np.median(sizes) else float(np.median(sizes))
+    step = ticks(0.0, max(most, 1e-9), 2.5)[1]
+    every = np.concatenate([[0.0], *curves])
+    ends = (min(float(end), most) for end in (-every.min(), every.max()))
+    low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps; half a one is room
+    places = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
+    return -(low + 0.5) * step, (high + 0.5) * step, places

@@ -5,7 +5,7 @@ import numpy as np
 from ...dynamics.variables import final_exponents
 from ...evidence.spread import stretches
 from ..axes.limits import of_data
-from ..axes.panel import Axis, Panel, corner, log10
+from ..axes.panel import Axis, Panel, corner, decades, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
@@ -85,9 +85,10 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
     wide = _WIDE if paper else (high - low) / 50
     edges = low + wide * np.arange(round((high - low) / wide) + 1)
     counts = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
-    tall = 0.02 * (int(float(counts.max()) / 0.02) + 1)
+    room = 1.0 if paper else 1.2  # for the mean's name
+    tall = 0.02 * (int(room * float(counts.max()) / 0.02) + 1)
     across = Axis((low, high), places, f"Exponent of {short:,} impacts")
-    step = 0.04 if tall <= 0.4 else 0.2
+    step = 0.04 if tall <= 0.24 else 0.1 if tall <= 0.6 else 0.2
     ticks = tuple(step * i for i in range(int(tall / step + 1e-9) + 1))
     panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of runs"), grid=False)
     for count, left in zip(counts[counts > 0.0], edges[:-1][counts > 0.0], strict=True):
@@ -109,9 +110,12 @@ def _regular(sheet, frame, spread):
     n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
     high = len(str(int(n[-1])))
     across = Axis((1.0, high), tuple(range(1, high + 1)), "Length in impacts", True)
-    up = Axis((-5.0, 0.0), (-5, -4, -3, -2, -1, 0), "Largest exponent in the islands", True)
-    panel = Panel(sheet, frame, across, up)
     largest = values.max(axis=-1)
+    lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
+    lowest = min(-5, int(np.floor(lowest)))
+    highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))
+    up = decades((lowest, highest), "Largest exponent in the islands", 1 + (highest - lowest) // 8)
+    panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
         one = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
         panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)

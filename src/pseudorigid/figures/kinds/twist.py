@@ -33,7 +33,7 @@ def draw(scene, twist):
     scene = complete(
         scene,
         energy=lambda: of_data([0.0, *energy], room=0.0),
-        twist=lambda: of_data(values),
+        twist=lambda: of_data(values, room=0.1),  # for the texts beside the marks
     )
     refuse_empty(scene["axes"], {"energy": energy, "twist": values}, joined=True)
     names = ("Energy $E$", r"Twist $\tau_1$ of the fixed point")

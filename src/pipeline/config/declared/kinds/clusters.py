@@ -40,7 +40,7 @@ class Clusters(Scene):
     """how many orbits"""
     impacts: whole(100, 10_000_000)
     """impacts of each orbit"""
-    cuts: listed(real("a time above 0", gt=0), "a list of times")
+    cuts: listed(real("a time above 0", gt=0), "a list of 1 to 7 times", 1, 7)
     """a longer flight parts two clusters; an analysis for each"""
     lags: whole(1, 100)
     """up to how many clusters later correlations are computed"""

@@ -59,4 +59,6 @@ class Flux(Scene):
             for side in flux["side"].values
             if f"missing_{side}" in flux.attrs
         }
+        for side in here["side"].values[here["region"].isnull().values]:
+            missing[f"no {side} region"] = "a jump of the map cuts its edge"
         return {"lobes": listing(here, "{} {:.10g}", "side", "area")} | missing
