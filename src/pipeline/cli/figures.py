@@ -101,7 +101,7 @@ def table(folder, rows, more=()) -> None:
     as_committed = states.committed(folder, rows) if folder else {}
     lines = [("figure", "file", "size", "state", "as committed" if as_committed else "")]
     for path, (scene, state) in rows.items():
-        made = state in ("current", "recomputed", "made")
+        made = state in ("current", "recomputed")
         size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
         lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
     print("", *columns(lines), *more, sep="\n")
@@ -109,13 +109,16 @@ def table(folder, rows, more=()) -> None:
         print(f"snakemake's log: {running.LOGS[-1]}")
 
 
-def made(folder, files) -> int:
+def made(folder, files, before) -> int:
     """Publish drawings and print a line for each; 1 where one cannot be published.
 
-    `files` is file, as published -> drawing.
+    `files` is file, as published -> drawing; `before` is drawing -> its `identity` before the run.
     """
     problems = publish(files)
-    rows = {path: (PurePath(path).stem, "made") for path in files}
+    rows = {
+        path: (PurePath(path).stem, "current" if identity(file) == before[file] else "recomputed")
+        for path, file in files.items()
+    }
     rows |= {path: (rows[path][0], f"not published: {why}") for path, why in problems.items()}
     table(folder, rows)
     return int(bool(problems))
