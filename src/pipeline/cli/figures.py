@@ -8,6 +8,7 @@ from pathlib import PurePath
 from ..checks.currency import Currency
 from ..checks.sums import left_over
 from ..config import expected, places, unknown
+from ..config.declared.kinds import KINDS
 from ..config.expected import Expected
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, read_text, replacing, write_whole
@@ -56,11 +57,13 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
     before = before or {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
+    hidden = [*_hidden(variants[variant], [scene for scene, _ in wanted.values()])]
     says = running.only_says(options)
     absent = known_absent(variant) if says else _find_absent(variants, variant, currency)
     possible = [made[path] for path, (scene, _) in wanted.items() if scene not in absent]
     status = running.make(currency, possible, options)
     if says or status == running.INTERRUPTED:
+        print(*hidden, sep="\n", end="\n" * bool(hidden))
         return status
     if options or currency.outdated(possible):
         currency = Currency(ROOT, results)
@@ -81,7 +84,7 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
     for path, why in publish(good).items():
         rows[path], status = (rows[path][0], f"not published: {why}"), status or 1
-    more = [*_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
+    more = [*hidden, *_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
     if variant in places.PUBLISHED:
         folder = places.PUBLISHED[variant]
         more += left_over(ROOT, folder, [PurePath(path).name for path in figures])
@@ -196,6 +199,13 @@ def known_absent(variant) -> dict[str, str]:
         return {}
     # Somebody else may have written it: a cache of results comes from anywhere.
     return {scene: str(why) for scene, why in found.items()} if isinstance(found, dict) else {}
+
+
+def _hidden(blocks, scenes):
+    """A line for each field of these scenes that asks for more than its axes show."""
+    for scene in dict.fromkeys(filter(None, scenes)):
+        kind = KINDS[blocks[scene]["picture"]]
+        yield from (f"{scene}: {line}" for line in kind.hidden(blocks[scene]))
 
 
 def _missed_impacts(variants, variant, scenes):

@@ -62,11 +62,11 @@ def _line(model, error, place) -> str:
         known = list(allowed_at(model, loc[:-1])[0].model_fields)
         (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"
-    if error["type"] == "missing":
-        return f"{dotted(where)}: missing"
     if loc[-1:] == ("[key]",):
         where = where[:-2]
     annotation, allowed = allowed_at(model, loc)
+    if error["type"] == "missing":
+        return f"{dotted(where)}: missing: expected {allowed}"
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
