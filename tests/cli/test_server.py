@@ -30,14 +30,16 @@ def status(name):
         PythonScript.execute_script(script(), name)
     except subprocess.CalledProcessError as error:
         return 1 if error.returncode in (1, -9, 255) else error.returncode
+    except ImportError as error:
+        return str(error).split()[-1]
     return 0
 
 
 if __name__ == "__main__":
-    good, bad, killed = sys.argv[1:]
+    scripts = sys.argv[1:]
     server.begin(True)
     with server.serving(), ThreadPoolExecutor(8) as pool:
-        print(*pool.map(status, [good, bad, killed] * 40))
+        print(*pool.map(status, scripts * 40))
     assert PythonScript.execute_script is usual
 """
 
@@ -47,22 +49,20 @@ def test_many_jobs_at_once_end_as_they_should(tmp_path):
         "good.py": f"open({str(tmp_path / 'count')!r}, 'a').write('x')",
         "bad.py": "import sys; sys.exit(1)",
         "killed.py": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
-        "main.py": PROGRAM,
+        "damaged.py": "import nothing",
     }
+    (tmp_path / "main.py").write_text(PROGRAM)
     for name, text in programs.items():
         (tmp_path / name).write_text(text)
     result = subprocess.run(
-        [
-            sys.executable,
-            *(str(tmp_path / n) for n in ("main.py", "good.py", "bad.py", "killed.py")),
-        ],
+        [sys.executable, "main.py", *(str(tmp_path / name) for name in programs)],
         capture_output=True,
         text=True,
         check=False,
         cwd=tmp_path,
     )
     assert (result.returncode, result.stderr) == (0, "")
-    assert result.stdout.split() == ["0", "1", "1"] * 40
+    assert result.stdout.split() == ["0", "1", "1", "'nothing'"] * 40
     assert (tmp_path / "count").read_text() == "x" * 40
 
 

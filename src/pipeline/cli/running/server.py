@@ -57,10 +57,12 @@ def serving():
         job = JOBS.Process(target=run, args=(name, answer))
         job.start()
         answer.close()
-        ended = False
+        ended = None
         with done, suppress(EOFError):
             ended = done.recv()
         job.join()
+        if isinstance(ended, str):
+            raise ImportError(ended)
         if not ended:
             raise subprocess.CalledProcessError(job.exitcode or 1, name)
 
@@ -72,7 +74,14 @@ def serving():
 
 
 def run(name, answer) -> None:
-    """In a job: a script as a program of its own; it answers once that came to its end."""
-    runpy.run_path(name, run_name="__main__")
+    """In a job: a script as a program of its own; it answers once that came to its end.
+
+    It answers with words where the script ends before it can say itself why: it cannot be loaded.
+    """
+    said = True
+    try:
+        runpy.run_path(name, run_name="__main__")
+    except (ImportError, SyntaxError) as error:
+        said = str(error)
     with suppress(OSError):  # of a run that was killed
-        answer.send(True)
+        answer.send(said)
