@@ -136,7 +136,11 @@ def test_a_key_that_is_no_text_is_unknown():
         ("ball.k", float("nan"), ["ball.k: nan"]),
         ("ball.k", [0.2], ["ball.k: [0.2]"]),
         ("scenes.a_portrait.method", {"scan": 0.1}, ["tolerance: missing", "1e-15 to 0.001"]),
-        ("scenes.a_portrait.method", "scan", ["method: 'scan'", "the keys scan and tolerance"]),
+        (
+            "scenes.a_portrait.method",
+            "scan",
+            ["method: 'scan'", "the keys scan and tolerance, or {exact"],
+        ),
         *(
             (f"scenes.{scene}.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
             for scene in SCENES

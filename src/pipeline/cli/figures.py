@@ -5,7 +5,7 @@ import json
 import shutil
 from pathlib import PurePath
 
-from ..checks.currency import Currency
+from ..checks.currency import MISSING, Currency
 from ..checks.sums import left_over
 from ..config import expected, places, unknown
 from ..config.declared.kinds import KINDS
@@ -77,7 +77,9 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
         rows[path] = scene, "recomputed"
         if made[path] in outdated:
             why = next((running.REASONS[name] for name in behind if name in running.REASONS), None)
-            failed = f"not made: {why}" if why else "not made"
+            stale = outdated[made[path]]  # what was made may be stale by now: its source was edited
+            failed = "not made" if stale == MISSING else f"not current: {stale}"
+            failed = f"not made: {why}" if why else failed
             rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
         elif identity(made[path]) == before[made[path]]:
             rows[path] = scene, "current"
