@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from project import ROOT
@@ -44,17 +45,21 @@ def test_each_word_tells_its_arguments(capsys, word):
 
 
 OLD = [f"python3.{minor}" for minor in range(6, 11)]
+# The interpreters themselves, where pyenv has some: on PATH it has shims, which refuse.
+PLACES = [*map(str, Path.home().glob(".pyenv/versions/*/bin")), os.environ["PATH"]]
 ASK = "from pipeline.cli.arguments import main; import sys; sys.exit(main(sys.argv[1:]))"
 
 
 @pytest.mark.parametrize("name", OLD)
 def test_a_python_too_old_for_the_rest_answers_too(name):
+    python = shutil.which(name, path=os.pathsep.join(PLACES))
+
     def ask(*words):
-        command = [name, "-B", "-c", ASK, *words]
+        command = [python, "-B", "-c", ASK, *words]
         where = os.environ | {"PYTHONPATH": str(ROOT / "src")}
         return subprocess.run(command, env=where, capture_output=True, text=True, check=False)
 
-    if not shutil.which(name) or ask("--version").stderr.startswith("pyenv:"):
+    if python is None or ask("--version").stderr.startswith("pyenv:"):
         pytest.skip(f"no {name} here")
     assert ask("--help").stdout.count("\n") < 40
     assert ask("fig33").stderr == "reproduce: no word or figure fig33: did you mean fig3?\n"

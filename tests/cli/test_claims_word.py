@@ -45,7 +45,7 @@ def project(tmp_path, monkeypatch):
 
 def state(capsys):
     """What the command said of the picture."""
-    checked = {"variants": {"claims": {}}, "sweeps": {}}
+    checked = {"variants": {"claims": {"a": {"picture": "portrait"}}}, "sweeps": {}}
     given = SimpleNamespace(check=None, data=None, checked=checked, options=[])
     assert claims.run(given) == 0
     (line,) = [line for line in capsys.readouterr().out.splitlines() if PUBLISHED in line]

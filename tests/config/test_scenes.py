@@ -3,8 +3,10 @@
 import pytest
 import yaml
 from documents import AXES, SCENES, changed, complaint, complaints, good
+from project import shipped
 
 from pipeline import config
+from pipeline.config.declared.kinds import KINDS
 
 
 def test_a_good_config_comes_back_complete():
@@ -49,7 +51,7 @@ def test_impacts_are_a_number_or_a_list(scene, impacts):
         ({"x": 0.1}, "a point {x, xdot} or {x, y}"),
         ({"x": 0.1, "y": 0, "xdot": 0}, "a point {x, xdot} or {x, y}"),
         ({"x": 0.1, "z": 0}, "starts[0].z: unknown key: allowed here: x, xdot, y"),
-        ({"y": 0.1}, "starts[0].x: missing"),
+        ({"y": 0.1}, "starts[0].x: missing: expected a number"),
         ({"x": "0.1", "y": 0}, "write 0.1"),
     ],
 )
@@ -87,6 +89,34 @@ def test_values_of_the_right_type_hide_no_mistake_between_fields():
     ]
 
 
+@pytest.mark.parametrize(
+    ("scene", "fields", "lines"),
+    [
+        ("fig3", {"duration": 16}, []),
+        ("fig3", {"duration": 30}, ["duration 30 lies outside axes.t.limits [0, 16]"]),
+        ("fig3", {"duration": 30, "axes": {}}, []),
+        ("fig7", {"impacts": [9, 300_000, 9]}, ["impacts 300000 lies outside axes.impact.limits"]),
+        ("fig7", {"impacts": 1000}, []),
+        ("twist", {"energies": [0.01, 0.07]}, ["energies 0.07 lies outside axes.energy.limits"]),
+        (
+            "fig6",
+            {"window": {"x": [-0.1, 0.1], "xdot": [0, 0.001]}},
+            ["window.x [-0.1, 0.1] is wider than axes.x.limits [0.21, 0.2116]"],
+        ),
+    ],
+)
+def test_what_the_axes_hide_is_told(scene, fields, lines):
+    document = shipped()
+    blocks = document["scenes"] | document["proofs"]
+    kind = KINDS[blocks[scene]["picture"]]
+    assert not [*kind.hidden({"ball": document["ball"]} | blocks[scene])]
+    found = [*kind.hidden({"ball": document["ball"]} | blocks[scene] | fields)]
+    assert len(found) == len(lines)
+    for line, words in zip(found, lines, strict=True):
+        assert line.startswith(words)
+        assert line.endswith(" out")
+
+
 def test_a_key_that_is_no_text_is_unknown():
     document = good()
     document["scenes"]["a_portrait"][3] = 4
@@ -96,8 +126,8 @@ def test_a_key_that_is_no_text_is_unknown():
 @pytest.mark.parametrize(
     ("path", "value", "parts"),
     [
-        ("ball", ..., ["ball: missing"]),
-        ("ball.k", ..., ["ball.k: missing"]),
+        ("ball", ..., ["ball: missing: expected a mapping with the keys k and g"]),
+        ("ball.k", ..., ["ball.k: missing: expected a number with 0 < k <= 1"]),
         ("ball.k", 0, ["ball.k: 0 is not allowed", "0 < k <= 1"]),
         ("ball.k", 1.01, ["ball.k: 1.01", "0 < k <= 1"]),
         ("ball.k", "0.2", ["ball.k: '0.2'", "write 0.2"]),
@@ -105,8 +135,12 @@ def test_a_key_that_is_no_text_is_unknown():
         ("ball.k", None, ["ball.k: nothing"]),
         ("ball.k", float("nan"), ["ball.k: nan"]),
         ("ball.k", [0.2], ["ball.k: [0.2]"]),
-        ("scenes.a_portrait.method", {"scan": 0.1}, ["a_portrait.method.tolerance: missing"]),
-        ("scenes.a_portrait.method", "scan", ["method: 'scan'", "the keys scan and tolerance"]),
+        ("scenes.a_portrait.method", {"scan": 0.1}, ["tolerance: missing", "1e-15 to 0.001"]),
+        (
+            "scenes.a_portrait.method",
+            "scan",
+            ["method: 'scan'", "the keys scan and tolerance, or {exact"],
+        ),
         *(
             (f"scenes.{scene}.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
             for scene in SCENES
@@ -145,11 +179,11 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.fig/2", SCENES["a_motion"], ["scenes: 'fig/2'"]),
         ("scenes.2", SCENES["a_motion"], ["scenes: 2 is not allowed", "letters"]),
         ("scenes.new", None, ["scenes.new: nothing"]),
-        ("scenes.new", {"energy": 1}, ["scenes.new.picture: missing"]),
+        ("scenes.new", {"energy": 1}, ["scenes.new.picture: missing: expected one of"]),
         ("scenes.a_motion.picture", "movie", ["scenes.a_motion.picture: 'movie'", "motion"]),
         ("scenes.a_motion.energie", 1, ["scenes.a_motion.energie: unknown", "mean energy?"]),
         ("scenes.a_motion.starts", [0.1], ["scenes.a_motion.starts: unknown key"]),
-        ("scenes.a_motion.energy", ..., ["scenes.a_motion.energy: missing"]),
+        ("scenes.a_motion.energy", ..., ["a_motion.energy: missing: expected a number"]),
         ("scenes.a_motion.energy", "low", ["scenes.a_motion.energy: 'low'", "a number"]),
         ("scenes.a_motion.energy", float("inf"), ["scenes.a_motion.energy: inf"]),
         ("scenes.a_motion.energy", 10**400, ["scenes.a_motion.energy: 1000"]),

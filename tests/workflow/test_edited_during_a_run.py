@@ -56,6 +56,24 @@ def test_an_edit_that_is_undone_fails_the_job_that_loaded_it(done):
     assert done.run("-n", "fig3").stdout.startswith("fig3: its source changed: ")
 
 
+def test_what_was_drawn_before_an_edit_is_not_called_current(done):
+    for file in (done.path / DRAWING).parent.glob("fig3.*"):
+        file.unlink()
+    edit = f"open(root / {MOTION!r}, 'a').write('_UNUSED = 1\\n')"
+    plant(done, f"[*root.glob('results/paper/figures/fig3.*')] and {edit}")
+    result = done.run("fig3", "--cores", "1")
+    assert result.returncode == 1
+    states = sorted(
+        line.split("fig3.", 2)[-1][3:].strip()
+        for line in result.stdout.splitlines()
+        if "paper_figures/fig3." in line
+    )
+    assert states == [
+        f"not current: made by other code than this tree's: {MOTION} differs",
+        f"not made: {MOTION} {AGAIN}",
+    ]
+
+
 def test_a_run_says_that_the_config_changed(done):
     plant(done, append("config.yaml"))
     result = done.run("fig3", "--cores", "1")

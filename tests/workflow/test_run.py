@@ -171,6 +171,13 @@ def test_each_edit_makes_again_what_uses_it_alone(done):
     assert done.planned() == {f"results/paper/{name}" for name in made}
 
 
+def test_axes_that_hide_what_was_edited_are_told(done):
+    done.edit("fig3", duration=30)
+    line = "fig3: duration 30 lies outside axes.t.limits [0, 16]: widen them, or leave axes.t out"
+    for words in (["-n"], ["-c", "1"]):
+        assert line in done.run("fig3", *words).stdout.splitlines()
+
+
 def test_what_was_deleted_comes_back(done):
     for name in ("fig3.png", "fig7.svg"):
         (done.path / "results" / "paper" / "figures" / name).unlink()

@@ -248,6 +248,22 @@ def test_what_is_left_of_a_venv_is_made_anew(set_up):
     assert not (set_up.site / "needed").exists()
 
 
+def test_a_venv_whose_python_does_not_start_is_made_anew(set_up):
+    set_up.with_uv()
+    set_up.run()
+    line = "reproduce: the Python of .venv does not start: making .venv again\n"
+    for how in ("a broken link", "an empty folder", "no Python"):
+        python = set_up.venv / "bin" / "python"
+        if how == "an empty folder":
+            shutil.rmtree(python.parent)
+            python.parent.mkdir()
+        else:
+            python.unlink()
+            python.symlink_to("nowhere" if how == "a broken link" else "/bin/false")
+        assert set_up.run() == (0, f"handed over\n{line}"), how
+        assert set_up.run() == (0, "handed over\n"), how
+
+
 def test_a_venv_of_somebody_else_stays(set_up):
     set_up.with_uv()
     set_up.run()
@@ -413,7 +429,8 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
         1,
         f"reproduce: {set_up.folder}/nowhere: no folder with wheels is there\n",
     )
-    assert set_up.run("--offline")[0] == 2
+    for words in (["--offline"], ["--offline", ""], ["--offline="]):
+        assert set_up.run(*words)[0] == 2
     (needed,) = set_up.wheels.glob("needed*")
     whole = needed.read_bytes()
     for content in (whole[:-9] + b"corrupted", None):
@@ -426,6 +443,9 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
     environment = {"PSEUDORIGID_WHEELS": ""}
     status, said = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)
     assert (status, said) == (0, f"handed over fig3\n{LINE}")
+    # Also where nothing has to be installed.
+    nowhere = f"reproduce: {set_up.folder}/nowhere: no folder with wheels is there\n"
+    assert set_up.run("--offline", "nowhere", "fig3") == (1, nowhere)
 
 
 @pytest.mark.parametrize("installer", INSTALLERS)

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import pytest
 from project import ROOT, fresh_tree, of_scenes
+from runs import rows
 
 from pipeline.cli.folder import MisuseError, UsageError
 from pipeline.cli.telling import sweeping
@@ -106,9 +107,10 @@ def swept(tree, *words):
 def test_faults_are_repaired_and_nothing_else_is_done_again(tree):
     out = swept(tree, "-c", "2")
     assert "sweep: 6 of 6 cells" in out
+    assert rows(out) == {"results/sweep/small.nc": "recomputed"}
     before = made(tree)
     assert len(before) == 4
-    swept(tree, "small", "-c", "1")
+    assert rows(swept(tree, "small", "-c", "1")) == {"results/sweep/small.nc": "current"}
     assert made(tree) == before
 
     folder = tree.path / "results" / "sweep"

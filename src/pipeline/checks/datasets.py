@@ -111,6 +111,9 @@ number. What a variable means is its `long_name`. NaN is stored as it is; there 
 Rows of different length are contiguous ragged arrays: the samples of one row after the other along
 one dimension, and `row_size`, whose attribute `sample_dimension` names that dimension, counts them.
 
+A file has the variables that apply to it: `start_x` and `start_xdot`, say, only where a start of
+its scene is a point.
+
 ## Read a file
 
 With xarray, from the project's folder after `./reproduce`:

@@ -4,9 +4,10 @@ import filecmp
 import shutil
 from pathlib import PurePath
 
-from ..checks.currency import Currency
+from ..checks.currency import MISSING, Currency
 from ..checks.sums import left_over
 from ..config import expected, places, unknown
+from ..config.declared.kinds import KINDS
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, replacing
 from ..records.record import failure
@@ -54,8 +55,10 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
     before = before or {drawing: identity(drawing) for drawing in made.values()}
     currency = Currency(ROOT, results)
+    hidden = [*_hidden(variants[variant], [scene for scene, _ in wanted.values()])]
     status = running.make(checked, currency, made.values(), options)
     if running.only_says(options) or status == running.INTERRUPTED:
+        print(*hidden, sep="\n", end="\n" * bool(hidden))
         return status
     currency = Currency(ROOT, results)
     outdated, absent = currency.outdated(before), known_absent(currency, variants, variant)
@@ -67,14 +70,16 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
         rows[path] = scene, "recomputed"
         if made[path] in outdated:
             why = next(filter(None, map(failure, behind)), None)
-            failed = f"not made: {why}" if why else "not made"
+            stale = outdated[made[path]]  # what was made may be stale by now: its source was edited
+            failed = "not made" if stale == MISSING else f"not current: {stale}"
+            failed = f"not made: {why}" if why else failed
             rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
         elif identity(made[path]) == before[made[path]]:
             rows[path] = scene, "current"
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
     for path, why in publish(good).items():
         rows[path], status = (rows[path][0], f"not published: {why}"), status or 1
-    more = [*_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
+    more = [*hidden, *_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
     if variant in places.PUBLISHED:
         folder = places.PUBLISHED[variant]
         more += left_over(ROOT, folder, [PurePath(path).name for path in figures])
@@ -94,19 +99,22 @@ def table(folder, rows, more=()) -> None:
     as_committed = states.committed(folder, rows) if folder else {}
     lines = [("figure", "file", "size", "state", "as committed" if as_committed else "")]
     for path, (scene, state) in rows.items():
-        made = state in ("current", "recomputed", "made")
+        made = state in ("current", "recomputed")
         size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
         lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
     print("", *columns(lines), *more, sep="\n")
 
 
-def made(folder, files) -> int:
+def made(folder, files, before) -> int:
     """Publish drawings and print a line for each; 1 where one cannot be published.
 
-    `files` is file, as published -> drawing.
+    `files` is file, as published -> drawing; `before` is drawing -> its `identity` before the run.
     """
     problems = publish(files)
-    rows = {path: (PurePath(path).stem, "made") for path in files}
+    rows = {
+        path: (PurePath(path).stem, "current" if identity(file) == before[file] else "recomputed")
+        for path, file in files.items()
+    }
     rows |= {path: (rows[path][0], f"not published: {why}") for path, why in problems.items()}
     table(folder, rows)
     return int(bool(problems))
@@ -148,6 +156,13 @@ def known_absent(currency, variants, variant) -> dict[str, str]:
         for scene, behind in places.figures(variants, variant).values()
     }
     return {scene: why for scene, why in found.items() if why}
+
+
+def _hidden(blocks, scenes):
+    """A line for each field of these scenes that asks for more than its axes show."""
+    for scene in dict.fromkeys(filter(None, scenes)):
+        kind = KINDS[blocks[scene]["picture"]]
+        yield from (f"{scene}: {line}" for line in kind.hidden(blocks[scene]))
 
 
 def _missed_impacts(variants, variant, scenes):

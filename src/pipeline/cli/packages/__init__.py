@@ -83,10 +83,11 @@ def set_up(wanted: str, arguments: list[str]) -> None:
             signal.signal(number, signal.default_int_handler)
     try:
         with _only_one(arguments):
-            if CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == wanted:
+            whole = CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == wanted
+            if whole and _starts():
                 _mend()
             else:
-                _make()
+                _make("the Python of .venv does not start: making .venv again" if whole else TEXT)
             part = VENV / "stamp.part"
             part.write_text(wanted)
             part.rename(STAMP)
@@ -125,7 +126,15 @@ def _only_one(arguments):
         yield
 
 
-def _make():
+def _starts():
+    """Whether the interpreter of .venv starts."""
+    try:
+        return _run([VENV / "bin" / "python", "-I", "-S", "-c", ""])
+    except OSError:
+        return False
+
+
+def _make(text):
     """Make .venv from nothing."""
     _remove()
     VENV.mkdir()
@@ -134,7 +143,7 @@ def _make():
     with _linked() as root:
         _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", f"{root}/.venv"]))
         activation.adopt(VENV, f"{root}/.venv")
-    _install(["build", "lock"], TEXT)
+    _install(["build", "lock"], text)
 
 
 def _mend():
@@ -188,8 +197,6 @@ def _linked():
     try:
         (Path(folder) / LINK).symlink_to(ROOT)
         if wheels := os.environ.get("PSEUDORIGID_WHEELS"):
-            if not os.path.isdir(wheels):
-                raise UsageError(f"{wheels}: no folder with wheels is there")
             (Path(folder) / "wheels").symlink_to(os.path.abspath(wheels))
         yield f"{folder}/{LINK}"
     finally:

@@ -3,6 +3,7 @@
 from ...checks.currency import Currency
 from ...config import expected
 from ...config.declared import study as parts
+from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import locked
@@ -18,6 +19,7 @@ def run(given) -> int:
         add_packages("study")
     made = expected.of_study(given.checked["variants"])
     with locked():
+        before = {file: identity(file) for file in made}
         currency = Currency(ROOT, expected.of_all(given.checked))
         status = running.make(given.checked, currency, made, given.options)
         if status == 0 and not running.only_says(given.options):
@@ -25,5 +27,5 @@ def run(given) -> int:
             for chart, (data, *_) in parts.CHARTS.items():
                 drawn = parts.drawn(chart)
                 files[parts.published(chart) if data in parts.FIXED else drawn] = drawn
-            status = figures.made(parts.FOLDER, files)
+            status = figures.made(parts.FOLDER, files, before)
     return status

@@ -4,6 +4,7 @@ import shutil
 
 from ...checks.currency import Currency
 from ...config import expected, places
+from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import UsageError, locked
@@ -30,9 +31,10 @@ def run(given) -> int:
         files |= {places.atlas_published(drawing): drawing for drawing in drawn}
     targets = list(files.values())
     with locked():
+        before = {file: identity(file) for file in targets}
         currency = Currency(ROOT, results)
         with sweeping.progress(sweeps, currency, targets):
             status = running.make(given.checked, currency, targets, options)
         if status == 0 and not running.only_says(options):
-            status = figures.made(places.ATLAS, files)
+            status = figures.made(places.ATLAS, files, before)
     return status

@@ -62,11 +62,11 @@ def _line(model, error, place) -> str:
         known = list(allowed_at(model, loc[:-1])[0].model_fields)
         (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"
-    if error["type"] == "missing":
-        return f"{dotted(where)}: missing"
     if loc[-1:] == ("[key]",):
         where = where[:-2]
     annotation, allowed = allowed_at(model, loc)
+    if error["type"] == "missing":
+        return f"{dotted(where)}: missing: expected {allowed}"
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
@@ -80,7 +80,7 @@ def _line(model, error, place) -> str:
 
 def allowed_at(annotation, loc):
     """(type, what is allowed in words) at a place of pydantic's below a type."""
-    allowed = "something else"
+    allowed, tagged = "something else", False
     while True:
         if isinstance(annotation, FieldInfo):
             allowed = annotation.description or allowed
@@ -91,15 +91,17 @@ def allowed_at(annotation, loc):
             for item in metadata:
                 allowed = getattr(item, "description", None) or allowed
         if isinstance(annotation, type) and issubclass(annotation, Block):
-            allowed = annotation.__doc__.partition("\n")[0]
+            if not tagged:
+                allowed = annotation.__doc__.partition("\n")[0]
             if not loc:
                 return annotation, allowed
-            annotation, loc = annotation.model_fields[loc[0]], loc[1:]
+            annotation, loc, tagged = annotation.model_fields[loc[0]], loc[1:], False
             continue
         if loc in ((), ("[key]",)):
             return whole, allowed
         mapped = typing.get_origin(annotation) is dict and loc[1:] != ("[key]",)
-        place = TAGS.index(loc[0]) if loc[0] in TAGS else int(mapped)
+        tagged = loc[0] in TAGS
+        place = TAGS.index(loc[0]) if tagged else int(mapped)
         annotation, loc = typing.get_args(annotation)[place], loc[1:]
 
 

@@ -13,11 +13,11 @@ def checked(given, ball, place, said=None):
     """
     if not isinstance(given, dict):
         return None, [refusal(place, given, "a mapping that begins with picture")]
+    what = f"one of {', '.join(KINDS)}"
     if "picture" not in given:
-        return None, [f"{dotted((*place, 'picture'))}: missing"]
+        return None, [f"{dotted((*place, 'picture'))}: missing: expected {what}"]
     kind = KINDS.get(given["picture"]) if isinstance(given["picture"], str) else None
     if kind is None:
-        what = f"one of {', '.join(KINDS)}"
         return None, [refusal((*place, "picture"), given["picture"], what)]
     said = ({} if "ball" in given else {"ball": ("ball",)}) | (said or {})
     lines = mistakes(kind, given, place)

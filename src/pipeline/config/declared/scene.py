@@ -29,6 +29,8 @@ class Scene(fields.Block):
     stages: ClassVar[tuple[str, ...]]
     # A variant that changes one of these, the ball or the energy has axes of its own.
     framed_by: ClassVar[tuple[str, ...]] = ()
+    # Axis -> the field whose values lie along it.
+    along: ClassVar[dict[str, str]] = {}
     # The quantity of `numbers` that stands for the figure in a list.
     telling: ClassVar[str]
     # Another scene of the kind than the committed one, small: YAML, its fields without `picture`.
@@ -51,6 +53,16 @@ class Scene(fields.Block):
     def caption(cls) -> str:
         """The caption of its figures, a template."""
         return inspect.getdoc(cls).partition("\n\n")[2]
+
+    @classmethod
+    def hidden(cls, block: dict) -> Iterator[str]:
+        """A line for each field of a checked block that asks for more than its axes show."""
+        for axis, field in cls.along.items():
+            limits = block.get("axes", {}).get(axis, {}).get("limits")
+            values = block[field] if isinstance(block[field], list) else [block[field]]
+            outside = [v for v in values if limits and not limits[0] <= v <= limits[1]]
+            if outside:
+                yield f"{field} {max(outside)} lies outside {beyond(axis, limits)}"
 
     @staticmethod
     def numbers(block: dict, **data) -> dict[str, str]:
@@ -186,6 +198,11 @@ def bounded(block, first, second, what) -> Iterator[Fault]:
     if block[first] * block[second] > fields.LARGEST:
         allowed = f"at most {fields.LARGEST} {what}, {first} times {second}"
         yield (second,), block[second], f"{allowed}: here {fields.LARGEST // block[first]}"
+
+
+def beyond(axis, limits) -> str:
+    """Limits of an axis that hide something, and what to do about them."""
+    return f"axes.{axis}.limits {limits}: widen them, or leave axes.{axis} out"
 
 
 def listing(data, words, *names) -> str:

@@ -1,7 +1,9 @@
 """Stable and unstable manifolds near one saddle: Figure 6 of the paper."""
 
+import math
+
 from ..fields import Window, axes_of, real, whole
-from ..scene import OfManifolds
+from ..scene import OfManifolds, beyond
 
 
 class Closeup(OfManifolds):
@@ -50,6 +52,16 @@ class Closeup(OfManifolds):
         last = block["period"] - 1
         if block["point"] > last:
             yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
+
+    @classmethod
+    def hidden(cls, block):
+        """Sides of the window that are longer than their axes."""
+        k, g, energy = block["ball"]["k"], block["ball"]["g"], block["energy"]
+        radius = math.sqrt((2 * energy + g * g / k) / k)
+        for axis, drawn in block.get("axes", {}).items():
+            (low, high), (left, right) = block["window"][axis], drawn["limits"]
+            if radius * (high - low) > 1.001 * (right - left):  # limits are rounded
+                yield f"window.{axis} {[low, high]} is wider than {beyond(axis, drawn['limits'])}"
 
     @staticmethod
     def numbers(block, periodic, manifolds):

@@ -20,6 +20,7 @@ class Exponents(OfRecords):
 
     stages = ("lyapunov",)
     framed_by = ("impacts",)
+    along = {"impact": "impacts"}
     telling = "largest exponent"
     studied = "exponents"
     example = """

@@ -18,6 +18,7 @@ class Motion(OfPeriodicOrbit):
 
     stages = ("motion",)
     framed_by = ("period", "type", "duration")
+    along = {"t": "duration"}
     telling = "orbit"
     studied = "motion"
     example = """

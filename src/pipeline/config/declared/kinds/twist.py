@@ -24,6 +24,7 @@ class Twist(Scene):
 
     stages = ("twist",)
     framed_by = ("energies",)
+    along = {"energy": "energies"}
     telling = "zero of the twist"
     example = """
     ball: {k: 0.3, g: 0.02}
