@@ -29,6 +29,7 @@ _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
 _SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
 _SAY += ("touch", "list_rules", "list_target_rules", "list_changes", "unlock")
+_DRY_RUN = {"-n", "--dry-run", "--dryrun"}  # understood without snakemake, which loads slowly
 
 
 @cache
@@ -60,8 +61,17 @@ def options_of(arguments):
     return options
 
 
+def targets_of(arguments) -> list[str]:
+    """The files and rules among options of snakemake."""
+    if all(word in _DRY_RUN or not word.startswith("-") for word in arguments):
+        return [word for word in arguments if word not in _DRY_RUN]
+    return options_of(arguments).targets
+
+
 def only_says(arguments) -> bool:
     """Whether these options of snakemake make nothing."""
+    if arguments and set(arguments) <= _DRY_RUN:
+        return True
     options = options_of(arguments) if arguments else None
     return any(getattr(options, name, None) for name in _SAY)
 
@@ -70,6 +80,8 @@ def asked(arguments) -> set[str]:
     """What these options of snakemake ask for, beside numbers of cores."""
     if not arguments:
         return set()
+    if set(arguments) <= _DRY_RUN:
+        return {"dryrun"}
     given, usual = (vars(options_of(some)) for some in (arguments, []))
     different = {
         name
