@@ -160,8 +160,8 @@ def _run(run, targets, outdated, arguments, current) -> int:
         return said.returncode
     if not (given and (given.logger or given.quiet or given.verbose)):
         command += ["--logger", "reproduce"]
-    # On a cluster each job is a snakemake of its own, on another machine.
-    remote = given and given.executor not in (None, "local")
+    # On a cluster, which a profile may ask for, a job is a snakemake of its own elsewhere.
+    remote = given and (given.profile or given.executor not in (None, "local"))
     with interruptible() as caught:
         try:
             with nullcontext({}) if remote else server.serving(run, current) as variables:
