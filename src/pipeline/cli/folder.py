@@ -64,10 +64,11 @@ def end_jobs() -> None:
 
 
 @contextmanager
-def interruptible():
-    """Ctrl-C, SIGTERM or SIGHUP ends the jobs at once and raises KeyboardInterrupt in here.
+def interruptible(end=True):
+    """Ctrl-C, SIGTERM or SIGHUP raises KeyboardInterrupt in here and ends the jobs.
 
-    Yields a list that then holds the signal's number.
+    They end at once, or without `end` when the body has ended. Yields a list that then holds the
+    signal's number.
     """
     caught, numbers = [], [signal.SIGINT, signal.SIGTERM]
     if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup
@@ -77,7 +78,8 @@ def interruptible():
         caught.append(number)
         for each in numbers:
             signal.signal(each, signal.SIG_IGN)  # once is enough
-        end_jobs()
+        if end:
+            end_jobs()
         raise KeyboardInterrupt
 
     before = {number: signal.signal(number, stop) for number in numbers}

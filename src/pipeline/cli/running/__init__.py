@@ -126,22 +126,15 @@ def make(checked, currency, wanted, arguments) -> int:
         return 0
     if not outdated and not options:
         return 0
+
     # An input that is made again with the same bytes leaves what was made from it current: this is
     # decided when its job begins. With options, snakemake decides.
-    current = (lambda path: False) if options else _is_current(currency)
+    def current(path):
+        return not options and Currency(ROOT, currency.expected).own_reason(path) is None
+
     run = server.Plan(checked, currency.expected, set(outdated))
     targets = paths if options else [*outdated]
     return _run(run, targets, outdated, arguments, current)
-
-
-def _is_current(currency):
-    """Whether a result is current when its inputs have been made."""
-
-    def current(path):
-        now = Currency(ROOT, currency.expected)
-        return now.own_reason(path) is None
-
-    return current
 
 
 def _run(run, targets, outdated, arguments, current) -> int:
@@ -162,10 +155,10 @@ def _run(run, targets, outdated, arguments, current) -> int:
         command += ["--logger", "reproduce"]
     # On a cluster, which a profile may ask for, a job is a snakemake of its own elsewhere.
     remote = given and (given.profile or given.executor not in (None, "local"))
-    with interruptible() as caught:
+    with interruptible(end=not remote) as caught:
         try:
             with nullcontext({}) if remote else server.serving(run, current) as variables:
-                status = _wait([*command, *arguments], os.environ | variables)
+                status = _wait([*command, *arguments], os.environ | variables, remote)
         except KeyboardInterrupt:
             if not caught:
                 raise
@@ -177,15 +170,20 @@ def _run(run, targets, outdated, arguments, current) -> int:
     return status
 
 
-def _wait(command, environment) -> int:
-    """Run a command that Ctrl-C does not reach and whose stdin closes with this process."""
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # which is inherited
-    try:
-        child = subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)
-    finally:
-        signal.signal(signal.SIGINT, handler)
+def _wait(command, environment, remote) -> int:
+    """Run a command in a group that Ctrl-C does not reach; its stdin closes with this process.
+
+    Where it has jobs on another machine, it is asked to cancel these.
+    """
+    child = subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, process_group=0)
     with child:
-        return child.wait()
+        try:
+            return child.wait()
+        except KeyboardInterrupt:
+            if remote:
+                child.send_signal(signal.SIGINT)
+                child.wait()
+            raise
 
 
 def _profile():
