@@ -78,3 +78,17 @@ def test_the_packages_of_the_tests_have_the_versions_of_the_lock():
     locked = pins("requirements/lock.txt")
     tested = pins("requirements/test.txt")
     assert {name: locked.get(name, version) for name, version in tested.items()} == tested
+
+
+def test_the_conda_environment_has_the_versions_of_the_lock():
+    locked = pins("requirements/study.txt") | pins("requirements/lock.txt")
+    wanted = pins("workflow/envs/python.yaml")
+    assert wanted
+    assert {name: locked[name] for name in wanted} == wanted
+
+
+@pytest.mark.slow
+def test_snakemake_has_nothing_to_say_of_the_workflow():
+    command = [sys.executable, "-m", "snakemake", "--lint"]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (result.returncode, "Congratulations" in result.stderr) == (0, True), result.stderr

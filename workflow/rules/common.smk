@@ -23,8 +23,6 @@ except ConfigError as error:
 
 VARIANTS, SWEEPS = PLAN.config["variants"], PLAN.config["sweeps"]
 ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
-# What a job is: the command makes its result, as the build specification of that says.
-PYTHON, MAKE = sys.executable, str(ROOT / "workflow" / "scripts" / "make.py")
 
 
 def inputs(result):

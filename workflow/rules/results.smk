@@ -54,13 +54,18 @@ for name, (result, scenes) in RULES.items():
         input:
             inputs(result),
         output:
-            update(result),  # kept where the job finds that it is current after all
-            update(record_path(result)),
+            result=update(result),  # kept where the job finds that it is current after all
+            record=update(record_path(result)),
         log:
             log_path(result),
         wildcard_constraints:
             scene=any_of(scenes),
         priority: priority(result)
         threads: workflow.cores if name == "study_alone" else 1
+        conda:
+            "../envs/python.yaml"
+        params:
+            python=sys.executable,
+            make=ROOT / "workflow" / "scripts" / "make.py",
         shell:
-            "{PYTHON:q} -S {MAKE:q} {output[0]:q}"
+            "{params.python:q} -S {params.make:q} {output.result:q}"
