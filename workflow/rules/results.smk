@@ -61,9 +61,9 @@ for name, (result, scenes) in RULES.items():
         wildcard_constraints:
             scene=any_of(scenes),
         priority: priority(result)
-        threads: workflow.cores if name == "study_alone" else 1
         conda:
             "../envs/python.yaml"
+        threads: workflow.cores if name == "study_alone" else 1
         params:
             python=sys.executable,
             make=ROOT / "workflow" / "scripts" / "make.py",
