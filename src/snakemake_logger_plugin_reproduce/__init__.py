@@ -12,6 +12,8 @@ from pipeline.jobs.server import ADDRESS, plan
 from pipeline.records.files import disk_is_full, identity
 from pipeline.records.record import failure
 
+from .cells import Cells
+
 WIDTH = 6  # of a scene's name
 
 
@@ -23,7 +25,7 @@ class LogHandler(LogHandlerBase):
 
     def __post_init__(self):
         self.results, self.started, self.before, self.finished = {}, {}, {}, None
-        self.failed, self.errors = False, []
+        self.failed, self.errors, self.cells = False, [], None
         threading.Thread(target=_end_with_parent, daemon=True).start()
 
     def emit(self, record):
@@ -59,9 +61,13 @@ class LogHandler(LogHandlerBase):
     def _tell(self, job, *words):
         spec = plan().specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
-        # What sweeps do is told by their cells; a block alone only where it fails.
-        if not step.startswith("block") or len(words) == 1:
-            line = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{word:>7}" for word in words)
+        line = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{word:>7}" for word in words)
+        if (
+            step.startswith("block") and len(words) > 1
+        ):  # of many: a line says how far their cells are
+            self.cells = self.cells or Cells(plan().specs, plan().outdated)
+            line = self.cells.done(self.results[job])
+        if line:
             print(line.rstrip(), file=sys.stderr, flush=True)
 
     def _reason(self, result):

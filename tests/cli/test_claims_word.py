@@ -25,7 +25,7 @@ def project(tmp_path, monkeypatch):
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(running, "make", make)
-    fresh = SimpleNamespace(outdated=lambda paths: {}, reason=lambda path: None)
+    fresh = SimpleNamespace(outdated=lambda paths: {}, refusal=lambda path: None)
     for module in (claims, figures):
         monkeypatch.setattr(module, "ROOT", tmp_path)
         monkeypatch.setattr(module, "Currency", lambda *_: fresh)
@@ -35,10 +35,8 @@ def project(tmp_path, monkeypatch):
     monkeypatch.setattr(claims.places, "served", lambda variants: {})
     monkeypatch.setattr(claims, "locked", nullcontext)
     monkeypatch.setattr(claims, "interruptible", nullcontext)
-    monkeypatch.setattr(claims.sweeping, "progress", lambda *_: nullcontext())
     monkeypatch.setattr(figures.states, "committed", lambda folder, rows: {})
     monkeypatch.setattr(ledger, "paths", lambda checked: {"a": DATA})
-    monkeypatch.setattr(ledger, "derive", lambda checked: None)
     monkeypatch.setattr(ledger, "write", lambda checked: {})
     return tmp_path
 

@@ -1,7 +1,6 @@
 """Sweeps as they are run: what is told, refused and repaired; no fault shows in the bytes."""
 
 import hashlib
-import io
 import os
 import re
 import shutil
@@ -16,60 +15,59 @@ from project import ROOT, fresh_tree, of_scenes
 from runs import rows
 
 from pipeline.cli.folder import MisuseError, UsageError
-from pipeline.cli.telling import sweeping
-from pipeline.config import places
+from pipeline.cli.running.space import require_space
+from pipeline.cli.words.sweep import chosen
+from pipeline.config import expected, places
 from pipeline.records.artifacts import load
 from pseudorigid.sweep import cell
+from snakemake_logger_plugin_reproduce import cells
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 
 
+def specs():
+    """Result -> BuildSpec of a sweep of six cells."""
+    return expected.of_sweeps({"plane": SMALL})
+
+
 def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=30_000_000))
-    assert sweeping.shortage({}, 0) is None
-    assert sweeping.shortage(dict.fromkeys(range(300)), 1000) is None
-    line = sweeping.shortage(dict.fromkeys(range(300)), 10_000)
-    assert line == "the disk is full: about 34 MB are needed here, 30 are free"
-
-
-def test_nothing_to_make_needs_no_space(monkeypatch):
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=0))
-    outdated = {}
-    currency = SimpleNamespace(expected={}, outdated=lambda _: outdated)
-    with sweeping.progress({"plane": SMALL}, currency, []):
-        pass
-    outdated |= dict.fromkeys(places.block_files("plane", SMALL), "missing")
-    with pytest.raises(UsageError, match="the disk is full"):
-        sweeping.progress({"plane": SMALL}, currency, [])
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=10_100_000))
+    with pytest.raises(UsageError, match=r"^the disk is full: about 10 MB are needed here, 10 are"):
+        require_space(specs().values())
+    blocks = places.block_files("plane", SMALL)
+    require_space(each for path, each in specs().items() if path not in blocks)
 
 
 def test_all_sweeps_are_meant_where_none_is_named():
     sweeps = {"plane": SMALL, "line": SMALL}
-    assert sweeping.chosen(sweeps, []) == ["plane", "line"]
-    assert sweeping.chosen(sweeps, ["line"]) == ["line"]
+    assert chosen(sweeps, []) == ["plane", "line"]
+    assert chosen(sweeps, ["line"]) == ["line"]
     with pytest.raises(MisuseError, match="no sweep lime: did you mean line"):
-        sweeping.chosen(sweeps, ["lime"])
+        chosen(sweeps, ["lime"])
     with pytest.raises(UsageError, match="sweeps: missing, or empty"):
-        sweeping.chosen({}, [])
+        chosen({}, [])
 
 
-def test_progress_tells_rate_and_time_to_finish(tmp_path, monkeypatch):
+def test_progress_tells_rate_and_time_to_finish(monkeypatch):
     told = "sweep: 4 of 10 cells"
-    assert sweeping.line(10, (6, 600)) == told
-    assert sweeping.line(10, (6, 600), (1.5, 3, 300)) == f"{told}, 2 cells/s, 0 min 3 s to go"
-    assert sweeping.line(10, (0, 0), (2.0, 4, 400)) == "sweep: 10 of 10 cells, 2 cells/s"
-    assert sweeping.line(10, (9, 1_000_000), (1.0, 1, 100)).endswith("2 h 46 min to go")
-    monkeypatch.setattr(sweeping, "PAUSE", 0.01)
-    out = io.StringIO()
-    files = {str(tmp_path / name): (3, 30) for name in "ab"}
-    with sweeping.told(files, 8, out):
-        (tmp_path / "a").write_text("")
-        time.sleep(0.1)
-        (tmp_path / "b").write_text("")
-    lines = out.getvalue().splitlines()
-    assert [text.split(",")[0] for text in lines] == ["sweep: 5 of 8 cells", "sweep: 8 of 8 cells"]
+    assert cells.line(10, (6, 600), 1.5) == told
+    assert cells.line(10, (6, 600), 1.5, (0.0, 9, 900)) == f"{told}, 2 cells/s, 0 min 3 s to go"
+    done = cells.line(10, (0, 0), 2.0, (0.0, 4, 400))
+    assert done == "sweep: 10 of 10 cells, 2 cells/s"
+    assert cells.line(10, (9, 999_900), 1.0, (0.0, 10, 10**6)).endswith("2 h 46 min to go")
     # Before the first block the jobs may compile: no speed is told from that.
-    assert ["cells/s" in text for text in lines] == [False, True]
+    first, second, third = places.block_files("plane", SMALL)
+    progress = cells.Cells(specs(), {second, third})
+    assert progress.done(second) == "sweep: 4 of 6 cells"
+    assert progress.done(third).startswith("sweep: 6 of 6 cells, ")
+    monkeypatch.setattr(cells, "PAUSE", 1000.0)
+    progress = cells.Cells(specs(), {first, second, third})
+    said = [progress.done(path) for path in (first, second, third)]
+    assert [line and line.split(",")[0] for line in said] == [
+        "sweep: 2 of 6 cells",
+        None,
+        "sweep: 6 of 6 cells",
+    ]
 
 
 @pytest.fixture
@@ -201,7 +199,7 @@ def test_the_papers_figures_need_no_sweep(tree):
 
 
 def test_the_start_imports_nothing_heavy():
-    code = "import sys, pipeline.config, pipeline.cli.telling.sweeping\n"
+    code = "import sys, pipeline.config, pipeline.cli.running.space\n"
     code += "print('numpy' in sys.modules)"
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
     result = subprocess.run(

@@ -18,6 +18,7 @@ from ...records.sources import ROOT
 from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
 from ..telling.plan import plan
+from .space import require_space
 
 INTERRUPTED = 130
 # Options with which a run would not be one of this folder, and what is so instead.
@@ -126,6 +127,7 @@ def make(checked, currency, wanted, arguments) -> int:
         return 0
     if not outdated and not options:
         return 0
+    require_space(currency.expected[path] for path in outdated)
 
     # An input that is made again with the same bytes leaves what was made from it current: this is
     # decided when its job begins. With options, snakemake decides.

@@ -9,7 +9,6 @@ from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
 from ..folder import MisuseError, interruptible, locked, one_line
-from ..telling import sweeping
 
 
 def run(given) -> int:
@@ -32,8 +31,7 @@ def run(given) -> int:
         before = {behind[-1]: identity(behind[-1]) for _, behind in drawings}
         targets += before
         currency = Currency(ROOT, expected.of_all(checked))
-        with sweeping.progress(checked["sweeps"], currency, targets):
-            status = running.make(checked, currency, targets, given.options)
+        status = running.make(checked, currency, targets, given.options)
         if status or running.only_says(given.options):
             return status
         if status := figures.make(checked, "claims", given.options, before=before):

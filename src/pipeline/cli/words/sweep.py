@@ -3,22 +3,18 @@
 import shutil
 
 from ...checks.currency import Currency
-from ...config import expected, places
+from ...config import expected, places, unknown
 from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
-from ..folder import UsageError, locked
+from ..folder import MisuseError, UsageError, locked
 from ..packages import add_packages
-from ..telling import sweeping
 
 
 def run(given) -> int:
-    """The datasets of the sweeps, or of those named first; with `atlas` their pictures too.
-
-    It is told how far the cells are.
-    """
+    """The datasets of the sweeps, or of those named first; with `atlas` their pictures too."""
     sweeps = given.checked["sweeps"]
-    names, options = sweeping.chosen(sweeps, given.sweep), given.options
+    names, options = chosen(sweeps, given.sweep), given.options
     if given.slurm:
         if shutil.which("sbatch") is None:
             raise UsageError("--slurm: there is no sbatch on this machine")
@@ -33,8 +29,17 @@ def run(given) -> int:
     with locked():
         before = {file: identity(file) for file in targets}
         currency = Currency(ROOT, results)
-        with sweeping.progress(sweeps, currency, targets):
-            status = running.make(given.checked, currency, targets, options)
+        status = running.make(given.checked, currency, targets, options)
         if status == 0 and not running.only_says(options):
             status = figures.made(places.ATLAS, files, before)
     return status
+
+
+def chosen(sweeps, names) -> list[str]:
+    """The sweeps that are named, all where none is."""
+    for name in names:
+        if name not in sweeps:
+            raise MisuseError(unknown("sweep", name, list(sweeps)))
+    if not sweeps:
+        raise UsageError("config.yaml: sweeps: missing, or empty")
+    return list(dict.fromkeys(names)) or list(sweeps)
