@@ -62,9 +62,7 @@ class LogHandler(LogHandlerBase):
         spec = plan().specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{word:>7}" for word in words)
-        if (
-            step.startswith("block") and len(words) > 1
-        ):  # of many: a line says how far their cells are
+        if step.startswith("block") and len(words) > 1:  # there are many: their cells are counted
             self.cells = self.cells or Cells(plan().specs, plan().outdated)
             line = self.cells.done(self.results[job])
         if line:

@@ -17,7 +17,7 @@ def project(tmp_path, monkeypatch):
     for file in (DRAWING, PUBLISHED):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
 
-    def make(currency, targets, options):
+    def make(checked, currency, targets, options):
         for target in targets:
             if not (tmp_path / target).is_file():
                 (tmp_path / target).write_text("a picture")
