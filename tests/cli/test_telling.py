@@ -171,12 +171,12 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
 
 def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys, monkeypatch):
     handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[ORBITS]))
-    block = spec(ORBITS, "block 3", {}, [])
-    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, set()))
+    block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10}, [])
+    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
     handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
     handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
     handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
-    assert capsys.readouterr().err == ""
+    assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
 
 
 def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
