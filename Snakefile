@@ -1,6 +1,7 @@
-# The paper's figures. ./reproduce runs this with the profile workflow/profiles/default; what is
-# drawn is in config.yaml, one scene a figure. Data go to results/<variant>/<stage>_<scene>.nc and
-# figures to results/<variant>/figures/; ./reproduce publishes finished ones.
+# The paper's figures. ./reproduce runs this with the options of profiles/default, as a bare snakemake
+# does; what is drawn is in config.yaml, one scene a figure. Data go to
+# results/<variant>/<stage>_<scene>.nc and figures to results/<variant>/figures/; ./reproduce
+# publishes finished ones.
 from snakemake.utils import min_version
 
 min_version("9.0")

@@ -16,7 +16,7 @@ from pseudorigid.kernel.compiled import locator
 ROOT = Path(__file__).parents[1]
 # The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
 SHIPPED = Path(__file__).with_name("scenes.yaml")
-PARTS = ("Snakefile", "pyproject.toml", "reproduce", "requirements", "src", "workflow")
+PARTS = ("Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements", "src", "workflow")
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 

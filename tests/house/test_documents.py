@@ -19,7 +19,16 @@ LONG_PARTS = ("prove --impacts", "prove --search", "prove --pictures", "variant 
 # Where the history speaks of files that are gone.
 OF_THE_PAST = ("CHANGELOG.md",)
 # What there is, apart from what is made.
-FOLDERS = ("src", "tests", "docs", "workflow", "requirements", "paper_figures", "more_figures")
+FOLDERS = (
+    "src",
+    "tests",
+    "docs",
+    "workflow",
+    "profiles",
+    "requirements",
+    "paper_figures",
+    "more_figures",
+)
 FILES = [
     str(file.relative_to(ROOT))
     for folder in (*FOLDERS, ".github")

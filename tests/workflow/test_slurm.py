@@ -48,7 +48,7 @@ def hashes(tree):
 
 def begin(tree, cluster):
     """The sweep on Slurm, started: the tree's own code runs, on the head and in the jobs."""
-    profile = tree.path / "workflow" / "profiles" / "slurm"
+    profile = tree.path / "profiles" / "slurm"
     return subprocess.Popen(
         tree.command("sweep", "--profile", str(profile), *QUICK),
         env=tree.environment() | cluster.environment,

@@ -57,7 +57,7 @@ def _switch(name, text):
 
 _SWEPT = (
     _any("sweep", "sweeps of config.yaml; all without a name"),
-    _switch("--slurm", "hand blocks of cells to Slurm, as workflow/profiles/slurm says"),
+    _switch("--slurm", "hand blocks of cells to Slurm, as profiles/slurm says"),
 )
 WORDS = {
     "list": Word("every figure, chart and dataset that there can be, and the state of its file"),

@@ -190,7 +190,7 @@ def _wait(command, environment, remote) -> int:
 
 def _profile():
     """The options that are passed on every run; as a profile snakemake would tell of them."""
-    text = (ROOT / "workflow" / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
+    text = (ROOT / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     for name, value in yaml.safe_load(text).items():
         values = [value] if isinstance(value, str) else value
         yield from (f"--{name}", *([] if value is True else values))

@@ -14,7 +14,7 @@ from ..packages import add_packages
 
 REPETITIONS = 5
 # What a run needs of this folder.
-PARTS = ("Snakefile", "config.yaml", "paper_figures", "src", "workflow")
+PARTS = ("Snakefile", "config.yaml", "paper_figures", "profiles", "src", "workflow")
 
 
 def run(given) -> int:
