@@ -6,6 +6,7 @@ import signal
 import sys
 from contextlib import contextmanager, suppress
 
+from ..jobs.server import ADDRESS
 from ..records.record import require_loaded_unchanged
 from ..records.sources import ROOT
 
@@ -114,4 +115,5 @@ def set_environment() -> None:
             del os.environ[name]
     os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
-    os.environ.pop("MPLBACKEND", None)  # nothing here opens a window
+    for name in ("MPLBACKEND", ADDRESS):  # nothing here opens a window; each run has its server
+        os.environ.pop(name, None)

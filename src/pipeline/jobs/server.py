@@ -14,7 +14,7 @@ import socketserver
 import sys
 import tempfile
 import threading
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from multiprocessing import forkserver
 from pathlib import Path
@@ -110,17 +110,19 @@ def serving(plan, current=lambda path: False):
                     self.wfile.write(b"1" if made else b"0")
 
     jobs = multiprocessing.get_context("forkserver")
-    with tempfile.TemporaryDirectory() as folder:
+    with ExitStack() as stack:
         try:
+            folder = stack.enter_context(tempfile.TemporaryDirectory())
+            server = stack.enter_context(_Server(f"{folder}/jobs", Handler))
             _start(computes=any(path.endswith(".nc") for path in plan.outdated))
-            server = _Server(f"{folder}/jobs", Handler)
-        except OSError:  # of a temporary folder whose name is too long for a socket
+        except (
+            OSError
+        ):  # of a temporary folder that is full, or whose name is too long for a socket
             yield {}
             return
-        with server:
-            threading.Thread(target=server.serve_forever, daemon=True).start()
-            yield {ADDRESS: server.server_address}
-            server.shutdown()
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield {ADDRESS: server.server_address}
+        server.shutdown()
 
 
 def _start(computes):
