@@ -1,7 +1,9 @@
 """How often a verdict on an orbit, regular or chaotic, is wrong, and what it costs.
 
 Cells are drawn over the whole plane of the atlas. The truth on an orbit is the growth of a tangent
-vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps before. Compared are:
+vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps before; an orbit whose
+vector has grown beyond DOUBT after EARLY impacts is chaotic, and is followed no further. Compared
+are:
 
     growth below 3            over a fixed number of impacts: the sweeps' verdict before
     growth                    the same with the best threshold
@@ -29,7 +31,8 @@ from ..sweep.blocks import AXES
 from ..sweep.cell import even
 from ..sweep.verdict import THRESHOLD, judge, means, windows
 
-LONG = 400_000
+LONG, EARLY = 400_000, 20_000
+DOUBT = 10 * THRESHOLD  # a regular orbit's growth is about 0.85 whatever its length
 LENGTHS = (250, 500, 1000, 2000, 4000, 8000)
 METHODS = {
     "growth below 3": "growth",
@@ -59,7 +62,7 @@ def verdicts(cells=36, orbits=128):
         orbits called regular, and alarms, regular ones called chaotic, as shares of all; cost,
         impacts of an orbit. On (method, length): threshold. On (set, cell): k, energy, regular,
         the true share of regular orbits; exponent and exponent_error as `sweep.cell` has them;
-        exponent_long, from all LONG impacts of the orbits that are chaotic.
+        exponent_long, from all impacts of the orbits that are chaotic.
 
     References
     ----------
@@ -106,7 +109,7 @@ _CELL = {
     "regular": (("set", "cell"), "true share of regular orbits"),
     "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
     "exponent_error": (("set", "cell"), "its standard error"),
-    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts of the long runs"),
+    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts that were followed"),
 }
 
 
@@ -140,18 +143,25 @@ def _cell(k, e, count):
 
 def _watched(k, states, centre, expected):
     """Growth and how unsettled the winding number is after each of LENGTHS, and the truth."""
-    turning, growing = windows((*LENGTHS, LONG))
+    turning, growing = windows((*LENGTHS, EARLY, LONG))
     turning = turning[: 3 * len(LENGTHS)]
     orbits = begin(k, states, centre, expected)
     turned = np.zeros((len(turning), centre.size))
-    growth = np.zeros((len(growing), centre.size))
-    follow(orbits, k, 0, LONG, turning, growing, turned, growth)
-    winding, growth = means(turning, growing, turned, growth)
+    sums = np.zeros((len(growing), centre.size))
+    follow(orbits, k, 0, EARLY, turning, growing, turned, sums)
+    winding, growth = means(turning, growing, turned, sums)
+    exponent = orbits[SIZE] / EARLY
+    rest = ~(growth[-2] > DOUBT)  # NaN, of orbits that graze, goes on
+    orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
+    follow(orbits, k, EARLY, LONG, turning, growing, turned, sums)
+    exponent[rest] = orbits[SIZE] / LONG
+    truth = np.zeros(centre.size, bool)
+    truth[rest] = means(turning, growing, turned, sums)[1][-1] < THRESHOLD
     return {
-        "growth": growth[:-1],
+        "growth": growth[: len(LENGTHS)],
         "unsettled": np.array([np.abs(a - b) for _, a, b in winding]),
-        "truth": growth[-1] < THRESHOLD,
-        "exponent_long": orbits[SIZE] / LONG,
+        "truth": truth,
+        "exponent_long": exponent,
     }
 
 
