@@ -3,9 +3,7 @@
 import errno
 import os
 import socket
-import sys
 from collections import namedtuple
-from types import SimpleNamespace
 
 import pytest
 
@@ -54,17 +52,3 @@ def test_a_disk_is_full_only_if_it_is(tmp_path, monkeypatch, number, usage, word
     refused = pytest.raises(files.FileError, match=f"cannot be written: {words}$")
     with refused, files.replacing(tmp_path / "new" / "x"):
         raise error
-
-
-def test_a_failing_job_makes_room_for_its_log(tmp_path, monkeypatch):
-    """Its output goes first: on a full disk the reason could not be written beside it."""
-    monkeypatch.setattr(sys, "excepthook", sys.excepthook)  # which the module sets
-    from pipeline.records import job
-
-    output, log = tmp_path / "x.nc", tmp_path / "x.log"
-    output.touch()
-    snakemake = SimpleNamespace(log=[log], output=[output, tmp_path / "none"], wildcards={})
-    with pytest.raises(SystemExit), job.one_line_errors(snakemake):
-        raise ValueError("the disk is full")
-    assert not output.exists()
-    assert log.read_text().endswith("the disk is full\n")

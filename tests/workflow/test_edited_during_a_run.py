@@ -38,7 +38,7 @@ def test_a_file_that_changes_fails_the_job(done, path):
     assert result.returncode == 1
     assert f"not made: {path} {AGAIN}" in result.stdout
     assert "Traceback" not in result.stdout
-    assert done.run("-n", "fig3").stdout.startswith("fig3: its source changed: ")
+    assert "its source changed: " in done.run("-n", "fig3").stdout
 
 
 def test_an_edit_that_is_undone_fails_the_job_that_loaded_it(done):
@@ -53,7 +53,7 @@ def test_an_edit_that_is_undone_fails_the_job_that_loaded_it(done):
     result = done.run("fig3", "--cores", "1")
     assert result.returncode == 1
     assert f"not made: {edited} {AGAIN}" in result.stdout
-    assert done.run("-n", "fig3").stdout.startswith("fig3: its source changed: ")
+    assert "its source changed: " in done.run("-n", "fig3").stdout
 
 
 def test_what_was_drawn_before_an_edit_is_not_called_current(done):

@@ -10,7 +10,7 @@ from ..config import expected, places, unknown
 from ..config.declared.kinds import KINDS
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, replacing
-from ..records.record import failure
+from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import running
 from .folder import MisuseError
@@ -76,6 +76,10 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
             rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
         elif identity(made[path]) == before[made[path]]:
             rows[path] = scene, "current"
+    for path, (scene, _) in wanted.items():
+        if scene in absent:  # an older one would be taken for it
+            for old in (made[path], record_path(made[path])):
+                (ROOT / old).unlink(missing_ok=True)
     good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
     for path, why in publish(good).items():
         rows[path], status = (rows[path][0], f"not published: {why}"), status or 1

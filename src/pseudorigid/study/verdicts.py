@@ -152,11 +152,12 @@ def _watched(k, states, centre, expected):
     winding, growth = means(turning, growing, turned, sums)
     exponent = orbits[SIZE] / EARLY
     rest = ~(growth[-2] > DOUBT)  # NaN, of orbits that graze, goes on
-    orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
-    follow(orbits, k, EARLY, LONG, turning, growing, turned, sums)
-    exponent[rest] = orbits[SIZE] / LONG
     truth = np.zeros(centre.size, bool)
-    truth[rest] = means(turning, growing, turned, sums)[1][-1] < THRESHOLD
+    if rest.any():
+        orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
+        follow(orbits, k, EARLY, LONG, turning, growing, turned, sums)
+        exponent[rest] = orbits[SIZE] / LONG
+        truth[rest] = means(turning, growing, turned, sums)[1][-1] < THRESHOLD
     return {
         "growth": growth[: len(LENGTHS)],
         "unsettled": np.array([np.abs(a - b) for _, a, b in winding]),
