@@ -34,29 +34,7 @@ TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
 _MOST = 10_000  # files in an archive; a complete one has some hundreds
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
-README = """\
-Figures of E. Kanso and P. Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid foundation",
-computed again by pseudorigid, and what they were made from.
-
-  paper_figures/, more_figures/  the figures; beside them SHA256SUMS and MANIFEST.json, with hashes
-                                 of config, sources, packages, data, drawing and file
-  results/*/*.nc                 data, netCDF-4; each variable says what it is
-  results/*/provenance/          what made each file: config, hashes of sources and inputs, packages
-  config.yaml                    every parameter of every figure
-  CLAIMS.md                      every statement of the paper, with a verdict
-  {certificates}
-                                 certificates of the theorems that are proved
-
-To check that nothing was damaged, here:
-
-    sha256sum -c SHA256SUMS
-
-To check that it can be made again, in a clone of pseudorigid, after ./reproduce:
-
-    ./reproduce verify --against THIS_FILE.tar     # or this folder
-
-Data in here: {sets}.
-"""
+README = Path(__file__).with_suffix(".txt")  # of the archive
 
 
 class ArchiveError(ValueError):
@@ -107,7 +85,9 @@ def contents(root, checked):
     for path in places:
         if (root / path).is_file():
             found[path] = read_bytes(root / path)
-    about = README.format(certificates=CERTIFICATES, sets=", ".join(sets))
+    about = README.read_text(encoding="utf-8").format(
+        certificates=CERTIFICATES, sets=", ".join(sets)
+    )
     found[ABOUT] = about.encode()
     lines = [f"{hashlib.sha256(found[path]).hexdigest()}  {path}\n" for path in sorted(found)]
     return dict(sorted(found.items())) | {SUMS: "".join(lines).encode()}

@@ -25,19 +25,6 @@ from ..difference import not_as_made
 from ..sums import ContractError, known_sums
 from . import numbers
 
-# What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
-CHARTS = {
-    "work_uniform": "error against work of methods for the next impact, states all over the "
-    "section",
-    "work_grazing": "error against work of methods for the next impact, states near grazing",
-    "edges": "where methods miss the next impact: next to grazing, and where the ball just touches",
-    "energy": "what a check of the energy sees of missed impacts",
-    "apart": "how long orbits by two methods stay together",
-    "needs": "the error of each figure by each method",
-    "verdicts": "how often a verdict on an orbit, regular or chaotic, is wrong, and what it costs",
-    "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
-    "line": "the regular share of the section, and the exponent of the rest, against the energy",
-}
 _PNG = b"\x89PNG\r\n\x1a\n"
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -226,7 +213,7 @@ class _Page:
     def _chart(self, name):
         return {
             "name": name,
-            "title": CHARTS.get(name, "a picture made on request"),
+            "title": numbers.CHARTS.get(name, "a picture made on request"),
             "shows": "",
             "see": "",
         }
