@@ -13,16 +13,9 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
 from ..config.places import LEDGER, PAPER, PUBLISHED
+from ..records import files
 from ..records.artifacts import ArtifactError, load
-from ..records.files import (
-    FileError,
-    file_hash,
-    obstacle,
-    open_regular,
-    read_bytes,
-    replacing,
-    write_whole,
-)
+from ..records.files import FileError, file_hash, obstacle, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import contracts, manifest
@@ -57,9 +50,9 @@ def write(root, checked, path):
     for contract in contracts.committed(checked):
         if problem := _problem(root, contract):
             raise ArchiveError(problem)
-    files = contents(root, checked)
-    with replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
-        for name, data in files.items():
+    found = contents(root, checked)
+    with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
+        for name, data in found.items():
             entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
             tar.addfile(entry, io.BytesIO(data))
     return file_hash(path)
@@ -122,16 +115,15 @@ def _problem(root, contract):
         path = f"{contract.folder}/{name}"
         if words := obstacle(root / path):
             return f"{path}: {words}"
-        drawn = file_hash(root / contract.drawn.get(name, path))
-        if file_hash(root / path) is None or drawn not in (None, file_hash(root / path)):
+        here, drawn = file_hash(root / path), file_hash(root / contract.drawn.get(name, path))
+        if here is None or drawn not in (None, here):
             return f"{path} is not the one that was drawn: run {contract.command}"
-        if file_hash(root / path) != sums.get(name):
+        if here != sums.get(name):
             return f"{path} is not as in {contract.folder}/{SUMS}: run ./reproduce accept"
+    listed = f"{contract.folder}/{manifest.MANIFEST}"
     for path in contract.texts:
         if file_hash(root / path) != committed["texts"].get(path):
-            return (
-                f"{path} is not as in {contract.folder}/{manifest.MANIFEST}: run {contract.command}"
-            )
+            return f"{path} is not as in {listed}: run {contract.command}"
     return None
 
 
@@ -148,7 +140,7 @@ def read(path):
     if os.path.exists(path) and not os.path.isfile(path):
         raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
-        with open_regular(path) as file:
+        with files.open_regular(path) as file:
             for name, data in _members(file):
                 if name in found or len(found) == _MOST:
                     many = f"more than {_MOST:,} files" if len(found) == _MOST else "twice"
@@ -240,15 +232,7 @@ def read_folder(folder, checked):
 
 
 def verify(root, checked, place):
-    """Compare this tree with an archive, or with the folder of another tree, file by file.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    checked : dict
-        The checked config.
-    place : pathlib.Path
-        An archive, another tree, or an archive that was unpacked.
+    """Compare this tree file by file with an archive, also unpacked, or with another tree.
 
     Returns
     -------
@@ -271,12 +255,8 @@ def verify(root, checked, place):
     with tempfile.TemporaryDirectory() as folder:
         how = _differences(root, checked, ours, theirs, Path(folder))
         for name in sorted({*ours, *theirs}):
-            if name not in theirs:
-                word = absent
-            elif name not in ours:
-                word = "missing here"
-            else:
-                word = "identical" if ours[name] == theirs[name] else "differs"
+            word = "identical" if ours.get(name) == theirs.get(name) else "differs"
+            word = absent if name not in theirs else "missing here" if name not in ours else word
             counts[word] += 1
             print(f"{name:{width}}  {word}")
             for layer, words in how(name).items() if word == "differs" else ():
@@ -292,7 +272,7 @@ def _differences(root, checked, ours, theirs, folder):
     """
     for name in ours.keys() & theirs.keys():
         if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
-            write_whole(folder / name, theirs[name])
+            files.write_whole(folder / name, theirs[name])
     known = {}
     for contract in contracts.committed(checked):
         with suppress(ContractError):

@@ -1,6 +1,7 @@
 """Checks of claims about periodic orbits, islands and branches of the tangle (section 4.1)."""
 
 import json
+import re
 
 import numpy as np
 
@@ -170,15 +171,8 @@ def _half_turns(manifolds, row):
 
 
 def _short(digits):
-    """A number's text with twelve digits."""
-    mantissa, _, exponent = digits.partition("e")
-    kept, seen = "", 0
-    for char in mantissa:
-        seen += char.isdigit() and (seen > 0 or char != "0")
-        kept += char
-        if seen == 12:
-            break
-    return kept + (f"e{exponent}" if exponent else "")
+    """Cut a number's text after twelve digits, its exponent kept."""
+    return re.sub(r"^(-?[0.]*(?:\d\.?){12})\d*", r"\1", digits)
 
 
 def last_curve(found):
