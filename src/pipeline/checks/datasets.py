@@ -18,13 +18,6 @@ from ..records.sources import ROOT
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
 TEXT = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 SMALL = TEXT["small"]  # stage -> fields of a scene
-_AXIS = {"limits": [-0.5, 0.5], "ticks": [0]}
-_MOTION = SMALL["motion"] | {
-    "picture": "motion",
-    "ball": {"k": 0.2, "g": 0.04},
-    "energy": ENERGY,
-    "axes": {"t": {"limits": [0, 1], "ticks": [0, 1]}, "displacement": _AXIS},
-}
 
 
 def page() -> str:
@@ -93,7 +86,7 @@ def study():
     from pseudorigid.study import failures, figure_errors, verdicts, work
 
     few = failures.EDGE_METHODS[:1]
-    needs = {"fig3": _MOTION}, {"fig3": "motion"}
+    needs = TEXT["needs"], {"fig3": "motion"}
     periodic = {("periodic", "fig3"): _stage("periodic", {"period": 1})}
     makers = {
         "work": lambda: work.counted(2),

@@ -38,13 +38,7 @@ def not_as_made(root, contract, comparison=None):
 
     A result's record decides. Where the manifest lists the result, and all that makes it is as
     committed, it must be the committed one too, whatever its record says.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    contract : contracts.Contract
-    comparison : Comparison, optional
-        With the committed manifest, which is read without it.
+    The manifest is read where no `comparison` with it is given.
 
     Returns
     -------

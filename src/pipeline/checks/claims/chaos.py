@@ -85,10 +85,15 @@ def vanish(found):
     return decided(small, largest=largest, length=length, orbits=found.sizes["island"])
 
 
+def _largest_exponents(found):
+    """Return the largest exponent of each chaotic orbit, over all its blocks."""
+    return found["exponent"].values[:, in_sea(found)].mean(axis=0).max(axis=-1)
+
+
 def independent(found):
     """Compare the spread of the exponents of chaotic orbits with that within orbits."""
     block = found["exponent"].values[:, in_sea(found)]
-    means = block.mean(axis=0).max(axis=-1)
+    means = _largest_exponents(found)
     # parts of an orbit spread by chance; if orbits do not differ, so do their means
     parts = np.array_split(block, min(PARTS, block.shape[0]))
     within = np.array([part.mean(axis=0).max(axis=-1) for part in parts]) - means
@@ -103,7 +108,7 @@ def independent(found):
 def chaotic_nature(found):
     """Compare the exponents of chaotic orbits with the bound for regular ones of their length."""
     impacts = found.sizes["block"] * int(found.attrs["block_impacts"])
-    least = float(found["exponent"].values[:, in_sea(found)].mean(axis=0).max(axis=-1).min())
+    least = float(_largest_exponents(found).min())
     bound = regular_bound(impacts)
     positive = least > CLEARLY * bound
     return decided(positive, orbits=_chaotic(found), least=least, impacts=impacts, bound=bound)
@@ -120,7 +125,7 @@ def figure_7(found):
 
 def long_run(found):
     """Compare the printed exponent with the mean of long runs and the spread of short ones."""
-    means = found["exponent"].values[:, in_sea(found)].mean(axis=0).max(axis=-1)
+    means = _largest_exponents(found)
     error = float(means.std(ddof=1)) / np.sqrt(means.size)
     mean = float(means.mean())
     above = float(np.mean(_short_runs(found) > PRINTED))

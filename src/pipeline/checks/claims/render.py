@@ -73,8 +73,7 @@ def read(text):
 
 def _row(claim, verdict):
     """The line of a claim in a table."""
-    words = f"\N{LEFT DOUBLE QUOTATION MARK}{claim.quote}\N{RIGHT DOUBLE QUOTATION MARK}"
-    words = words if claim.quote else claim.paraphrase
-    cells = (str(claim.number), claim.place, words)
+    quoted = f"\N{LEFT DOUBLE QUOTATION MARK}{claim.quote}\N{RIGHT DOUBLE QUOTATION MARK}"
+    cells = (str(claim.number), claim.place, quoted if claim.quote else claim.paraphrase)
     cells += (verdict.value, verdict.error, verdict.evidence)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
