@@ -65,11 +65,11 @@ def test_the_theorems_of_invariant_curves_are_all_there_are():
 
 @pytest.mark.parametrize("number", ALL)
 def test_words_are_short_and_whole(number):
-    claim = claims.CLAIMS[number]
-    assert claim.words == " ".join(claim.words.split())
-    assert 5 < len(claim.words) < 260
-    assert claim.words.isascii()
-    assert "..." not in claim.words
+    words = claims.CLAIMS[number].quote or claims.CLAIMS[number].paraphrase
+    assert words == " ".join(words.split())
+    assert 5 < len(words) < 260
+    assert words.isascii()
+    assert "..." not in words
 
 
 def squeezed(text):
@@ -82,7 +82,7 @@ def squeezed(text):
 def test_quotes_are_the_papers_words(number):
     claim = claims.CLAIMS[number]
     text = squeezed(Path(os.environ[PAPER_TEXT]).read_text(encoding="utf-8"))
-    assert (squeezed(claim.words) in text) == bool(claim.quote)
+    assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote)
 
 
 def test_a_quote_is_compared_letter_by_letter():
@@ -316,6 +316,7 @@ MISTAKES = {
         "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",
     },
     '"fig2/orbits"': {'"fig2/orbit"': "claims.4.data: 'orbit' is not known: did you mean orbits?"},
+    '["uncoupled"]': {'["couple"]': "claims.1.formulas: 'couple' is not known: did you mean unc"},
     '"twist-zero"': {'"zero"': "claims.49.theorems: 'zero' is not known: did you mean twist-zero?"},
     'check = "model.homogeneous"\n': {
         'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
@@ -348,12 +349,14 @@ def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
         cli_ledger.paths({"variants": {}, "sweeps": {}})
 
 
-def test_a_number_or_a_formula_that_there_is_not_is_named(datasets):
-    wrong = claims.CLAIMS[3].model_copy(update={"value": "{shel}"})
-    with pytest.raises(ValueError, match="claim 3: its check gives no 'shel'"):
-        wrong.judge(datasets, {})
-    with pytest.raises(ValueError, match="the derivations have no formula shel"):
-        ledger.derived(datasets["derivations"], "shell", "shel")
+@pytest.mark.parametrize(
+    ("value", "wrong"),
+    [("{shel}", "no number 'shel'"), ("{shell", "expected '}'"), ("{shell:y}", "Unknown format")],
+)
+def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
+    claim = claims.CLAIMS[3].model_copy(update={"value": value})
+    with pytest.raises(ConfigError, match=f"^claims.toml: claims.3: {wrong}"):
+        claim.judge(datasets, {})
 
 
 @pytest.mark.parametrize("word", ["true", "not computed", "open", ""])

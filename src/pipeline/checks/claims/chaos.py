@@ -128,17 +128,14 @@ def long_run(found):
     means = _largest_exponents(found)
     error = float(means.std(ddof=1)) / np.sqrt(means.size)
     mean = float(means.mean())
-    above = float(np.mean(_short_runs(found) > PRINTED))
+    block = int(found.attrs["block_impacts"])
+    # as long as a run of Figure 7, or as a block where that is longer
+    runs = stretches(found, max(SHORT // block, 1) * block)
+    above = float(np.mean(runs > PRINTED))
     likely = 0.025 < above < 0.975
     word = HOLDS if abs(mean - PRINTED) < 2 * error else CORRECTED if likely else FALSE
     numbers = {"mean": mean, "percent": 100 * above, "printed": PRINTED, "standard_error": error}
     return word, numbers
-
-
-def _short_runs(spread):
-    """Exponents of stretches as long as a run of Figure 7, or of a block where that is longer."""
-    block = int(spread.attrs["block_impacts"])
-    return stretches(spread, max(SHORT // block, 1) * block)
 
 
 def opposite(algebra, found):

@@ -9,6 +9,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from pseudorigid.proofs.derivations import FORMULAS
+
 from ...config import ConfigError
 from ...config.checking.mistakes import mistakes
 from ...config.checking.words import meant, refusal
@@ -69,11 +71,6 @@ class Row(Block):
     error: Text = ""
     evidence: Text = ""
 
-    @property
-    def words(self):
-        """The statement, in the paper's own words or in ours."""
-        return self.quote or self.paraphrase
-
 
 class Claim(Row):
     """A row, its number, and its check.
@@ -97,7 +94,9 @@ class Claim(Row):
         Raises
         ------
         ValueError
-            A dataset is missing, or a number of the templates.
+            A dataset is missing.
+        ConfigError
+            `value` or `error` asks for a number that the check does not give.
         """
         missing = [name for name in self.data if name not in datasets]
         if missing:
@@ -110,8 +109,9 @@ class Claim(Row):
         if len(said) == 1:
             try:
                 said = [text.format_map(said[0]) for text in (self.value, self.error)]
-            except KeyError as error:
-                raise ValueError(f"claim {self.number}: its check gives no {error}") from None
+            except (LookupError, ValueError) as error:
+                wrong = f"no number {error}" if isinstance(error, KeyError) else str(error)
+                raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
         return Verdict(word, *said, self.evidence)
 
 
@@ -192,6 +192,7 @@ def _mistakes_of(row, place, kinds, checks):
     named = {
         "data": (stages, (*STAGES, "derivations")),
         "theorems": (row.theorems, THEOREMS),
+        "formulas": (row.formulas, [name for names in FORMULAS.values() for name in names]),
         "check": ([row.check] * bool(row.check), checks),
     }
     for key, (names, known) in named.items():
@@ -218,8 +219,6 @@ def formula(algebra, *names):
 
     `corrected` is whether each that does not hold as printed holds when it is corrected.
     """
-    if unknown := set(names) - set(algebra["formula"].values.tolist()):
-        raise ValueError(f"the derivations have no formula {', '.join(sorted(unknown))}")
     found = algebra.sel(formula=list(names))
     printed, corrected = found["printed"].values, found["corrected"].values
     holds = (printed == 1) | ((printed == -1) & (corrected == 1))
