@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from pipeline.checks import claims
-from pipeline.checks.claims import chaos, closure, ledger
-from pipeline.checks.claims.ledger import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED, VERDICTS
+from pipeline.checks.claims import VERDICTS, chaos, ledger
+from pipeline.checks.claims.ledger import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from pipeline.checks.claims.render import read, render
+from pipeline.cli import ledger as cli_ledger
+from pipeline.cli.folder import UsageError
+from pipeline.config import ConfigError
 from pipeline.records.sources import ROOT
 
 PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's text
@@ -57,16 +60,16 @@ def test_the_theorems_of_invariant_curves_are_all_there_are():
     from pseudorigid.proofs import THEOREMS
 
     curves = {name for name in THEOREMS if name.startswith("twist-")} - {"twist-zero"}
-    assert set(closure.KAM) == curves
+    assert set(claims.CLAIMS[52].theorems) == set(claims.CLAIMS[70].theorems) == curves
 
 
 @pytest.mark.parametrize("number", ALL)
 def test_words_are_short_and_whole(number):
-    claim = claims.CLAIMS[number]
-    assert claim.words == " ".join(claim.words.split())
-    assert 5 < len(claim.words) < 260
-    assert claim.words.isascii()
-    assert "..." not in claim.words
+    words = claims.CLAIMS[number].quote or claims.CLAIMS[number].paraphrase
+    assert words == " ".join(words.split())
+    assert 5 < len(words) < 260
+    assert words.isascii()
+    assert "..." not in words
 
 
 def squeezed(text):
@@ -79,7 +82,7 @@ def squeezed(text):
 def test_quotes_are_the_papers_words(number):
     claim = claims.CLAIMS[number]
     text = squeezed(Path(os.environ[PAPER_TEXT]).read_text(encoding="utf-8"))
-    assert (squeezed(claim.words) in text) == claim.quoted
+    assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote)
 
 
 def test_a_quote_is_compared_letter_by_letter():
@@ -265,9 +268,11 @@ def test_a_dataset_that_is_missing_is_named(datasets):
 
 
 def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
-    theorems = ("twist-zero",)
-    claim = ledger.Claim(1, "", "", False, "E", (), theorems, lambda proved: proved("twist-six"))
-    with pytest.raises(KeyError, match="does not name the theorem twist-six"):
+    claim = ledger.Claim(
+        number=1, place="1", kind="E", quote="a", theorems=["twist-zero"],
+        function=lambda proved: proved["twist-six"],
+    )  # fmt: skip
+    with pytest.raises(KeyError, match="claim 1 does not name the theorem twist-six"):
         claim.judge({}, {"twist-six": PROVED})
 
 
@@ -298,11 +303,60 @@ def test_page_wants_all_verdicts(verdicts):
         render({number: verdict for number, verdict in verdicts.items() if number != 7})
 
 
-def test_a_claim_is_well_formed():
-    with pytest.raises(ValueError, match="claim 1 has no words"):
-        ledger.claim(1, "here", "E")(lambda: None)
-    with pytest.raises(ValueError, match="kind 'X' is not allowed"):
-        ledger.claim(1, "here", "X")
+# Lines of claims.toml with a mistake: line -> (another, how the message begins).
+MISTAKES = {
+    'place = "2.1"\n': {
+        'plase = "2.1"\n': "claims.1.plase: unknown key: did you mean place?",
+        "place = 2.1\n": "claims.1.place: 2.1 is not allowed: expected a text",
+        "": "claims.1.place: missing: expected a text",
+    },
+    'kind = "P"\n': {'kind = "X"\n': "claims.1.kind: 'X' is not allowed: expected letters of ENF"},
+    "[claims.2]": {
+        "[claims.two]": "claims: 'two' is not allowed: expected a number",
+        "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",
+    },
+    '"fig2/orbits"': {'"fig2/orbit"': "claims.4.data: 'orbit' is not known: did you mean orbits?"},
+    '["uncoupled"]': {'["couple"]': "claims.1.formulas: 'couple' is not known: did you mean unc"},
+    '"twist-zero"': {'"zero"': "claims.49.theorems: 'zero' is not known: did you mean twist-zero?"},
+    'check = "model.homogeneous"\n': {
+        'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
+        "": "claims.4: expected one of check, formulas and verdict",
+        'quote = "x"\nverdict = "holds"\n': "Cannot overwrite a value",
+        'paraphrase = "x"\n': "claims.4: expected either quote or paraphrase",
+    },
+    'verdict = "holds"': {'verdict = "hold"': "claims.72.verdict: 'hold' is not allowed: expected"},
+    'data = ["derivations"]': {'data = ["atlas/line"]': "claims.1: expected data = ["},
+    '"undecided" =': {'"unsettled" =': "verdicts: 'unsettled' is not allowed: expected one of "},
+}
+
+
+@pytest.mark.parametrize(("text", "other"), [(a, b) for a in MISTAKES for b in MISTAKES[a]])
+def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other):
+    assert text in claims.TEXT
+    with pytest.raises(ConfigError) as error:
+        ledger.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
+    assert error.value.lines[0].startswith(f"claims.toml: {MISTAKES[text][other]}")
+
+
+def test_a_check_that_no_claim_names_is_one_line():
+    with pytest.raises(ConfigError, match=r"^claims.toml: no claim has the check model.more$"):
+        ledger.load(claims.TEXT, claims.CHECKS | {"model.more": print})
+
+
+def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
+    monkeypatch.setattr(claims, "needed", lambda: ["fig22/orbits"])
+    with pytest.raises(UsageError, match=r"^config.yaml: no scene makes fig22/orbits"):
+        cli_ledger.paths({"variants": {}, "sweeps": {}})
+
+
+@pytest.mark.parametrize(
+    ("value", "wrong"),
+    [("{shel}", "no number 'shel'"), ("{shell", "expected '}'"), ("{shell:y}", "Unknown format")],
+)
+def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
+    claim = claims.CLAIMS[3].model_copy(update={"value": value})
+    with pytest.raises(ConfigError, match=f"^claims.toml: claims.3: {wrong}"):
+        claim.judge(datasets, {})
 
 
 @pytest.mark.parametrize("word", ["true", "not computed", "open", ""])

@@ -256,7 +256,7 @@ def test_every_chart_has_words():
         for scene in contract.scenes.values()
         if contract.folder.rpartition("/")[2] in ("study", "atlas")
     }
-    assert len(scenes) >= 8 and scenes <= set(page.CHARTS)
+    assert len(scenes) >= 8 and scenes <= set(numbers.CHARTS)
 
 
 def served(scenes):

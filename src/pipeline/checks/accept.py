@@ -12,18 +12,8 @@ from .sums import SUMS, ContractError, left_over, read_sums
 def accept(root, checked):
     """Renew the contract of the paper, and those of other results that are here.
 
-    Charts that are measured are published too, without a contract.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    checked : dict
-        The checked config.
-
-    Returns
-    -------
-    int
-        1 where the results are not all there and current.
+    Charts that are measured are published too, without a contract. 1 is returned where the
+    results of the paper are not all there and current.
     """
     for contract in contracts.committed(checked):
         if contract.on_request and not any((root / p).exists() for p in contract.expected):

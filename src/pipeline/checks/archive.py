@@ -13,16 +13,9 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
 from ..config.places import LEDGER, PAPER, PUBLISHED
+from ..records import files
 from ..records.artifacts import ArtifactError, load
-from ..records.files import (
-    FileError,
-    file_hash,
-    obstacle,
-    open_regular,
-    read_bytes,
-    replacing,
-    write_whole,
-)
+from ..records.files import FileError, file_hash, obstacle, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import contracts, manifest
@@ -34,29 +27,7 @@ TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
 _MOST = 10_000  # files in an archive; a complete one has some hundreds
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
-README = """\
-Figures of E. Kanso and P. Papadopoulos, "Dynamics of pseudo-rigid ball impact on rigid foundation",
-computed again by pseudorigid, and what they were made from.
-
-  paper_figures/, more_figures/  the figures; beside them SHA256SUMS and MANIFEST.json, with hashes
-                                 of config, sources, packages, data, drawing and file
-  results/*/*.nc                 data, netCDF-4; each variable says what it is
-  results/*/provenance/          what made each file: config, hashes of sources and inputs, packages
-  config.yaml                    every parameter of every figure
-  CLAIMS.md                      every statement of the paper, with a verdict
-  {certificates}
-                                 certificates of the theorems that are proved
-
-To check that nothing was damaged, here:
-
-    sha256sum -c SHA256SUMS
-
-To check that it can be made again, in a clone of pseudorigid, after ./reproduce:
-
-    ./reproduce verify --against THIS_FILE.tar     # or this folder
-
-Data in here: {sets}.
-"""
+README = Path(__file__).with_suffix(".txt")  # of the archive
 
 
 class ArchiveError(ValueError):
@@ -79,9 +50,9 @@ def write(root, checked, path):
     for contract in contracts.committed(checked):
         if problem := _problem(root, contract):
             raise ArchiveError(problem)
-    files = contents(root, checked)
-    with replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
-        for name, data in files.items():
+    found = contents(root, checked)
+    with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
+        for name, data in found.items():
             entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
             tar.addfile(entry, io.BytesIO(data))
     return file_hash(path)
@@ -107,7 +78,9 @@ def contents(root, checked):
     for path in places:
         if (root / path).is_file():
             found[path] = read_bytes(root / path)
-    about = README.format(certificates=CERTIFICATES, sets=", ".join(sets))
+    about = README.read_text(encoding="utf-8").format(
+        certificates=CERTIFICATES, sets=", ".join(sets)
+    )
     found[ABOUT] = about.encode()
     lines = [f"{hashlib.sha256(found[path]).hexdigest()}  {path}\n" for path in sorted(found)]
     return dict(sorted(found.items())) | {SUMS: "".join(lines).encode()}
@@ -142,16 +115,15 @@ def _problem(root, contract):
         path = f"{contract.folder}/{name}"
         if words := obstacle(root / path):
             return f"{path}: {words}"
-        drawn = file_hash(root / contract.drawn.get(name, path))
-        if file_hash(root / path) is None or drawn not in (None, file_hash(root / path)):
+        here, drawn = file_hash(root / path), file_hash(root / contract.drawn.get(name, path))
+        if here is None or drawn not in (None, here):
             return f"{path} is not the one that was drawn: run {contract.command}"
-        if file_hash(root / path) != sums.get(name):
+        if here != sums.get(name):
             return f"{path} is not as in {contract.folder}/{SUMS}: run ./reproduce accept"
+    listed = f"{contract.folder}/{manifest.MANIFEST}"
     for path in contract.texts:
         if file_hash(root / path) != committed["texts"].get(path):
-            return (
-                f"{path} is not as in {contract.folder}/{manifest.MANIFEST}: run {contract.command}"
-            )
+            return f"{path} is not as in {listed}: run {contract.command}"
     return None
 
 
@@ -168,7 +140,7 @@ def read(path):
     if os.path.exists(path) and not os.path.isfile(path):
         raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
-        with open_regular(path) as file:
+        with files.open_regular(path) as file:
             for name, data in _members(file):
                 if name in found or len(found) == _MOST:
                     many = f"more than {_MOST:,} files" if len(found) == _MOST else "twice"
@@ -260,15 +232,7 @@ def read_folder(folder, checked):
 
 
 def verify(root, checked, place):
-    """Compare this tree with an archive, or with the folder of another tree, file by file.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    checked : dict
-        The checked config.
-    place : pathlib.Path
-        An archive, another tree, or an archive that was unpacked.
+    """Compare this tree file by file with an archive, also unpacked, or with another tree.
 
     Returns
     -------
@@ -291,12 +255,8 @@ def verify(root, checked, place):
     with tempfile.TemporaryDirectory() as folder:
         how = _differences(root, checked, ours, theirs, Path(folder))
         for name in sorted({*ours, *theirs}):
-            if name not in theirs:
-                word = absent
-            elif name not in ours:
-                word = "missing here"
-            else:
-                word = "identical" if ours[name] == theirs[name] else "differs"
+            word = "identical" if ours.get(name) == theirs.get(name) else "differs"
+            word = absent if name not in theirs else "missing here" if name not in ours else word
             counts[word] += 1
             print(f"{name:{width}}  {word}")
             for layer, words in how(name).items() if word == "differs" else ():
@@ -312,7 +272,7 @@ def _differences(root, checked, ours, theirs, folder):
     """
     for name in ours.keys() & theirs.keys():
         if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
-            write_whole(folder / name, theirs[name])
+            files.write_whole(folder / name, theirs[name])
     known = {}
     for contract in contracts.committed(checked):
         with suppress(ContractError):

@@ -82,7 +82,6 @@ def study(checked):
     """The study's charts of what is computed, not measured, by our own arithmetic."""
     made = expected.of_study(checked["variants"])
     charts = {name: data for name, (data, *_) in parts.CHARTS.items() if data in parts.FIXED}
-    drawings = {name: parts.drawing(name) for name in charts}
     fixed = {parts.data(data) for data in parts.FIXED} | {parts.drawn(name) for name in charts}
     return Contract(
         what="charts",
@@ -92,7 +91,8 @@ def study(checked):
         drawn={f"{name}.png": parts.drawn(name) for name in charts},
         scenes={f"{name}.png": name for name in charts},
         config={
-            name: drawings[name] | made[parts.data(data)].config for name, data in charts.items()
+            name: parts.drawing(name) | made[parts.data(data)].config
+            for name, data in charts.items()
         },
         data={name: {data: parts.data(data)} for name, data in charts.items()},
         expected={path: made[path] for path in made if path in fixed},

@@ -1,6 +1,7 @@
 """docs/data.md, from a small run of each: `.venv/bin/python -m pipeline.checks.datasets`."""
 
 import tempfile
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
@@ -15,142 +16,8 @@ from ..records.files import write_whole
 from ..records.sources import ROOT
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
-_SEA = {"between": (0.55, 0.68), "orbits": 4}
-_SIX = {"period": 6, "type": "hyperbolic"}
-# Stage -> fields of a scene, as small as they can be.
-SMALL = {
-    "orbits": {"starts": [0.1, {"x": 0.1, "xdot": 0.05}], "impacts": [3, 2]},
-    "periodic": {"period": 6},
-    "motion": {"period": 1, "type": "elliptic", "duration": 1.0},
-    "manifolds": _SIX
-    | {"point": 0, "window": {"x": [-0.01, 0.01], "xdot": [-0.01, 0.01]}, "length": 0.05}
-    | {"resolution": {"distance": 0.5, "bend": 30}},
-    "spread": {"orbits": 4, "length": 2000, "blocks": 4, "regular": [0.1], "regular_impacts": 4}
-    | {"cells": 4, "visits": 4},
-    "clusters": _SEA | {"impacts": 200, "cuts": [4, 6], "lags": 2, "resamples": 10, "seed": 1},
-    "rotation": {
-        "energies": [0.001],
-        "starts": 10,
-        "impacts": 200,
-        "detail": (-0.8357, -0.8342),
-        "detail_impacts": 200,
-    },
-    "jumps": {"energies": [0.0018], "sides": 40},
-    "flux": _SEA | {"period": 6, "distance": 2e-2, "grid": 20, "impacts": 100},
-    "last_curve": {
-        "nobles": [[0, 5, 1, 15]],
-        "convergents": 2,
-        "between": (-0.2, -0.0325639),
-        "impacts": 100,
-        "drawn": 10,
-    },
-    "horseshoe": _SIX | {"connection": "outer"},
-    "twist": {"energies": [0.01]},
-    "lyapunov": {"starts": [0.6], "impacts": 10, "records": 2},
-}
-_AXIS = {"limits": [-0.5, 0.5], "ticks": [0]}
-_MOTION = SMALL["motion"] | {
-    "picture": "motion",
-    "ball": {"k": 0.2, "g": 0.04},
-    "energy": ENERGY,
-    "axes": {"t": {"limits": [0, 1], "ticks": [0, 1]}, "displacement": _AXIS},
-}
-# Attribute -> what it means, and its scale.
-ATTRIBUTES = {
-    "Conventions": ("the conventions of this file, CF", ""),
-    "title": ("what the dataset is", ""),
-    "source": ("what made it", ""),
-    "references": ("the paper", ""),
-    "config": ("the block of config.yaml behind the data, as JSON", ""),
-    "stage": ("the stage that made it, or study, or derivations", ""),
-    "k": ("Euler inertia", "m R^2"),
-    "g": ("gravity", "omega^2 R"),
-    "energy": ("total energy", "m omega^2 R^2"),
-    "period": ("impacts of the periodic orbits", "1"),
-    "resolution": ("cells of each symmetry line in the search", "1"),
-    "unsolved": ("orbits seen that do not close to rounding", "1"),
-    "window_x": ("the window's edges in x", "R"),
-    "window_xdot": ("the window's edges in xdot", "omega R"),
-    "point_x": ("x of the point in the window", "R"),
-    "point_xdot": ("xdot of that point", "omega R"),
-    "start_error": (
-        "by how much the image of a branch's first segment misses it",
-        "section radius",
-    ),
-    "ended": ("where a branch is no longer known to rounding; absent if all are", "section radius"),
-    "impacts": ("impacts computed, of each orbit or, with a scan, of all", "1"),
-    "impacts_missed": ("with a scan, impacts that it flew past", "1"),
-    "detail_impacts": ("impacts of each orbit of the detail", "1"),
-    "block_impacts": ("impacts of a block", "1"),
-    "first_energy": ("energy from which on the map jumps", "m omega^2 R^2"),
-    "section": ("area of the section in (x, y)", "omega R^2"),
-    "multiplier": ("multiplier of the hyperbolic orbit", "1"),
-    "states": ("states of each set", "1"),
-    "hard": ("impacts that a scan of step 0.5 misses", "1"),
-    "apart": ("distance in x from which on orbits are apart", "R"),
-    "orbits": ("orbits of each cell", "1"),
-    "impacts_of_the_truth": ("impacts of the orbits that say what is true", "1"),
-}
-# What the small runs do not have: they follow no scan, and no branch to where it is lost.
-_SCAN = ("impacts", "impacts_missed")
-OPTIONAL = {
-    **dict.fromkeys(("orbits", "motion", "lyapunov"), _SCAN),
-    "manifolds": ("ended", *_SCAN),
-}
-HEAD = """\
-# The datasets
-
-Made from a small run of each by `.venv/bin/python -m pipeline.checks.datasets`. Every result is an
-uncompressed netCDF-4 file that any netCDF library reads, with attributes as CF has them.
-
-A number in a file is dimensionless, so `units` is "1" everywhere; times its attribute `scale` it is
-the quantity. R is the ball's radius, omega the frequency of its stretching (times are in 1/omega),
-m its mass; "section radius" is that of the section along y = xdot - k udot = 0; "1" is a pure
-number. What a variable means is its `long_name`. NaN is stored as it is; there is no fill value.
-
-Rows of different length are contiguous ragged arrays: the samples of one row after the other along
-one dimension, and `row_size`, whose attribute `sample_dimension` names that dimension, counts them.
-
-A file has the variables that apply to it: `start_x` and `start_xdot`, say, only where a start of
-its scene is a point.
-
-## Read a file
-
-With xarray, from the project's folder after `./reproduce`:
-
-    import xarray as xr
-
-    orbits = xr.open_dataset("results/paper/orbits_fig2.nc")
-    orbits.info()                                    # the header, as ncdump -h prints it
-    print(orbits["tau"].attrs["long_name"], orbits["tau"].attrs["scale"])
-    counts = orbits["row_size"].values
-    ends = counts.cumsum()
-    second = orbits.isel(point=slice(ends[0], ends[1]), orbit=1)
-
-With pandas, a row an impact:
-
-    import numpy as np
-
-    table = orbits[["x", "xdot", "udot", "tau"]].to_dataframe()
-    table["orbit"] = np.repeat(np.arange(counts.size), counts)
-    print(table.groupby("orbit")["tau"].mean())
-
-The orbits go on from where the file ends:
-
-    from pseudorigid import Ball, orbit
-
-    more = orbit(Ball(orbits.attrs["k"], orbits.attrs["g"]), orbits, impacts=100)
-
-On the command line, with Debian's package netcdf-bin, which is not needed for anything else:
-
-    ncdump -h results/paper/orbits_fig2.nc           # the header
-    ncdump -v row_size results/paper/orbits_fig2.nc  # and one variable
-
-## Files
-
-VARIANT is `paper`, a variant, `claims` (`./reproduce claims`) or `proofs` (`./reproduce prove
---pictures`); SCENE is the first scene of config.yaml that needs the data, and others share them."""
-STUDY = "Measured with the libraries of the study; the machine and versions are attributes too."
+TEXT = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+SMALL = TEXT["small"]  # stage -> fields of a scene
 
 
 def page() -> str:
@@ -158,16 +25,16 @@ def page() -> str:
     found = stages() | others() | study()
     uses = {}
     for name, (_, data) in found.items():
-        for attribute in [*data.attrs, *OPTIONAL.get(name, ())]:
+        for attribute in [*data.attrs, *TEXT["optional"].get(name, ())]:
             uses.setdefault(attribute, []).append(name)
     lines = ["| attribute | of | meaning | scale |", "|---|---|---|---|"]
-    for name, (meaning, scale) in ATTRIBUTES.items():
+    for name, (meaning, scale) in TEXT["attributes"].items():
         of = uses.pop(name)
         of = "all" if len(of) == len(found) else ", ".join(f"`{one}`" for one in dict.fromkeys(of))
         lines.append(f"| `{name}` | {of} | {meaning} | {scale} |")
     if uses:
         raise KeyError(f"attributes without a meaning: {uses}")
-    parts = [HEAD, *(section(name, *one) for name, one in found.items())]
+    parts = [TEXT["head"], *(section(name, *one) for name, one in found.items())]
     return "\n\n".join([*parts, "## Attributes of files", "\n".join(lines)]) + "\n"
 
 
@@ -178,7 +45,7 @@ def section(name, file, data) -> str:
     if counted is not None:
         sample = counted.attrs["sample_dimension"]
         lines[-1] += f" Ragged: `row_size` on `{counted.dims[0]}` counts `{sample}`."
-    lines[-1] += f" {STUDY}" if name.removeprefix("study: ") in MEASURED else ""
+    lines[-1] += f" {TEXT['study']}" if name.removeprefix("study: ") in MEASURED else ""
     lines += ["", "| variable | dimensions | type | meaning | scale |", "|---|---|---|---|---|"]
     for variable, values in data.variables.items():
         dims = ", ".join(f"`{dim}`" for dim in values.dims)
@@ -219,7 +86,7 @@ def study():
     from pseudorigid.study import failures, figure_errors, verdicts, work
 
     few = failures.EDGE_METHODS[:1]
-    needs = {"fig3": _MOTION}, {"fig3": "motion"}
+    needs = TEXT["needs"], {"fig3": "motion"}
     periodic = {("periodic", "fig3"): _stage("periodic", {"period": 1})}
     makers = {
         "work": lambda: work.counted(2),

@@ -28,8 +28,6 @@ from .sums import ContractError
 
 # A difference in one of these alone leaves the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
-
-
 UNEXPLAINED = (
     "differs from the committed one, although its config, sources and packages do not: delete it"
 )
@@ -40,13 +38,7 @@ def not_as_made(root, contract, comparison=None):
 
     A result's record decides. Where the manifest lists the result, and all that makes it is as
     committed, it must be the committed one too, whatever its record says.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    contract : contracts.Contract
-    comparison : Comparison, optional
-        With the committed manifest, which is read without it.
+    The manifest is read where no `comparison` with it is given.
 
     Returns
     -------
@@ -89,20 +81,15 @@ class Comparison:
             return None
         sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
         here = {path: meaning(self.root / path) for path in self.contract.sources(scene)}
-        was, now = "in the manifest", "in config.yaml"
-        before = self.committed["environment"]
+        blocks, was = (entry["config"], self.contract.config[scene]), "in the manifest"
+        data = (self._dataset(*each, entry) for each in self.contract.data[scene].items())
         layers = {
-            "config": differing_block(entry["config"], self.contract.config[scene], was, now),
+            "config": differing_block(*blocks, was, "in config.yaml"),
             "source": differing_files(sources, here),
-            "environment": differing_package(before, self.versions, was),
-            "data": self._data(scene, entry),
+            "environment": differing_package(self.committed["environment"], self.versions, was),
+            "data": next(filter(None, data), None),
         } | self._drawing_or_file(name, entry["figures"][name])
         return {layer: words for layer, words in layers.items() if words}
-
-    def _data(self, scene, entry):
-        stages = self.contract.data[scene].items()
-        words = (self._dataset(stage, path, entry) for stage, path in stages)
-        return next(filter(None, words), None)
 
     def _dataset(self, stage, path, entry):
         """How the dataset of a stage differs from the committed one, or None."""
@@ -200,11 +187,8 @@ class Comparison:
         for name, drawing in self.contract.drawn.items():
             scene = self.contract.scenes[name]
             entry = self.committed["scenes"].get(scene, {"data": {}, "figures": {}})
-            different = [
-                path
-                for stage, path in self.contract.data[scene].items()
-                if self._dataset(stage, path, entry)
-            ]
+            stages = self.contract.data[scene].items()
+            different = [path for stage, path in stages if self._dataset(stage, path, entry)]
             figure = entry["figures"].get(name)
             if figure and self.file_hash(drawing) not in (None, figure["sha256"]):
                 different.append(drawing)

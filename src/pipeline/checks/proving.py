@@ -21,11 +21,6 @@ def impacts(checked) -> int:
     Of portraits, and of the orbits that motions repeat, every impact; of the figures whose data
     have millions of them as many as config.yaml says.
 
-    Parameters
-    ----------
-    checked : dict
-        The checked config.
-
     Returns
     -------
     int

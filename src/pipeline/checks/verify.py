@@ -15,21 +15,9 @@ NEW = "new: ./reproduce accept adds it to the contract"
 
 
 def verify(root, checked, strict=False):
-    """Print what differs between a tree and its contracts.
+    """Print what differs between a tree and its contracts; 0 where nothing is red.
 
-    Parameters
-    ----------
-    root : pathlib.Path
-        Of the tree.
-    checked : dict
-        The checked config.
-    strict : bool
-        Notes are red too.
-
-    Returns
-    -------
-    int
-        0 where nothing is red.
+    Notes are red too where `strict` is true.
     """
     status = 0
     for contract in contracts.committed(checked):
@@ -108,11 +96,9 @@ def _sums(root, contract, committed):
     if committed is None:
         return []
     path, listed = f"{contract.folder}/{SUMS}", manifest.figures(committed)
-    found = [f"{path}: no line for {name}" for name in sorted(set(listed) - set(sums))]
-    found += [
-        f"{path}: a line for {name}, which the manifest has not"
-        for name in sorted(set(sums) - set(listed))
-    ]
+    lost, more = sorted(set(listed) - set(sums)), sorted(set(sums) - set(listed))
+    found = [f"{path}: no line for {name}" for name in lost]
+    found += [f"{path}: a line for {name}, which the manifest has not" for name in more]
     return found + [
         f"{path}: not the hash of {name} that MANIFEST.json has"
         for name, entry in listed.items()

@@ -1,8 +1,20 @@
-"""Every checkable statement of the paper, with a check in code that gives a verdict on it."""
+"""Every checkable statement of the paper (claims.toml), with a check that gives a verdict on it."""
 
-from . import chaos, closure, impacts, ledger, model, periodic  # noqa: F401  (each adds its own)
+from inspect import getmembers, isfunction
+from pathlib import Path
 
-CLAIMS = dict(sorted(ledger.CLAIMS.items()))
+from . import chaos, closure, impacts, ledger, model, periodic
+
+# MODULE.FUNCTION -> the public functions of the modules with checks.
+CHECKS = {
+    f"{module.__name__.rpartition('.')[2]}.{name}": function
+    for module in (model, impacts, periodic, chaos, closure)
+    for name, function in getmembers(module, isfunction)
+    if function.__module__ == module.__name__ and not name.startswith("_")
+}
+TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
+DOCUMENT, CLAIMS = ledger.load(TEXT, CHECKS)
+VERDICTS = DOCUMENT.verdicts
 
 
 def needed():

@@ -1,39 +1,30 @@
-"""What a claim of the paper is, what a verdict on it is, and the list that the claims go into."""
+"""What claims.toml may say, what a claim and a verdict on it are, and what the checks share."""
 
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import resources
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
+
+from pseudorigid.proofs.derivations import FORMULAS
+
+from ...config import ConfigError
+from ...config.checking.mistakes import mistakes
+from ...config.checking.words import meant, refusal
+from ...config.declared.fields import Block, listed, one_of
+from ...config.declared.stages import STAGES
 
 HOLDS, CORRECTED, FALSE = "holds", "holds with a correction", "does not hold"
 PROVED, UNDECIDED = "proved", "undecided"
-# The verdicts, and what each of them needs.
-VERDICTS = {
-    FALSE: "A case at the paper's own numbers, computed or proved, contradicts the statement as it "
-    "stands.",
-    CORRECTED: "As it stands the statement is wrong in a part, or says more than was shown. What "
-    "of it is true stands under *our value*, on the same evidence as *proved* or *holds* need.",
-    UNDECIDED: "Nothing here settles it, and the row says why: part of it was not or cannot be "
-    "computed, or a theorem's proof was not accepted.",
-    PROVED: "It follows from theorems whose hypotheses were checked in ball arithmetic "
-    "(`./reproduce prove`), or from identities that computer algebra verifies for all values of "
-    "their symbols (`tests/proofs/test_derivations.py`). Of a question that the paper leaves open: "
-    "what it misses is proved here. Numbers beside it are computed unless the row says otherwise.",
-    HOLDS: "Our numbers agree with it within the error given, or an argument by hand that the row "
-    "gives; no proof. Where the statement is a "
-    "judgement (*appreciable*, *similar*), so is the verdict, and the numbers behind it are given.",
-}
-DERIVED = "tests/proofs/test_derivations.py"  # the evidence for what computer algebra settles
-CLAIMS = {}  # number -> Claim
-KINDS = {
-    "E": "equation",
-    "N": "number",
-    "F": "figure",
-    "T": "theorem-like",
-    "Q": "qualitative",
-    "P": "physical",
-    "O": "left open by the paper",
-}
+WORDS = (FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS)
+_CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
+THEOREMS = sorted(file.name.removesuffix(".toml") for file in _CERTIFICATES.iterdir())
+
+Text = Annotated[str, Field(min_length=1, description="a text")]
+Texts = listed(Text, "a list of texts")
 
 
 @dataclass(frozen=True)
@@ -43,7 +34,7 @@ class Verdict:
     Parameters
     ----------
     verdict : str
-        One of VERDICTS.
+        One of WORDS.
     value : str
         Our number, rounded so that it does not depend on the machine; of what is undecided, why.
     error : str
@@ -58,44 +49,39 @@ class Verdict:
     evidence: str
 
     def __post_init__(self):
-        if self.verdict not in VERDICTS:
-            raise ValueError(f"verdict {self.verdict!r} is not allowed: {', '.join(VERDICTS)}")
+        if self.verdict not in WORDS:
+            raise ValueError(f"verdict {self.verdict!r} is not allowed: {', '.join(WORDS)}")
         if not self.value:
             raise ValueError(f"a verdict without a value is not allowed: {self}")
 
 
-@dataclass(frozen=True)
-class Claim:
-    """A statement of the paper and its check.
+class Row(Block):
+    """a mapping with the keys of a claim"""
 
-    Parameters
-    ----------
-    number : int
-    place : str
-        Where it is in the paper.
-    words : str
-        The paper's own, or a paraphrase.
-    quoted : bool
-        Whether they are the paper's own.
-    kind : str
-        Letters of KINDS.
-    data : tuple of str
-        Names of the datasets that the check needs.
-    theorems : tuple of str
-        Names of theorems whose proofs it asks for.
-    check : callable
-        From the datasets, in that order, to a Verdict; where theorems are named its last argument
-        is `proved`, a function from names of some to whether all of these are proved.
+    place: Text
+    kind: Text
+    quote: Text = ""
+    paraphrase: Text = ""
+    data: Texts = ()
+    theorems: Texts = ()
+    check: Text = ""
+    formulas: Texts = ()
+    verdict: one_of(*WORDS) = ""
+    value: Text = ""
+    error: Text = ""
+    evidence: Text = ""
+
+
+class Claim(Row):
+    """A row, its number, and its check.
+
+    The check is a function of the datasets and, where theorems are named, of a mapping from their
+    names to whether they are proved. It returns a verdict and the numbers in `value` and `error`;
+    or, where the sentences depend on what was found, a verdict, a value and an error.
     """
 
     number: int
-    place: str
-    words: str
-    quoted: bool
-    kind: str
-    data: tuple
-    theorems: tuple
-    check: Callable
+    function: Callable
 
     def judge(self, datasets, proofs):
         """The Verdict on it.
@@ -108,68 +94,144 @@ class Claim:
         Raises
         ------
         ValueError
-            A dataset that it needs is not there.
+            A dataset is missing.
+        ConfigError
+            `value` or `error` asks for a number that the check does not give.
         """
         missing = [name for name in self.data if name not in datasets]
         if missing:
             raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
-
-        def proved(*names):
-            for name in names:
-                if name not in self.theorems:
-                    raise KeyError(f"claim {self.number} does not name the theorem {name}")
-            return all(proofs.get(name) == PROVED for name in names)
-
         given = [datasets[name] for name in self.data]
-        return self.check(*given, proved) if self.theorems else self.check(*given)
+        if self.theorems:
+            proved = {name: proofs.get(name) == PROVED for name in self.theorems}
+            given.append(_Proved(proved, number=self.number))
+        word, *said = self.function(*given)
+        if len(said) == 1:
+            try:
+                said = [text.format_map(said[0]) for text in (self.value, self.error)]
+            except (LookupError, ValueError) as error:
+                wrong = f"no number {error}" if isinstance(error, KeyError) else str(error)
+                raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
+        return Verdict(word, *said, self.evidence)
 
 
-def claim(number, place, kind, *data, theorems=()):
-    """A decorator that adds a claim, with the function below it as its check, to CLAIMS.
+class _Proved(dict):
+    """Theorem that a claim names -> whether it is proved."""
 
-    The function's docstring is the statement: the paper's own words in quotation marks, “ and ”,
-    or else a paraphrase. The arguments are those of Claim.
+    def __init__(self, proved, number):
+        super().__init__(proved)
+        self.number = number
+
+    def __missing__(self, name):
+        raise KeyError(f"claim {self.number} does not name the theorem {name}")
+
+
+class Document(Block):
+    """a mapping with the keys head, verdicts, kinds and claims"""
+
+    head: Text
+    verdicts: Annotated[dict[one_of(*WORDS), Text], Field(description="a mapping from verdicts")]
+    kinds: Annotated[dict[str, Text], Field(description="a mapping from letters")]
+    claims: Annotated[
+        dict[Annotated[str, Field(pattern=r"^[1-9]\d*$", description="a number")], Row],
+        Field(description="a mapping from numbers to claims"),
+    ]
+
+
+def load(text, checks):
+    """The contents of claims.toml.
+
+    Parameters
+    ----------
+    text : str
+    checks : mapping from name to function
+
+    Returns
+    -------
+    (Document, dict from number to Claim)
+
+    Raises
+    ------
+    ConfigError
+        With a line for each mistake.
     """
-    if not kind or set(kind) - set(KINDS):
-        raise ValueError(f"claim {number}: kind {kind!r} is not allowed: of {''.join(KINDS)}")
+    try:
+        given = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError(f"claims.toml: {error}") from None
+    lines = mistakes(Document, given, ())
+    if not lines:
+        document = Document(**given)
+        lines += [f"verdicts: missing: {word}" for word in WORDS if word not in document.verdicts]
+        for number, row in document.claims.items():
+            lines += _mistakes_of(row, f"claims.{number}", "".join(document.kinds), checks)
+        unused = checks.keys() - {row.check for row in document.claims.values()}
+        lines += [f"no claim has the check {name}" for name in sorted(unused)]
+    if lines:
+        raise ConfigError(*(f"claims.toml: {line}" for line in lines))
+    claims = {}
+    for number, row in sorted((int(number), row) for number, row in document.claims.items()):
+        function = checks.get(row.check) or _without_a_function(row)
+        claims[number] = Claim(
+            number=number, function=function, **row.model_dump(exclude_unset=True)
+        )
+    return document, claims
 
-    def add(check):
-        said = " ".join((check.__doc__ or "").split())
-        quoted = said.startswith("“") and said.endswith("”")
-        words = said[1:-1] if quoted else said
-        if not words or number in CLAIMS:
-            raise ValueError(f"claim {number} has no words, or is there twice")
-        CLAIMS[number] = Claim(number, place, words, quoted, kind, data, tuple(theorems), check)
-        return check
 
-    return add
+def _mistakes_of(row, place, kinds, checks):
+    """Yield a line for each mistake in a claim whose fields have the right types."""
+    if set(row.kind) - set(kinds):
+        yield refusal((place, "kind"), row.kind, f"letters of {kinds}")
+    if bool(row.quote) == bool(row.paraphrase):
+        yield f"{place}: expected either quote or paraphrase"
+    if sum(map(bool, (row.check, row.formulas, row.verdict))) != 1:
+        yield f"{place}: expected one of check, formulas and verdict"
+    if row.formulas and row.data != ["derivations"]:
+        yield f'{place}: expected data = ["derivations"], which formulas are of'
+    stages = [name.rpartition("/")[2] for name in row.data if not name.startswith("atlas/")]
+    named = {
+        "data": (stages, (*STAGES, "derivations")),
+        "theorems": (row.theorems, THEOREMS),
+        "formulas": (row.formulas, [name for names in FORMULAS.values() for name in names]),
+        "check": ([row.check] * bool(row.check), checks),
+    }
+    for key, (names, known) in named.items():
+        for name in names:
+            if name not in known:
+                (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
+                yield f"{place}.{key}: {name!r} is not known: {hint}"
 
 
-def decided(holds, value, error, evidence, proved=False):
-    """The Verdict on a statement that holds or does not, and if it holds may be proved."""
-    word = FALSE if not holds else PROVED if proved else HOLDS
-    return Verdict(word, value, error, evidence)
+def _without_a_function(row):
+    """The check of a claim that has formulas, or a verdict of its own."""
+    if row.formulas:
+        return lambda algebra: derived(algebra, *row.formulas)
+    return lambda: (row.verdict, {})
 
 
-def formula(dataset, *names):
+def decided(holds, proved=False, **numbers):
+    """The verdict on a statement that holds or does not, and if it holds may be proved."""
+    return FALSE if not holds else PROVED if proved else HOLDS, numbers
+
+
+def formula(algebra, *names):
     """(printed, corrected) of formulas of the dataset of derivations, all of them together.
 
     `corrected` is whether each that does not hold as printed holds when it is corrected.
     """
-    found = dataset.sel(formula=list(names))
+    found = algebra.sel(formula=list(names))
     printed, corrected = found["printed"].values, found["corrected"].values
     holds = (printed == 1) | ((printed == -1) & (corrected == 1))
     return bool(np.all(holds)), bool(np.all((printed == 1) | (corrected == 1)))
 
 
-def derived(dataset, *names, value, remark="exact", proved=True):
-    """The Verdict on formulas that computer algebra settles; not `proved` where by some values."""
-    holds, mended = formula(dataset, *names)
-    if mended and not holds:
-        return Verdict(CORRECTED, value, remark, DERIVED)
-    return decided(holds, value, remark, DERIVED, proved)
+def derived(algebra, *names):
+    """The verdict on formulas that computer algebra settles, and the numbers of all formulas."""
+    holds, mended = formula(algebra, *names)
+    word = PROVED if holds else CORRECTED if mended else FALSE
+    return word, numbers_of(algebra)
 
 
-def number_of(dataset, name):
-    """The number that comes with a formula of the dataset of derivations."""
-    return float(dataset["value"].sel(formula=name))
+def numbers_of(algebra):
+    """The number that comes with each formula of the dataset of derivations."""
+    return dict(zip(algebra["formula"].values.tolist(), algebra["value"].values, strict=True))

@@ -1,16 +1,15 @@
-"""Claims about periodic orbits, islands and the branches of the tangle. Paper, section 4.1."""
+"""Checks of claims about periodic orbits, islands and branches of the tangle (section 4.1)."""
 
 import json
+import re
 
 import numpy as np
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.evidence.rotation import plateaus, regular
 
-from .ledger import CORRECTED, HOLDS, PROVED, UNDECIDED, Verdict, claim, decided
+from .ledger import CORRECTED, HOLDS, PROVED, UNDECIDED, decided
 
-HORSESHOES = ("horseshoe-inner", "horseshoe-outer")
-SIXES = ("six-elliptic", "six-hyperbolic", "six-inverse")
 TRANSVERSAL = 1e-8  # sines of crossing angles in doubles can be told from 0 above that
 STEPS = range(20, 44)  # of differences, as negative powers of two
 GONE = 0.1  # a residue that falls below that share of its largest goes to 0
@@ -18,39 +17,28 @@ BROKEN = 1.0  # a residue above that belongs to no curve
 LATER = 12  # impacts, twice the period, over which a branch's stretching is measured
 
 
-@claim(21, "4.1", "NT", "fig3/periodic", theorems=["fixed-point", "one-fixed-point"])
 def fixed_point(found, proved):
-    """“For this choice of parameters, the map possesses one elliptic fixed point that corresponds
-    to the periodic motion shown in Figure 3”"""
+    """Ask for exactly one symmetric fixed point, an elliptic one."""
     one = found["type"].values.tolist() == ["elliptic"]
-    value = f"x = {', '.join(f'{float(x):.12f}' for x in found['x'].values[:, 0])}"
-    known = proved("fixed-point", "one-fixed-point")
-    value += ", and no other" if known else ""
-    return decided(one, value, "1e-12", "paper_figures/fig3.png, ./reproduce prove", known)
+    known = all(proved.values())
+    x = ", ".join(f"{float(x):.12f}" for x in found["x"].values[:, 0])
+    return decided(one, known, x=x, unique=", and no other" if known else "")
 
 
-@claim(22, "4.1", "NQ", "fig4/periodic", theorems=SIXES)
 def period_six(orbits, proved):
-    """“Further, two sets of period-six points are found to exist outside this major island”"""
+    """Ask for an elliptic and a hyperbolic orbit of period six."""
     kinds = orbits["type"].values.tolist()
+    exist = "each proved to exist" if all(proved.values()) else "not proved to exist"
     both = "elliptic" in kinds and "hyperbolic" in kinds
-    exist = "each proved to exist" if proved(*SIXES) else "not proved to exist"
-    value = f"at least {len(kinds)}: {_named(orbits)}"
-    error = f"{exist}; that there is no other symmetric one, by search"
-    return decided(both, value, error, "more_figures/claims/jumps.png")
+    return decided(both, count=len(kinds), orbits=_named(orbits), exist=exist)
 
 
-@claim(69, "4.1", "Q", "fig4/periodic", theorems=["twist-six"])
 def in_between(orbits, proved):
-    """“The first set consists of elliptic points surrounded by the minor islands of dominantly
-    regular behavior, while the second set consists of hyperbolic points located in the chaotic
-    region between successive elliptic points”"""
+    """Ask whether elliptic and hyperbolic points alternate around their middle."""
     kinds = orbits["type"].values.tolist()
     alternate = "elliptic" in kinds and "hyperbolic" in kinds and _alternate(orbits)
-    value = f"the points of both orbits {'' if alternate else 'do not '}alternate around their "
-    value += "middle"
-    value += "; closed curves around the elliptic ones are proved" if proved("twist-six") else ""
-    return decided(alternate, value, "by their places", "paper_figures/fig2.png, fig5.png")
+    curves = "; closed curves around the elliptic ones are proved" if proved["twist-six"] else ""
+    return decided(alternate, do="" if alternate else "do not ", curves=curves)
 
 
 def _named(found):
@@ -73,39 +61,33 @@ def _alternate(found):
     return bool(np.all(owner != np.roll(owner, 1)))
 
 
-@claim(23, "4.1", "T", "rotation/rotation", theorems=["twist-fixed-point"])
 def dense(found, proved):
-    """“A dense set of quasi-periodic solutions is formed around the elliptic fixed point and is
-    contained inside the major island in Figure 2”"""
+    """Find the widest gap of the rotation number between the curves around the fixed point."""
     place, turns = found["detail_place"].values, found["detail_rotation"].values
     good = regular(found["detail_exponent"].values, found.attrs["detail_impacts"])
     gaps = plateaus(place[good], turns[good])
     if not gaps:
-        return Verdict(UNDECIDED, "no gap seen", "", "more_figures/claims/rotation.png")
+        return UNDECIDED, "no gap seen", ""
     p, q, first, last = max(gaps, key=lambda gap: gap[3] - gap[2])
-    exist = "curves of positive area proved" if proved("twist-fixed-point") else "curves seen"
-    value = f"{exist}, but dense they are not: a chain of islands, rotation number {p}/{q}, from "
-    value += f"{first:.6f} to {last:.6f} section radii on y = 0"
-    error = f"{abs(float(place[1] - place[0])):.0e} radii"
-    return Verdict(CORRECTED, value, error, "more_figures/claims/rotation.png")
+    known = proved["twist-fixed-point"]
+    exist = "curves of positive area proved" if known else "curves seen"
+    spacing = abs(float(place[1] - place[0]))
+    return CORRECTED, {
+        "exist": exist, "p": p, "q": q, "first": first, "last": last, "spacing": spacing,
+    }  # fmt: skip
 
 
-@claim(24, "Figures 3, 4", "F", "fig3/periodic", "fig4/periodic", "fig3/motion", "fig4/motion")
 def motions(*found):
-    """the elliptic motions of period one and six, over 16 and 60 units of time"""
+    """Compare types and durations of the motions in Figures 3 and 4 with the paper's."""
     orbits, lines = found[:2], found[2:]
     times = [float(line["t"].values[-1]) for line in lines]
-    periods = [float(orbit["total_time"].values[0]) for orbit in orbits]
+    one, six = (float(orbit["total_time"].values[0]) for orbit in orbits)
     elliptic = all(str(orbit["type"].values[0]) == "elliptic" for orbit in orbits)
-    value = f"periods {periods[0]:.12f} and {periods[1]:.11f}"
-    evidence = "paper_figures/fig3.png, fig4.png"
-    return decided(elliptic and times == [16.0, 60.0], value, "1e-11", evidence)
+    return decided(elliptic and times == [16.0, 60.0], one=one, six=six)
 
 
-@claim(25, "4.1", "Q", "fig4/periodic")
 def differences(found):
-    """“An approximation to this matrix is obtained by substituting all partial derivatives by
-    first-order differences”"""
+    """Compare traces by forward differences, at their best step, with those of the Jacobian."""
     ball = Ball(float(found.attrs["k"]), float(found.attrs["g"]))
     names, period = ("x", "xdot", "udot"), found.sizes["point"]
     worst = 0.0
@@ -115,9 +97,7 @@ def differences(found):
         exact = float(found["trace"].values[orbit])
         errors = [abs(trace - exact) / max(1.0, abs(exact)) for trace in traces]
         worst = max(worst, min(errors))
-    value = f"at the best step the traces of P^{period} are right to {worst:.0e}"
-    remark = "about half of the digits"
-    return decided(worst < 1e-3, value, remark, "tests/kernel/test_impact.py")
+    return decided(worst < 1e-3, period=period, worst=worst)
 
 
 def _trace(ball, point, step, period):
@@ -128,48 +108,33 @@ def _trace(ball, point, step, period):
     return sum(float(after[i][i + 1] - after[i][0]) for i in range(3)) / step - 1.0
 
 
-@claim(26, "4.1", "T", "flux/flux", theorems=HORSESHOES)
 def transversal(flux, proved):
-    """“The stable and unstable manifolds of the heteroclinic hyperbolic period-six points
-    intersect transversally, as illustrated in Figure 5”"""
+    """Ask for crossing angles that differ from zero."""
     sines = np.abs(flux["sine"].values)
+    known = "a transversal crossing of the inner branches and one of the outer ones, on y = 0; "
+    known = known if all(proved.values()) else ""
+    inner, outer = (" and ".join(f"{sine:.8g}" for sine in row) for row in sines)
     crossed = float(sines.min()) > TRANSVERSAL
-    known = proved(*HORSESHOES)
-    inner, outer = (" and ".join(f"{s:.8g}" for s in row) for row in sines)
-    value = "a transversal crossing of the inner branches and one of the outer ones, on y = 0; "
-    value = value if known else ""
-    value += f"sines of the angles in (x, y) at both primary crossings, computed: inner {inner}; "
-    value += f"outer {outer}"
-    error = "computed in 1200 bits, not enclosed"
-    return decided(crossed, value, error, "more_figures/claims/flux.png, ./reproduce prove", known)
+    return decided(crossed, all(proved.values()), known=known, inner=inner, outer=outer)
 
 
-@claim(27, "4.1", "Q", "flux/flux")
 def oscillations(found):
-    """“Indeed, the major island is contained by two intersecting stable and unstable branches whose
-    oscillations remain small until they reach the vicinity of the hyperbolic points”"""
-    inner, outer = (float(a) for a in found["area"].values)
-    digits = " and ".join(_short(str(text)) for text in found["digits"].values)
-    value = f"areas of the lobes of the inner and the outer branches: {digits}"
-    small = inner < 1e-3 * outer
-    error = "; ".join(f"{float(e):.0e}" for e in found["area_error"].values)
-    return decided(small, value, error, "more_figures/claims/flux.png")
+    """Compare the areas of the lobes of the inner and the outer branches."""
+    areas = [float(area) for area in found["area"].values]
+    inner, outer = (_short(str(text)) for text in found["digits"].values)
+    errors = zip(("inner_error", "outer_error"), found["area_error"].values, strict=True)
+    return decided(areas[0] < 1e-3 * areas[1], inner=inner, outer=outer, **dict(errors))
 
 
-@claim(60, "4.1", "Q", "fig5/manifolds")
 def stretching(manifolds):
-    """“The other two intersecting branches undergo enormous stretching and oscillatory bending, as
-    evident by the segments traced in Figure 5”"""
+    """Compare how much the outer and the inner unstable branches stretch and turn."""
     inner, outer = (
         float(np.median([_stretched(manifolds, row) for row in _unstable(manifolds, side)]))
         for side in ("inner", "outer")
     )
     turns = min(_half_turns(manifolds, row) for row in _unstable(manifolds, "outer"))
-    value = f"{LATER} impacts make the outer unstable branches of Figure 5 {outer:.0f} times as "
-    value += f"long, and the inner ones {inner:.1f} times; the outer ones turn by at least "
-    value += f"{turns:.1f} half turns as drawn"
     large = outer > 10.0 and outer > 3.0 * inner and turns > 1.0
-    return decided(large, value, "medians over the six saddles", "paper_figures/fig5.png")
+    return decided(large, impacts=LATER, inner=inner, outer=outer, turns=turns)
 
 
 def _unstable(manifolds, side):
@@ -206,95 +171,69 @@ def _half_turns(manifolds, row):
 
 
 def _short(digits):
-    """A number's text with twelve digits."""
-    mantissa, _, exponent = digits.partition("e")
-    kept, seen = "", 0
-    for char in mantissa:
-        seen += char.isdigit() and (seen > 0 or char != "0")
-        kept += char
-        if seen == 12:
-            break
-    return kept + (f"e{exponent}" if exponent else "")
+    """Cut a number's text after twelve digits, its exponent kept."""
+    return re.sub(r"^(-?[0.]*(?:\d\.?){12})\d*", r"\1", digits)
 
 
-@claim(28, "4.1", "T", "last_curve/last_curve")
 def last_curve(found):
-    """“Thus, they prevent the quasi-periodic trajectories from further expanding around the
-    elliptic fixed point of the map”"""
+    """Find the rotation numbers between which curves break up, by the residues of convergents."""
     size = np.abs(found["residue"].values)
     gone = size[:, -1] < GONE * size.max(axis=1)
     broken = (size[:, -1] == size.max(axis=1)) & (size[:, -1] > BROKEN)
-    numbers, evidence = found["rotation"].values, "more_figures/claims/last_curve.png"
     if not (gone.any() and broken.any()):
-        return Verdict(UNDECIDED, "no break-up between the rotation numbers", "", evidence)
+        return UNDECIDED, "no break-up between the rotation numbers", ""
+    numbers, period = found["rotation"].values, int(found["period"].values[:, -1].min())
     inside, outside = float(numbers[gone].min()), float(numbers[broken].max())
-    value = "by Greene's criterion, which is not proved for this map: a curve with rotation number "
-    value += f"{inside:.7f}, none with {outside:.7f}"
-    last = int(found["period"].values[:, -1].min())
-    return Verdict(HOLDS, value, f"residues of convergents up to period {last}", evidence)
+    return HOLDS, {"inside": inside, "outside": outside, "period": period}
 
 
-@claim(29, "Figures 5, 6", "FN", "fig6/manifolds", theorems=["six-hyperbolic"])
 def window(manifolds, proved):
-    """one hyperbolic point lies in the window 0.21 < x < 0.2116, 0.0925 < xdot < 0.0932"""
+    """Ask whether the hyperbolic point lies in the window of Figure 6."""
     x, xdot = (float(manifolds.attrs[f"point_{name}"]) for name in ("x", "xdot"))
     inside = 0.21 < x < 0.2116 and 0.0925 < xdot < 0.0932
-    value = f"x = {x:.12f}, xdot = {xdot:.12f}"
-    evidence = "paper_figures/fig6.png, ./reproduce prove"
-    return decided(inside, value, "1e-12", evidence, proved("six-hyperbolic"))
+    return decided(inside, proved["six-hyperbolic"], x=x, xdot=xdot)
 
 
-@claim(30, "4.1", "O", theorems=HORSESHOES)
 def horseshoe(proved):
-    """“However, a formal proof of the existence of such a set is currently unavailable”"""
-    sides = [side for side in ("inner", "outer") if proved(f"horseshoe-{side}")]
-    word = PROVED if len(sides) == 2 else UNDECIDED
+    """List the connections along which a horseshoe is proved."""
+    sides = [side for side in ("inner", "outer") if proved[f"horseshoe-{side}"]]
+    if not sides:
+        return UNDECIDED, "not proved", ""
     value = "one exists: the map is conjugate to a shift on a hyperbolic set along the "
-    value = value + " and the ".join(sides) + " connections" if sides else "not proved"
-    return Verdict(word, value, "ball arithmetic" if sides else "", "./reproduce prove")
+    value += " and the ".join(sides) + " connections"
+    return PROVED if len(sides) == 2 else UNDECIDED, value, "ball arithmetic"
 
 
-@claim(63, "4.1", "T", "jumps/jumps", theorems=HORSESHOES)
 def smale_birkhoff(jumps, proved):
-    """“These intersections indicate the existence of a hyperbolic invariant set of points on which
-    the impact map (28) is topologically equivalent to a horseshoe map as guaranteed by the
-    Smale-Birkhoff theorem”"""
+    """Ask for proved horseshoes, and for jumps that the Smale-Birkhoff theorem does not allow."""
     energy, length = (float(jumps[name].values[0]) for name in ("energy", "length"))
-    if not proved(*HORSESHOES):
-        value, word = "neither are its hypotheses checked nor is a horseshoe proved", UNDECIDED
-    elif length > 0.0:
+    if not all(proved.values()):
+        return UNDECIDED, "neither are its hypotheses checked nor is a horseshoe proved", ""
+    if length > 0.0:
         value = "the set exists, proved (row 30); but not by that theorem as it stands: it is "
         value += f"about diffeomorphisms, and at E = {energy:g} the map jumps (row 14)"
-        word = CORRECTED
-    else:
-        value, word = "the set exists, proved (row 30)", PROVED
-    return Verdict(word, value, "", "./reproduce prove")
+        return CORRECTED, value, ""
+    return PROVED, "the set exists, proved (row 30)", ""
 
 
-@claim(31, "4.1", "Q", "flux/flux")
 def heteroclinic(found):
-    """“heteroclinic hyperbolic period-six points”"""
-    pairs = list(zip(found["saddle"].values, found["target"].values, strict=True))
-    apart = all(one != other for one, other in pairs)
-    value = (
-        "branches join neighbours: inner {} to {}, outer {} to {}; all six are points of one orbit"
-    )
-    value = value.format(*(int(place) for pair in pairs for place in pair))
-    return decided(apart, value, "primary orbits, enclosed", "more_figures/claims/flux.png")
+    """Ask whether branches lead from one saddle to another."""
+    pairs = zip(found["saddle"].values.tolist(), found["target"].values.tolist(), strict=True)
+    inner, outer = pairs
+    return decided(inner[0] != inner[1] and outer[0] != outer[1], inner=inner, outer=outer)
 
 
-@claim(55, "1", "Q", "flux/flux", theorems=HORSESHOES)
 def source_of_chaos(found, proved):
-    """“Chaos occurs at a given energy level due to the transversal intersections of the stable
-    and unstable manifolds of hyperbolic points”"""
+    """Ask whether the sea passes the crossing outer branches and never the inner ones."""
     crossed = float(np.abs(found["sine"].values).min()) > TRANSVERSAL
     inside, share = float(found["sea_inside"].values[0]), float(found["sea_out"].values[1])
-    inner, outer = (float(a) for a in found["area"].values)
+    inner, outer = (float(area) for area in found["area"].values)
     config = json.loads(found.attrs["config"])
     impacts = int(config["orbits"]) * int(config["impacts"])
-    holds = crossed and inside == 0.0 < share
-    said = "proved to make chaos" if proved(*HORSESHOES) else "seen"
-    value = f"crossings {said}; the sea passes the outer branches at {share:.5f} of its impacts; "
-    value += f"through the inner ones {impacts * share * inner / outer:.1g} passages are expected "
-    value += f"in {impacts:,} impacts, by the areas of the lobes, and none is seen"
-    return decided(holds, value, "of a finite run", "more_figures/claims/flux.png")
+    return decided(
+        crossed and inside == 0.0 < share,
+        said="proved to make chaos" if all(proved.values()) else "seen",
+        share=share,
+        impacts=impacts,
+        passages=impacts * share * inner / outer,
+    )

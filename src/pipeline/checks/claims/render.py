@@ -2,23 +2,9 @@
 
 import re
 
-from . import CLAIMS
-from .ledger import VERDICTS
+from . import CLAIMS, DOCUMENT, VERDICTS
 
 COLUMNS = ("number", "place", "words", "value", "error", "evidence")
-HEAD = """# The paper's statements, checked
-
-E. Kanso and P. Papadopoulos, *Dynamics of pseudo-rigid ball impact on rigid foundation* (to appear
-in the International Journal of Non-Linear Mechanics; the preprint is what was read). Each row is a
-statement of the paper, in its own words between quotation marks, else in ours; our value with its
-error; and what to look at. A statement that the paper repeats has one row, and the place of each;
-what it says of the literature is judged in rows 51 and 57 only. `./reproduce claims` writes this
-file; `./reproduce claims --check NUMBER --data FILE` judges one claim by another dataset.
-
-An orbit is *regular* if a tangent vector grows along it in proportion to the number of impacts, and
-not exponentially; what depends on where that line is drawn counts in the interval of a share.
-Shares have four decimals, which are exact on the line of energies (2,000 orbits each).
-"""
 
 
 def render(verdicts):
@@ -41,20 +27,18 @@ def render(verdicts):
     missing = sorted(set(CLAIMS) - set(verdicts))
     if missing:
         raise ValueError(f"no verdict on {', '.join(map(str, missing))}")
-    groups = {word: [] for word in VERDICTS}
+    rows = {word: [] for word in VERDICTS}
     for number in sorted(verdicts):
-        groups[verdicts[number].verdict].append(number)
-    lines = [HEAD, f"The verdicts on {len(verdicts)} statements, and what each needs:", ""]
+        rows[verdicts[number].verdict].append(_row(CLAIMS[number], verdicts[number]))
+    lines = [DOCUMENT.head, f"The verdicts on {len(verdicts)} statements, and what each needs:", ""]
     lines += ["| verdict | rows | what it needs |", 3 * "|---" + "|"]
-    lines += [f"| {word} | {len(groups[word])} | {needs} |" for word, needs in VERDICTS.items()]
+    lines += [f"| {word} | {len(rows[word])} | {needs} |" for word, needs in VERDICTS.items()]
     lines.append("")
-    for word in VERDICTS:
-        if not groups[word]:
-            continue
-        lines += [f"## {word.capitalize()}", ""]
-        lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
-        lines += [_row(CLAIMS[number], verdicts[number]) for number in groups[word]]
-        lines.append("")
+    for word, found in rows.items():
+        if found:
+            lines += [f"## {word.capitalize()}", ""]
+            lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
+            lines += [*found, ""]
     return "\n".join(lines)
 
 
@@ -88,13 +72,8 @@ def read(text):
 
 
 def _row(claim, verdict):
-    words = f"\N{LEFT DOUBLE QUOTATION MARK}{claim.words}\N{RIGHT DOUBLE QUOTATION MARK}"
-    cells = (
-        str(claim.number),
-        claim.place,
-        words if claim.quoted else claim.words,
-        verdict.value,
-        verdict.error,
-        verdict.evidence,
-    )
+    """The line of a claim in a table."""
+    quoted = f"\N{LEFT DOUBLE QUOTATION MARK}{claim.quote}\N{RIGHT DOUBLE QUOTATION MARK}"
+    cells = (str(claim.number), claim.place, quoted if claim.quote else claim.paraphrase)
+    cells += (verdict.value, verdict.error, verdict.evidence)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

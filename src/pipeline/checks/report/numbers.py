@@ -1,25 +1,14 @@
 """The paper's numbers beside those measured in our datasets."""
 
+import tomllib
+from pathlib import Path
+
 from ...config.declared.kinds import KINDS
 from ...config.places import stages
 
-# What the paper prints, in its text, captions and axes: scene -> quantity -> value.
-PRINTED = {
-    "fig2": {"orbits": "8", "impacts": "approximately 45,000", "energy": "0.01"},
-    "fig3": {"orbit": "elliptic, period one", "energy": "0.01", "time": "0 to 16"},
-    "fig4": {"orbit": "elliptic, period six", "energy": "0.01", "time": "0 to 60"},
-    "fig5": {"orbit": "hyperbolic, period six", "energy": "0.01"},
-    "fig6": {
-        "orbit": "hyperbolic, period six",
-        "energy": "0.01",
-        "window, x": "0.21 to 0.2116",
-        "window, xdot": "0.0925 to 0.0932",
-        "x of the point": "between 0.21 and 0.2116",
-        "xdot of the point": "between 0.0925 and 0.0932",
-    },
-    "fig7": {"largest exponent": "approximately 0.235"},
-    "fig8": {"orbits": "6", "impacts": "approximately 35,000", "energy": "0.001"},
-}
+TEXT = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
+PRINTED = TEXT["printed"]  # scene -> quantity -> the paper's value
+CHARTS = TEXT["charts"]  # chart of the study, or sweep -> what its picture shows
 
 
 def measured(block, load):

@@ -25,19 +25,6 @@ from ..difference import not_as_made
 from ..sums import ContractError, known_sums
 from . import numbers
 
-# What the pictures show that are no scenes of a kind: chart of the study, or sweep -> in words.
-CHARTS = {
-    "work_uniform": "error against work of methods for the next impact, states all over the "
-    "section",
-    "work_grazing": "error against work of methods for the next impact, states near grazing",
-    "edges": "where methods miss the next impact: next to grazing, and where the ball just touches",
-    "energy": "what a check of the energy sees of missed impacts",
-    "apart": "how long orbits by two methods stay together",
-    "needs": "the error of each figure by each method",
-    "verdicts": "how often a verdict on an orbit, regular or chaotic, is wrong, and what it costs",
-    "plane": "the regular share of the section, and the exponent of the rest, over k and E/g²",
-    "line": "the regular share of the section, and the exponent of the rest, against the energy",
-}
 _PNG = b"\x89PNG\r\n\x1a\n"
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -49,15 +36,7 @@ _TEMPLATES = jinja2.Environment(
 
 
 def render(root, checked, absent) -> str:
-    """The page of the tree at `root`.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    checked : dict
-        The checked config.
-    absent : dict
-        Variant -> scene -> why its figure cannot exist.
+    """The page of the tree at `root`; `absent` has variant -> scene -> why it has no figure.
 
     Raises
     ------
@@ -66,21 +45,17 @@ def render(root, checked, absent) -> str:
     """
     page = _Page(root, checked, absent)
     figures = page.variant(places.PAPER)
-    made = {name: page.variant(name) for name in page.variants if name not in places.PUBLISHED}
-    more = page.on_request()
+    shown = {name: page.variant(name) for name in page.variants if name not in places.PUBLISHED}
+    made = {name: found for name, found in shown.items() if any(one["image"] for one in found)}
     return _TEMPLATES.get_template("page.html").render(
         figures=figures,
-        variants={name: shown for name, shown in made.items() if _any_made(shown)},
-        unmade=[name for name, shown in made.items() if not _any_made(shown)],
-        more=more,
+        variants=made,
+        unmade=[name for name in shown if name not in made],
+        more=page.on_request(),
         claims=page.claims(),
         corrected=(FALSE, CORRECTED),
-        results=page.provenance(),
+        results=list(page.provenance()),
     )
-
-
-def _any_made(shown):
-    return any(figure["image"] for figure in shown)
 
 
 class _Page:
@@ -112,57 +87,44 @@ class _Page:
         return found
 
     def on_request(self):
-        """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set.
-
-        Those that this tree has not made are the committed ones.
-        """
+        """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set."""
         found = []
         for contract in self.contracts.values():
-            if not contract.on_request:
-                continue
-            outdated = not_as_made(self.root, contract)
-            made, folder = [], Path(contract.results).name
-            for name, file in contract.drawn.items():
-                if not name.endswith(".png"):
-                    continue
-                if file in outdated:
-                    made += self._committed(contract, name)
-                    continue
-                scene = contract.scenes[name]
-                block = self.variants.get(folder, {}).get(scene)
-                about = self._about(scene, block) if block else self._chart(scene)
-                about |= self._measured(folder, scene) if block else {"telling": None}
-                about |= {"image": self._read(file), "file": f"{contract.folder}/{name}"}
-                made.append(about | {"id": f"{contract.folder}/{name}".replace("/", "-")})
-                self.shown |= dict.fromkeys([*contract.data[scene].values(), file])
-            for name in contract.measured:
-                made += self._committed(contract, name)
-            found.append((contract.command, made))
+            if contract.on_request:
+                outdated = not_as_made(self.root, contract)
+                names = [name for name in contract.drawn if name.endswith(".png")]
+                names += contract.measured
+                pictures = [self._on_request(contract, name, outdated) for name in names]
+                found.append((contract.command, [each for each in pictures if each]))
         return found
 
-    def _committed(self, contract, name):
-        """The committed picture of a name, in a list that is empty where there is none.
-
-        Its caption has the values of config.yaml: it has one only if it was made from them.
-        """
-        file, measured = f"{contract.folder}/{name}", name in contract.measured
-        if not (self.root / file).is_file():
-            return []
-        data = read_bytes(self.root / file)
+    def _on_request(self, contract, name, outdated):
+        """The picture of a name: that of this tree, else the committed one, or None."""
+        published, drawing = f"{contract.folder}/{name}", contract.drawn.get(name)
         scene = contract.scenes.get(name, name.removesuffix(".png"))
-        block = self.variants.get(Path(contract.results).name, {}).get(scene)
-        about = self._about(scene, block) if block else self._chart(scene)
-        about |= {"telling": None, "image": None, "id": file.replace("/", "-")}
+        variant = Path(contract.results).name
+        block = self.variants.get(variant, {}).get(scene)
+        about = self._about(scene, block) if block else _chart(scene)
+        about |= {"telling": None, "image": None, "id": published.replace("/", "-")}
+        if drawing and drawing not in outdated:
+            about |= self._measured(variant, scene) if block else {}
+            self.shown |= dict.fromkeys([*contract.data[scene].values(), drawing])
+            return about | {"image": self._read(drawing), "file": published}
+        if not (self.root / published).is_file():
+            return None
+        data = read_bytes(self.root / published)
         wanted = known_sums(self.root, contract.folder).get(name)
-        same = measured or hashlib.sha256(data).hexdigest() == wanted
+        same = drawing is None or hashlib.sha256(data).hexdigest() == wanted
         if not (same and data.startswith(_PNG)):
-            return [about | {"missing": f"{file} is not the committed one, nor made by this tree"}]
-        said = "no hash of measurements is kept" if measured else "as SHA256SUMS has it"
+            missing = f"{published} is not the committed one, nor made by this tree"
+            return about | {"missing": missing}
+        said = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
+        # A caption has the values of config.yaml.
         if block and not self._made_of(contract, scene):
             about |= {"shows": "", "see": ""}
             said += "; made from other values than config.yaml's"
-        said = f"{file}: the committed one ({said}), not made by this tree"
-        return [about | {"image": _image(data), "file": said}]
+        said = f"{published}: the committed one ({said}), not made by this tree"
+        return about | {"image": _image(data), "file": said}
 
     def _made_of(self, contract, scene):
         """Whether the committed picture of a scene was made from the values in config.yaml."""
@@ -180,22 +142,18 @@ class _Page:
             return []
 
     def provenance(self):
-        """What made each result shown: file, sha256, commit, packages, and seconds if known."""
-        found = []
+        """Yield file, sha256, commit, packages and seconds, if known, of each result shown."""
         for path in self.shown:
             record = read_record(self.root, record_path(path))
             seconds = record.get("seconds")
             commit = str(record.get("commit") or "no commit")[:12]
-            found.append(
-                {
-                    "path": path,
-                    "sha256": record["output"]["sha256"],
-                    "commit": commit + (", with changes" if record.get("dirty") else ""),
-                    "packages": ", ".join(f"{n} {v}" for n, v in record["environment"].items()),
-                    "seconds": seconds if isinstance(seconds, float) else None,
-                }
-            )
-        return found
+            yield {
+                "path": path,
+                "sha256": record["output"]["sha256"],
+                "commit": commit + (", with changes" if record.get("dirty") else ""),
+                "packages": ", ".join(f"{n} {v}" for n, v in record["environment"].items()),
+                "seconds": seconds if isinstance(seconds, float) else None,
+            }
 
     def _not_current(self, file):
         why = self.outdated.get(file)
@@ -223,14 +181,6 @@ class _Page:
         title = kind.__doc__.partition("\n")[0]
         return {"name": name, "title": title, "shows": shows, "see": see[:1].upper() + see[1:]}
 
-    def _chart(self, name):
-        return {
-            "name": name,
-            "title": CHARTS.get(name, "a picture made on request"),
-            "shows": "",
-            "see": "",
-        }
-
     def _read(self, file):
         """Read a drawing of this tree: its bytes as text, and its size in pixels."""
         data = read_bytes(self.root / file)
@@ -245,11 +195,15 @@ class _Page:
             return drawn
         folder = places.PUBLISHED[variant]
         wanted = known_sums(self.root, folder).get(f"{scene}.png")
-        same = {
-            None: "not among the committed ones",
-            file_hash(self.root / drawn): "identical to the committed one",
-        }.get(wanted, "not the committed one")
-        return f"{folder}/{scene}.png: {same}"
+        same = "identical to" if wanted == file_hash(self.root / drawn) else "not"
+        words = f"{same} the committed one" if wanted else "not among the committed ones"
+        return f"{folder}/{scene}.png: {words}"
+
+
+def _chart(name):
+    """A picture in words that is no scene of a kind."""
+    title = numbers.CHARTS.get(name, "a picture made on request")
+    return {"name": name, "title": title, "shows": "", "see": ""}
 
 
 def _image(data):
