@@ -168,7 +168,8 @@ class SetUp:
         for name, package in (("build", "tools"), ("lock", "needed"), ("test", "extra")):
             file = self.tree / "requirements" / f"{name}.txt"
             file.write_text(wheel(self.wheels, package))
-        main = "import sys\nprint('handed over', *sys.argv[1:], *sys.warnoptions)\n"
+        told = "*sys.argv[1:], *sys.warnoptions, *['no caches'] * sys.dont_write_bytecode"
+        main = f"import sys\nprint('handed over', {told})\n"
         (self.tree / "src" / "pipeline" / "__main__.py").write_text(main)
         (folder / "bin").mkdir()
         (folder / "tmp").mkdir()
@@ -179,7 +180,8 @@ class SetUp:
             "PSEUDORIGID_WHEELS": str(self.wheels),
             "TMPDIR": str(folder / "tmp"),
             "SLOW": str(self.slow),
-            "PYTHONWARNINGS": "error",  # must not reach what runs
+            "PYTHONWARNINGS": "error",  # these two must not reach what runs
+            "PYTHONDONTWRITEBYTECODE": "1",
         }
 
     def with_uv(self, text=None):
