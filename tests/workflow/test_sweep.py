@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -201,22 +200,9 @@ def test_the_papers_figures_need_no_sweep(tree):
 
 def test_the_start_imports_nothing_heavy():
     code = "import sys, pipeline.config, pipeline.cli.running.space\n"
-    code += "print('numpy' in sys.modules)"
+    code += "print({'numpy', 'pseudorigid.study'} & set(sys.modules))"
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
     result = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
     )
-    assert result.stdout == "False\n"
-
-
-def test_the_packages_for_slurm_are_pinned_hashed_and_those_of_the_lock():
-    text = (ROOT / "requirements" / "slurm.txt").read_text()
-    assert "://" not in text
-    entries = re.split(r"^(?=[a-z0-9])", text, flags=re.MULTILINE)[1:]
-    pins = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", text, re.MULTILINE))
-    lock = (ROOT / "requirements" / "lock.txt").read_text()
-    locked = dict(re.findall(r"^([\w.-]+)==([^\s;\\]+)", lock, re.MULTILINE))
-    assert "snakemake-executor-plugin-slurm" in pins
-    assert len(entries) == len(pins)
-    assert all("--hash=sha256:" in entry for entry in entries)
-    assert all(version == locked.get(name, version) for name, version in pins.items())
+    assert result.stdout == "set()\n"
