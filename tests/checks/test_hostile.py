@@ -246,9 +246,11 @@ OTHERS = {
 }
 
 
-@pytest.mark.parametrize("what", OTHERS)
+READ = [FIG3, DATA, DRAWING, record_path(DATA), "paper_figures/MANIFEST.json"]
+
+
 @pytest.mark.parametrize(
-    "file", [FIG3, DATA, DRAWING, record_path(DATA), "paper_figures/MANIFEST.json"]
+    ("file", "what"), [*((f, "a FIFO") for f in READ), (FIG3, "a folder"), (DATA, "a device")]
 )
 def test_what_is_no_file_hangs_nothing(moved, tmp_path, file, what):
     (moved.path / file).unlink()
