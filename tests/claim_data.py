@@ -15,7 +15,6 @@ from pseudorigid.evidence.jumps import jumps
 from pseudorigid.evidence.last_curve import last_curve
 from pseudorigid.evidence.rotation import rotation
 from pseudorigid.evidence.spread import spread
-from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import VARIABLES, cells
 
 BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001
@@ -49,8 +48,8 @@ def made(stage, *inputs, ball=BALL, energy=HIGH, method=None, **fields):
     return found.assign_attrs(about | found.attrs)
 
 
-def datasets():
-    """Name -> dataset."""
+def datasets(derived):
+    """Name -> dataset, of which one is handed in: what `made(derivations)` gives."""
     one, six = (made(symmetric_orbits, period=period) for period in (1, 6))
     scan = ImpactMap((0.1, 1e-12))
     draw = {"starts": [0.6, 0.62, 0.65], "impacts": 200_000}
@@ -60,7 +59,7 @@ def datasets():
     )  # fmt: skip
     line = [0.3125, 0.625, 3.0, 6.25, 10.3125, 13.0, 16.5625, 18.75]
     return {
-        "derivations": made(derivations),
+        "derivations": derived,
         "fig2/orbits": made(
             orbits.scene_orbits, starts=STARTS_2,
             impacts=[1500, 2500, 3000, 3500, 4000, 3000, 2500, 25000],

@@ -1,6 +1,7 @@
 """Fixtures for the whole suite, and what is done once before it."""
 
 import os
+import pickle
 import subprocess
 import sys
 
@@ -34,6 +35,30 @@ def shared(tmp_path_factory, request):
     base = tmp_path_factory.getbasetemp()
     base = base.parent if hasattr(request.config, "workerinput") else base
     return lambda name, make: once(base / "shared" / name, make)
+
+
+@pytest.fixture(scope="session")
+def pickled(shared):
+    """name, compute -> what one process computed, for all of them."""
+
+    def read(name, compute):
+        def make(folder):
+            folder.mkdir()
+            (folder / "pickle").write_bytes(pickle.dumps(compute()))
+
+        return pickle.loads((shared(name, make) / "pickle").read_bytes())
+
+    return read
+
+
+@pytest.fixture(scope="session")
+def derived(pickled):
+    """The dataset of all derivations, which take seconds."""
+    from claim_data import made
+
+    from pseudorigid.proofs.derivations import derivations
+
+    return pickled("derivations", lambda: made(derivations))
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """A scene and made-up data of each kind of picture, drawn in a moment."""
 
 import hashlib
+from functools import cache
 from importlib import import_module
 
 import numpy as np
@@ -130,6 +131,12 @@ def module(kind):
 def draw(kind):
     """The figure of a kind."""
     return module(kind).draw(SCENES[kind], *DATA[kind]())
+
+
+@cache
+def drawn(kind):
+    """The figure of a kind, drawn once for all tests that only look at it."""
+    return draw(kind)
 
 
 def digests(kinds):

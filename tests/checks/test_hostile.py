@@ -246,9 +246,11 @@ OTHERS = {
 }
 
 
-@pytest.mark.parametrize("what", OTHERS)
+READ = [FIG3, DATA, DRAWING, record_path(DATA), "paper_figures/MANIFEST.json"]
+
+
 @pytest.mark.parametrize(
-    "file", [FIG3, DATA, DRAWING, record_path(DATA), "paper_figures/MANIFEST.json"]
+    ("file", "what"), [*((f, "a FIFO") for f in READ), (FIG3, "a folder"), (DATA, "a device")]
 )
 def test_what_is_no_file_hangs_nothing(moved, tmp_path, file, what):
     (moved.path / file).unlink()
@@ -285,11 +287,10 @@ def test_a_run_passes_by_what_is_no_file(moved):
     assert (result.returncode, result.stdout) == (1, line)
 
 
-@pytest.mark.parametrize("word", ["verify", "-n", "archive"])
-def test_a_config_that_is_no_file_is_one_line(moved, word):
+def test_a_config_that_is_no_file_is_one_line(moved):
     moved.config.unlink()
     os.mkfifo(moved.config)
-    result = moved.run(word)
+    result = moved.run("verify")
     said = "config.yaml: a FIFO stands in its place, move it away\n"
     assert (result.returncode, result.stdout) == (1, said)
 
@@ -302,14 +303,6 @@ def test_an_archive_cannot_be_written_where_there_are_no_files(accepted, tmp_pat
     os.mkfifo(tmp_path / "fifo")
     with pytest.raises(archive.ArchiveError, match="it is no regular file"):
         archive.write(accepted.path, config.load(accepted.config), tmp_path / "fifo")
-
-
-@pytest.mark.parametrize("option", ["--directory", "-d", "--direct"])
-def test_a_run_is_of_its_own_folder(accepted, tmp_path, option):
-    result = accepted.run("fig3", option, str(tmp_path / "elsewhere"), "--forceall")
-    assert result.returncode == 2
-    assert result.stdout.startswith("reproduce: --directory is not used here: ")
-    assert not (tmp_path / "elsewhere").exists()
 
 
 # ---- anything at all ----

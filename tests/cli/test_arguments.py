@@ -96,6 +96,7 @@ FIGURES = "fig2, fig3, fig4, fig5, fig6, fig7 or fig8"
 WRONG = {
     "verfy": "reproduce: no word or figure verfy: did you mean verify?",
     "fig33": "reproduce: no word or figure fig33: did you mean fig3?",
+    "fig33 --strict": "reproduce: no word or figure fig33: did you mean fig3?",
     "fig3 fgi5": "reproduce: no word or figure fgi5: did you mean fig5?",
     "help verfy": "reproduce: no word verfy: did you mean verify?",
     "help verify fig3": "reproduce help: no argument fig3",

@@ -2,9 +2,14 @@
 
 import json
 import subprocess
+from contextlib import nullcontext
 
 import pytest
 from project import Tree, fresh_tree, of_scenes
+
+from pipeline import config
+from pipeline.cli.arguments import Given
+from pipeline.cli.words import clean
 
 
 @pytest.fixture
@@ -97,6 +102,16 @@ def test_a_result_that_is_committed_stays(tree):
 
 
 @pytest.fixture
+def cleaned(tree, monkeypatch):
+    """A function that deletes without asking, in this process."""
+    monkeypatch.setattr(clean, "ROOT", tree.path)
+    monkeypatch.setattr(clean, "RESULTS", tree.path / "results")
+    monkeypatch.setattr(clean, "locked", nullcontext)
+    given = Given(folder=[], yes=True, config=config.load(tree.config))
+    return lambda: clean.run(given)
+
+
+@pytest.fixture
 def victim(tree):
     """A user's file beside the tree."""
     path = tree.path.parent / "victim.nc"
@@ -119,28 +134,26 @@ def victim(tree):
         "\0",
     ],
 )
-def test_no_path_of_a_record_is_followed(tree, victim, output):
+def test_no_path_of_a_record_is_followed(tree, victim, cleaned, output):
     output = str(victim) if output == "VICTIM" else output
     for name in ("victim.nc", "notes.txt"):
         record = tree.path / "results" / "paper" / "provenance" / f"{name}.json"
         record.write_text(json.dumps({"output": {"file": output}}))
-    result = tree.run("clean", "--yes")
-    assert result.returncode == 0, result.stdout
+    assert cleaned() == 0
     assert victim.read_text() == "mine"
     assert left(tree) == {name for name, goes in FILES.items() if not goes}
 
 
 @pytest.mark.parametrize("name", ["results", "results/paper", "results/paper/logs", ".snakemake"])
-def test_no_link_is_followed(tree, tmp_path, name):
+def test_no_link_is_followed(tree, tmp_path, cleaned, capsys, name):
     outside, link = tmp_path / "outside", tree.path / name
     link.rename(outside)
     link.symlink_to(outside)
     (outside / "empty").mkdir()
     before = sorted(outside.rglob("*"))
-    result = tree.run("clean", "--yes")
-    assert result.returncode == 0, result.stdout
+    assert cleaned() == 0
     assert sorted(outside.rglob("*")) == before
     assert link.is_symlink()
     if name == "results/paper":
         line = "reproduce: results/paper leads out of this folder: what is there stays"
-        assert line in result.stdout.splitlines()
+        assert line in capsys.readouterr().err.splitlines()

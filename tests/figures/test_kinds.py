@@ -9,7 +9,7 @@ from samples import (
     SCENES,
     SPACE,
     VIEW,
-    draw,
+    drawn,
     exponents,
     manifolds,
     module,
@@ -40,7 +40,7 @@ def test_refuses_what_the_data_do_not_have():
 
 
 def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
-    curves = [line.get_data() for line in draw("motion").artists if len(line.get_xdata()) > 20]
+    curves = [line.get_data() for line in drawn("motion").artists if len(line.get_xdata()) > 20]
     (t, mass), (other_t, strain) = curves
     vertices = [set(zip(*(axis.tolist() for axis in curve), strict=True)) for curve in curves]
     assert len(vertices[0] & vertices[1]) == motion().sizes["impact"]
@@ -52,7 +52,7 @@ def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
 def test_what_the_surface_does_not_hide_is_drawn_and_the_sea_comes_first():
     data = orbits()
     seen = box.Box(SCENES["portrait"]).seen(*(data[name].values for name in style.NAMES))
-    dots = [line for line in draw("portrait").artists if line.get_marker() == "o"]
+    dots = [line for line in drawn("portrait").artists if line.get_marker() == "o"]
     dots = dots[-len(data["row_size"]) :]  # before them the key's
     sizes = [np.sum(seen[span]) for span in rows(data)]
     assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
@@ -152,7 +152,7 @@ def test_lines_end_in_open_dots():
     data = manifolds()
     dots = [
         a
-        for a in draw("tangle").artists
+        for a in drawn("tangle").artists
         if a.get_markerfacecolor() == "white" and a.get_markeredgewidth()
     ]
     picture = box.Box(SCENES["tangle"])
@@ -198,7 +198,7 @@ def test_a_sharp_fold_has_a_dot_of_its_own_and_a_straight_line_none():
 
 
 def test_a_jump_has_squares_and_an_end_a_dot():
-    figure = draw("tangle")
+    figure = drawn("tangle")
     picture, data = box.Box(SCENES["tangle"]), manifolds()
     state = [data[name].values for name in style.NAMES]
     seen = picture.seen(*state)
@@ -214,7 +214,7 @@ def test_a_jump_has_squares_and_an_end_a_dot():
 
 
 def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
-    assert "saddle" in [text.get_text() for text in draw("closeup").texts]
+    assert "saddle" in [text.get_text() for text in drawn("closeup").texts]
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
     labels = [text.get_text() for text in figure.texts]

@@ -2,7 +2,7 @@
 
 import pytest
 from legible import assert_text_is_whole_and_apart
-from samples import DATA, FLAT, KINDS, SCENES, SPACE, draw, exponents, module
+from samples import DATA, FLAT, KINDS, SCENES, SPACE, drawn, exponents, module
 from slowly import slowly
 
 from pseudorigid.figures.axes import limits, plane
@@ -10,8 +10,11 @@ from pseudorigid.figures.canvas import style
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_text_is_whole_and_apart(kind):
-    assert_text_is_whole_and_apart(draw(kind))
+def test_text_is_whole_apart_and_legible_at_a_columns_width(kind):
+    figure = drawn(kind)
+    assert_text_is_whole_and_apart(figure)
+    shrink = min(1, style.COLUMN / figure.bbox.width)
+    assert min(text.get_size() for text in figure.texts) * shrink >= 7
 
 
 def lengths_scaled(data, scale):
@@ -49,13 +52,6 @@ def test_names_of_exponents_that_coincide_are_moved_apart():
     texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
     names = [text.get_text() for text in texts if "lambda" in text.get_text()]
     assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_text_is_legible_at_a_columns_width(kind):
-    figure = draw(kind)
-    shrink = min(1, style.COLUMN / figure.bbox.width)
-    assert min(text.get_size() for text in figure.texts) * shrink >= 7
 
 
 @pytest.mark.parametrize("axes", [SPACE, FLAT])

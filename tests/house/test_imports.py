@@ -2,6 +2,7 @@
 
 import ast
 import shutil
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -25,6 +26,13 @@ def modules(src):
     }
 
 
+@cache
+def statements(text):
+    """The nodes of a module's text that may import something."""
+    nodes = ast.walk(ast.parse(text))
+    return [node for node in nodes if isinstance(node, (ast.Import, ast.ImportFrom, ast.Call))]
+
+
 def imports(src):
     """Module -> the modules that it imports anywhere, also by import_module with a literal."""
     known = modules(src)
@@ -32,7 +40,7 @@ def imports(src):
     for name, file in known.items():
         package = name.split(".") if file.name == "__init__.py" else name.split(".")[:-1]
         targets = set()
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        for node in statements(file.read_text(encoding="utf-8")):
             targets.update(_targets(node, package, known))
         found[name] = targets - {name}
     return found

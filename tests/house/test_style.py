@@ -57,10 +57,10 @@ def pins(path):
 
 
 def test_every_package_is_pinned_and_hashed():
-    for name in ("build.txt", "uv.txt", "lock.txt", "test.txt"):
-        text = (ROOT / "requirements" / name).read_text()
+    for file in (ROOT / "requirements").glob("*.txt"):
+        text = file.read_text()
         entries = re.split(r"^(?=[a-z0-9])", text, flags=re.MULTILINE)[1:]
-        assert len(entries) == len(pins(f"requirements/{name}"))
+        assert len(entries) == len(pins(file)) > 0
         assert all("--hash=sha256:" in entry for entry in entries)
         assert "://" not in text
 
@@ -74,10 +74,18 @@ def test_the_locks_hold_what_is_asked_for(asked, lock):
             assert locked[name].startswith(version)
 
 
-def test_the_packages_of_the_tests_have_the_versions_of_the_lock():
-    locked = pins("requirements/lock.txt")
-    tested = pins("requirements/test.txt")
-    assert {name: locked.get(name, version) for name, version in tested.items()} == tested
+@pytest.mark.parametrize(
+    ("more", "wanted"),
+    [
+        ("test", {"pytest"}),
+        ("study", {"heyoka", "pynamicalsys"}),
+        ("slurm", {"snakemake-executor-plugin-slurm"}),
+    ],
+)
+def test_further_packages_have_the_versions_of_the_lock(more, wanted):
+    locked, found = pins("requirements/lock.txt"), pins(f"requirements/{more}.txt")
+    assert wanted <= set(found) and "python-flint" in locked  # the judge's
+    assert {name: locked.get(name, version) for name, version in found.items()} == found
 
 
 def test_the_conda_environment_has_the_versions_of_the_lock():

@@ -11,7 +11,6 @@ from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import impact, law
 from pseudorigid.kernel.arithmetic import quadrant
-from pseudorigid.proofs import derivations
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
 from pseudorigid.proofs.derivations.symbols import energy, flight, g, k, rebound, tau, v, w, x
 
@@ -32,25 +31,20 @@ MISPRINTED = {
 OWN = {"softness", "smooth", "reversible"}
 
 
-@pytest.fixture(scope="module")
-def found():
-    return derivations.derivations(None, None)
-
-
-def test_every_misprint_is_found_and_nothing_else(found):
-    names = found["formula"].values.tolist()
+def test_every_misprint_is_found_and_nothing_else(derived):
+    names = derived["formula"].values.tolist()
     assert len(names) == len(set(names)) == 26
     for name, printed, corrected in zip(
-        names, found["printed"].values, found["corrected"].values, strict=True
+        names, derived["printed"].values, derived["corrected"].values, strict=True
     ):
         expected = {True: (0, 1), False: (1, -1)}[name in MISPRINTED]
         assert (printed, corrected) == ((-1, 1) if name in OWN else expected), name
 
 
-def test_numbers_that_come_with_formulas(found):
+def test_numbers_that_come_with_formulas(derived):
     value = {
         name: float(number)
-        for name, number in zip(found["formula"].values, found["value"].values, strict=True)
+        for name, number in zip(derived["formula"].values, derived["value"].values, strict=True)
     }
     assert value["euler_tensor"] == 0.2  # a solid sphere
     assert value["shell"] == pytest.approx(1 / 3, rel=1e-15)

@@ -103,6 +103,7 @@ def test_heyoka_finds_easy_roots():
         assert np.abs(tau - truth).max() < 1e-13
 
 
+@pytest.mark.slow  # it compiles a package whose numbers are in no figure; the bench calls it too
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
     from pseudorigid.study.methods import toolkit
