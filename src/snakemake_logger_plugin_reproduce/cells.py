@@ -17,7 +17,7 @@ class Cells:
     """
 
     def __init__(self, specs, outdated):
-        blocks = {path: each for path, each in specs.items() if "cells" in each.config}
+        blocks = {path: each for path, each in specs.items() if each.step.startswith("block")}
         self.left = {
             path: (len(block.config["cells"]), _impacts(block.config))
             for path, block in blocks.items()

@@ -18,6 +18,7 @@ from pipeline.cli.running.space import require_space
 from pipeline.cli.words.sweep import chosen
 from pipeline.config import expected, places
 from pipeline.records.artifacts import load
+from pipeline.records.build_spec import BuildSpec
 from pseudorigid.sweep import cell
 from snakemake_logger_plugin_reproduce import cells
 
@@ -56,7 +57,8 @@ def test_progress_tells_rate_and_time_to_finish(monkeypatch):
     assert cells.line(10, (9, 999_900), 1.0, (0.0, 10, 10**6)).endswith("2 h 46 min to go")
     # Before the first block the jobs may compile: no speed is told from that.
     first, second, third = places.block_files("plane", SMALL)
-    progress = cells.Cells(specs(), {second, third})
+    other = BuildSpec("results/claims/x.nc", "x", "x", {"cells": 24}, "stage", None, [], [])
+    progress = cells.Cells(specs() | {other.result: other}, {second, third, other.result})
     assert progress.done(second) == "sweep: 4 of 6 cells"
     assert progress.done(third).startswith("sweep: 6 of 6 cells, ")
     monkeypatch.setattr(cells, "PAUSE", 1000.0)
