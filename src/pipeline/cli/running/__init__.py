@@ -1,10 +1,12 @@
 """Snakemake as ./reproduce runs it: what it is told to make again, and its options."""
 
+import argparse
 import os
+import re
 import signal
 import subprocess
 import sys
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from functools import cache
 from pathlib import Path
 
@@ -30,7 +32,11 @@ _CAUSES = ("its record", "no record", DAMAGED)
 # Options with which nothing is made.
 _SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
 _SAY += ("touch", "list_rules", "list_target_rules", "list_changes", "unlock")
-_DRY_RUN = {"-n", "--dry-run", "--dryrun"}  # understood without snakemake, which loads slowly
+# The options of most runs, which are understood without snakemake: that loads slowly.
+_USUAL = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
+_USUAL.add_argument("-n", "--dry-run", "--dryrun", action="store_true", dest="dryrun")
+_USUAL.add_argument("-c", "--cores")
+_USUAL.add_argument("targets", nargs="*")
 
 
 @cache
@@ -49,6 +55,10 @@ def _parser():
 
 def options_of(arguments):
     """Snakemake's own reading of its options; MisuseError where it refuses them."""
+    with suppress(argparse.ArgumentError):  # which snakemake has better words for
+        options, others = _USUAL.parse_known_args(arguments)
+        if not others and re.fullmatch("None|all|[1-9][0-9]*", str(options.cores)):
+            return options
     parser = _parser()
     from snakemake.exceptions import CliException, WorkflowError
 
@@ -62,28 +72,17 @@ def options_of(arguments):
     return options
 
 
-def targets_of(arguments) -> list[str]:
-    """The files and rules among options of snakemake."""
-    if all(word in _DRY_RUN or not word.startswith("-") for word in arguments):
-        return [word for word in arguments if word not in _DRY_RUN]
-    return options_of(arguments).targets
-
-
 def only_says(arguments) -> bool:
     """Whether these options of snakemake make nothing."""
-    if arguments and set(arguments) <= _DRY_RUN:
-        return True
-    options = options_of(arguments) if arguments else None
+    options = options_of(arguments)
     return any(getattr(options, name, None) for name in _SAY)
 
 
 def asked(arguments) -> set[str]:
     """What these options of snakemake ask for, beside numbers of cores."""
-    if not arguments:
-        return set()
-    if set(arguments) <= _DRY_RUN:
-        return {"dryrun"}
     given, usual = (vars(options_of(some)) for some in (arguments, []))
+    if given.keys() != usual.keys():
+        usual = vars(_parser().parse_args([]))
     different = {
         name
         for name, value in given.items()
@@ -146,17 +145,18 @@ def _run(run, targets, outdated, arguments, current) -> int:
     command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
     command += ["--forcerun", *forced] if forced else []
     command += ["--nolock", "--workflow-profile", "none", *targets]
-    given = options_of(arguments) if arguments else None
-    if given is None or (given.cores is None and given.jobs is None):
+    given = options_of(arguments)
+    if given.cores is None and getattr(given, "jobs", None) is None:
         command += ["--cores", "all"]
-    if given and any(getattr(given, name) for name in _SAY):
+    if only_says(arguments):
         said = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
         sys.stdout.write(said.stdout.decode(errors="replace"))
         return said.returncode
-    if not (given and (given.logger or given.quiet or given.verbose)):
+    if not any(getattr(given, name, None) for name in ("logger", "quiet", "verbose")):
         command += ["--logger", "reproduce"]
     # On a cluster, which a profile may ask for, a job is a snakemake of its own elsewhere.
-    remote = given and (given.profile or given.executor not in (None, "local"))
+    executor = getattr(given, "executor", None)
+    remote = bool(getattr(given, "profile", None)) or executor not in (None, "local")
     with interruptible(end=not remote) as caught:
         try:
             with nullcontext({}) if remote else server.serving(run, current) as variables:

@@ -13,7 +13,7 @@ from ..folder import MisuseError, locked
 def run(given) -> int:
     """Make every figure of the paper, or those figures and files that are named."""
     _meant(given, given.figure)  # a misspelt one, before what snakemake refuses
-    targets = running.targets_of(given.options)
+    targets = running.options_of(given.options).targets
     options = [a for a in given.options if a not in targets]
     sets, others = _meant(given, [*given.figure, *targets] or ["all"])
     status = 0
