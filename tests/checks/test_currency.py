@@ -7,6 +7,8 @@ import shutil
 import pytest
 from verdicts import verified
 
+from pipeline.records.record import record_path
+
 PERIODIC = "results/paper/periodic_fig3.nc"
 ORBITS = "results/paper/orbits_fig2.nc"
 MOTION = "src/pseudorigid/dynamics/motion.py"
@@ -72,10 +74,11 @@ def test_a_result_made_by_other_code(moved):
 @pytest.mark.slow
 def test_a_run_killed_between_result_and_record_does_both_again(moved):
     """Everything dies, snakemake too, where the result is whole and its record not yet there."""
-    result = moved.path / ORBITS
+    result, record = moved.path / ORBITS, moved.path / record_path(ORBITS)
     module = moved.path / "src" / "pipeline" / "records" / "record.py"
     text = module.read_text()
     result.unlink()
+    record.unlink()
     end = "    about = {"
     assert text.count(end) == 1
     module.write_text(text.replace(end, f"    os.killpg(os.getpgrp(), 9)\n{end}"))
@@ -83,7 +86,7 @@ def test_a_run_killed_between_result_and_record_does_both_again(moved):
     run = moved.start(ORBITS, start_new_session=True)
     assert run.wait() == -9
     module.write_text(text)
-    assert result.exists()
+    assert result.exists() and not record.exists()
     assert ORBITS in finding(moved)
     assert moved.run(ORBITS).returncode == 0
     assert verified(moved)[:3] == (0, {}, [])
