@@ -18,7 +18,7 @@ def run(given) -> int:
     if given.slurm:
         if shutil.which("sbatch") is None:
             raise UsageError("--slurm: there is no sbatch on this machine")
-        options = [f"--profile={ROOT / 'workflow' / 'profiles' / 'slurm'}", *options]
+        options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *options]
         add_packages("slurm")
     results = expected.of_sweeps({name: sweeps[name] for name in names})
     files = {path: path for path in map(places.sweep_dataset, names)}
