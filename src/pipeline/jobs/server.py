@@ -115,10 +115,8 @@ def serving(plan, current=lambda path: False):
             folder = stack.enter_context(tempfile.TemporaryDirectory())
             server = stack.enter_context(_Server(f"{folder}/jobs", Handler))
             _start(computes=any(path.endswith(".nc") for path in plan.outdated))
-        except (
-            OSError
-        ):  # of a temporary folder that is full, or whose name is too long for a socket
-            yield {}
+        except OSError:
+            yield {}  # the temporary folder is full, or its name is too long for a socket
             return
         threading.Thread(target=server.serve_forever, daemon=True).start()
         yield {ADDRESS: server.server_address}
