@@ -171,21 +171,15 @@ def test_two_runs_do_not_meet(tree):
     assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing
 
 
-def test_a_file_in_the_place_of_a_folder_is_named(tree):
-    figures = tree.path / "results" / "paper" / "figures"
-    figures.parent.mkdir(parents=True)
-    figures.touch()
-    result = tree.run()
-    line = "reproduce: results/paper/figures: a file stands in a folder's place, move it away\n"
-    assert (result.returncode, result.stdout) == (1, line)
+PLACES = [f"results/paper/{name}" for name in ("figures", "logs", "provenance")]
 
 
-@pytest.mark.parametrize("place", [".snakemake", ".snakemake/metadata"])
-def test_a_file_in_the_place_of_a_folder_of_snakemakes_is_named(tree, place):
-    (tree.path / place).parent.mkdir(exist_ok=True)
+@pytest.mark.parametrize("place", [*PLACES, ".snakemake", ".snakemake/metadata"])
+def test_a_file_in_the_place_of_a_folder_is_named(tree, place):
+    (tree.path / place).parent.mkdir(parents=True, exist_ok=True)
     (tree.path / place).touch()
-    line = f"reproduce: {place}: a file stands in a folder's place, move it away\n"
     result = tree.run()
+    line = f"reproduce: {place}: a file stands in a folder's place, move it away\n"
     assert (result.returncode, result.stdout) == (1, line)
 
 

@@ -16,6 +16,7 @@ from ...checks.currency import DAMAGED, MISSING, Currency
 from ...config.expected import needed
 from ...jobs import server
 from ...records.files import obstacle
+from ...records.record import log_path, record_path
 from ...records.sources import ROOT
 from ..arguments import explained
 from ..folder import MisuseError, UsageError, interruptible, say
@@ -110,7 +111,8 @@ def make(checked, currency, wanted, arguments) -> int:
     for path, why in outdated.items():
         if obstacle(ROOT / path):
             raise UsageError(f"{path}: {why}")
-        for folder in Path(path).parents:
+        files = (path, record_path(path), log_path(path))
+        for folder in dict.fromkeys(folder for file in files for folder in Path(file).parents):
             if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
                 raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
         if why.startswith(_CAUSES):
