@@ -1,1 +1,1 @@
-"""What a user is told: the steps of a run, what one would do, the state of files."""
+"""What a user is told: what a run would make and why, and the state of files."""
