@@ -23,4 +23,4 @@ include: "workflow/rules/results.smk"
 rule all:
     default_target: True
     input:
-        [behind[-1] for _, behind in places.figures(VARIANTS).values()],
+        [behind[-1] for _, behind in paths.figures(VARIANTS).values()],

@@ -6,15 +6,15 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.analyses.clusters import clusters
+from pseudorigid.analyses.flux import flux
+from pseudorigid.analyses.jumps import jumps
+from pseudorigid.analyses.last_curve import last_curve
+from pseudorigid.analyses.rotation import rotation
+from pseudorigid.analyses.spread import spread
 from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.variables import attributes_of
-from pseudorigid.evidence.clusters import clusters
-from pseudorigid.evidence.flux import flux
-from pseudorigid.evidence.jumps import jumps
-from pseudorigid.evidence.last_curve import last_curve
-from pseudorigid.evidence.rotation import rotation
-from pseudorigid.evidence.spread import spread
 from pseudorigid.sweep.cell import VARIABLES, cells
 
 BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001

@@ -1,18 +1,19 @@
 """Families of hard flights, and how far off the time to the next impact is at a state.
 
-The truth is the judge's in ball arithmetic (pseudorigid.proofs.judge), proved to be the first root;
-where that one finds a double root undecided, or the double's answer is another root, the mpmath
-judge of judge.py has the word. A test marked slow holds the two against each other.
+The truth is that of pseudorigid.proofs.reference_solver, in ball arithmetic, proved to be the first
+root; where that one finds a double root undecided, or the double's answer is another root, the
+mpmath solver of independent_solver.py decides. A slow test holds the two against
+each other.
 """
 
 import math
 
 import mpmath
-from judge import condition, judge
+from independent_solver import condition, judge
 from mpmath import mpf
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.proofs.judge import first_root
+from pseudorigid.proofs.reference_solver import first_root
 
 # Relative error of tau over max(1, condition), see Verdict: at most 4.1e-16 at 102,000 states.
 TAU = 5e-16

@@ -14,8 +14,8 @@ from importlib import import_module
 from pathlib import Path
 
 from pipeline import config
-from pipeline.config import expected, places
-from pipeline.config.declared.stages import STAGES
+from pipeline.config import build_specs, paths
+from pipeline.config.schema.stages import STAGES
 from pipeline.records import artifacts
 from pseudorigid import Ball
 from pseudorigid.figures.canvas.render import render
@@ -36,7 +36,7 @@ class Results:
     """The results of variants, each dataset computed when it is asked for, in a folder."""
 
     def __init__(self, folder, variants):
-        self.folder, self.expected = Path(folder), expected.of_variants(variants)
+        self.folder, self.expected = Path(folder), build_specs.of_variants(variants)
 
     def data(self, path):
         """A dataset after a round through its file."""
@@ -57,8 +57,8 @@ class Results:
 def paper(folder, names=()):
     """Yield (file name, hash) of the figures of these scenes, or of all."""
     variants = config.load(SHIPPED)["variants"]
-    variants = {places.PAPER: variants[places.PAPER]}
-    figures = places.figures(variants).values()
+    variants = {paths.PAPER: variants[paths.PAPER]}
+    figures = paths.figures(variants).values()
     results = Results(folder, variants)
     for path in (behind[-1] for scene, behind in figures if not names or scene in names):
         block = results.expected[path].config

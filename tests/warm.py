@@ -28,7 +28,7 @@ def compile_the_rest():
     from pseudorigid.dynamics.ensemble import ImpactMap
     from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
     from pseudorigid.study import figure_errors, states
-    from pseudorigid.study.methods import counted
+    from pseudorigid.study.methods import counted_methods
     from pseudorigid.sweep import cell
 
     for count in (12, 100):
@@ -41,7 +41,11 @@ def compile_the_rest():
             for name in ("impact", "inverse_impact", "jacobian", "time_to_impact"):
                 getattr(ball, name)(*one)
     start = states.chaotic()
-    for method in (counted.OURS, counted.scan_method(0.1, 1e-12), counted.engine_method(1e-3)):
+    for method in (
+        counted_methods.OURS,
+        counted_methods.scan_method(0.1, 1e-12),
+        counted_methods.engine_method(1e-3),
+    ):
         method.solve(states.BALL, *states.uniform(20))
         method.orbit(states.BALL, start, 20)
     figure_errors._growth(np.ones((3, 3, 3)))
@@ -49,10 +53,10 @@ def compile_the_rest():
 
 if __name__ == "__main__":
     from pseudorigid.kernel.compiled import locator
-    from pseudorigid.kernel.compiled.meaning import meaning
+    from pseudorigid.kernel.compiled.syntax_hash import syntax_hash
 
     files = sorted((locator.SRC / "pseudorigid").rglob("*.py"))
-    digest = hashlib.sha256(" ".join(map(meaning, files)).encode()).hexdigest()
+    digest = hashlib.sha256(" ".join(map(syntax_hash, files)).encode()).hexdigest()
     done = Path(locator.folder(), f"by the tests {digest[:16]}")
     if not done.exists():
         if child := os.fork():

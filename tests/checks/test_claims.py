@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from pipeline.checks import claims
-from pipeline.checks.claims import VERDICTS, chaos, ledger
-from pipeline.checks.claims.ledger import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
+from pipeline.checks.claims import VERDICTS, chaos, schema
 from pipeline.checks.claims.render import read, render
-from pipeline.cli import ledger as cli_ledger
-from pipeline.cli.folder import UsageError
+from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
+from pipeline.cli import claim_verdicts as cli_ledger
+from pipeline.cli.session import UsageError
 from pipeline.config import ConfigError
 from pipeline.records.sources import ROOT
 
@@ -24,7 +24,7 @@ ALL = range(1, LAST + 1)
 
 @pytest.fixture(scope="module")
 def verdicts(datasets):
-    return claims.judge(datasets, {})
+    return claims.judge_claims(datasets, {})
 
 
 ALGEBRA = {1, 8, 9, 10, 12, 15, 18, 47, 48, 53, 64, 68, 71}  # one kind of evidence, one verdict
@@ -44,7 +44,7 @@ def test_verdicts_without_a_proof(verdicts):
 
 
 def test_verdicts_with_all_proofs(datasets):
-    verdicts = claims.judge(datasets, dict.fromkeys(claims.theorems(), PROVED))
+    verdicts = claims.judge_claims(datasets, dict.fromkeys(claims.required_theorems(), PROVED))
     proved = {number for number, verdict in verdicts.items() if verdict.verdict == PROVED}
     assert proved == ALGEBRA | PROVED_BY_THEOREMS
     assert verdicts[63].verdict == CORRECTED and verdicts[70].verdict == HOLDS
@@ -53,7 +53,11 @@ def test_verdicts_with_all_proofs(datasets):
 
 def test_all_statements_are_there():
     assert list(claims.CLAIMS) == list(ALL)
-    assert set(claims.theorems()) >= {"horseshoe-inner", "horseshoe-outer", "twist-fixed-point"}
+    assert set(claims.required_theorems()) >= {
+        "horseshoe-inner",
+        "horseshoe-outer",
+        "twist-fixed-point",
+    }
 
 
 def test_the_theorems_of_invariant_curves_are_all_there_are():
@@ -246,7 +250,7 @@ def test_every_check_of_data_has_a_wrong_dataset():
 @pytest.mark.parametrize("number", WRONG)
 def test_a_wrong_dataset_changes_the_verdict(datasets, number):
     claim = claims.CLAIMS[number]
-    proofs = dict.fromkeys(claims.theorems(), PROVED)
+    proofs = dict.fromkeys(claims.required_theorems(), PROVED)
     right = claim.judge(datasets, proofs)
     wrong = claim.judge(datasets | WRONG[number](datasets), proofs)
     undecided = right.verdict == wrong.verdict == UNDECIDED  # for another reason
@@ -268,7 +272,7 @@ def test_a_dataset_that_is_missing_is_named(datasets):
 
 
 def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
-    claim = ledger.Claim(
+    claim = schema.Claim(
         number=1, place="1", kind="E", quote="a", theorems=["twist-zero"],
         function=lambda proved: proved["twist-six"],
     )  # fmt: skip
@@ -334,19 +338,19 @@ MISTAKES = {
 def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other):
     assert text in claims.TEXT
     with pytest.raises(ConfigError) as error:
-        ledger.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
+        schema.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
     assert error.value.lines[0].startswith(f"claims.toml: {MISTAKES[text][other]}")
 
 
 def test_a_check_that_no_claim_names_is_one_line():
     with pytest.raises(ConfigError, match=r"^claims.toml: no claim has the check model.more$"):
-        ledger.load(claims.TEXT, claims.CHECKS | {"model.more": print})
+        schema.load(claims.TEXT, claims.CHECKS | {"model.more": print})
 
 
 def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
-    monkeypatch.setattr(claims, "needed", lambda: ["fig22/orbits"])
+    monkeypatch.setattr(claims, "required_datasets", lambda: ["fig22/orbits"])
     with pytest.raises(UsageError, match=r"^config.yaml: no scene makes fig22/orbits"):
-        cli_ledger.paths({"variants": {}, "sweeps": {}})
+        cli_ledger.dataset_paths({"variants": {}, "sweeps": {}})
 
 
 @pytest.mark.parametrize(
@@ -362,9 +366,9 @@ def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wron
 @pytest.mark.parametrize("word", ["true", "not computed", "open", ""])
 def test_a_verdict_is_one_of_five_words_and_says_something(word):
     with pytest.raises(ValueError, match="is not allowed"):
-        ledger.Verdict(word, "a value", "", "")
+        schema.Verdict(word, "a value", "", "")
     with pytest.raises(ValueError, match="a verdict without a value is not allowed"):
-        ledger.Verdict(UNDECIDED, "", "", "")
+        schema.Verdict(UNDECIDED, "", "", "")
 
 
 # -- what single rows say -------------------------------------------------------------------------

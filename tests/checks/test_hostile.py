@@ -19,11 +19,11 @@ from verdicts import accepting, verified
 
 from pipeline import config
 from pipeline.checks import archive, manifest
-from pipeline.checks.currency import Currency
+from pipeline.checks.freshness import Freshness
 from pipeline.checks.verify import verify
-from pipeline.cli.arguments import Given
-from pipeline.cli.words import clean
-from pipeline.config import expected
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import clean
+from pipeline.config import build_specs
 from pipeline.records.files import FileError
 from pipeline.records.record import record_path
 
@@ -189,7 +189,7 @@ def forge(tree, path, content=None):
 def test_a_forged_dataset_is_refused_by_all_until_it_is_made_again(moved):
     forge(moved, DATA)
     checked = config.load(moved.config)
-    assert not Currency(moved.path, expected.of_scenes(checked["variants"])).outdated()
+    assert not Freshness(moved.path, build_specs.of_scenes(checked["variants"])).outdated()
     found = verified(moved)
     assert (found.status, set(found.wrong)) == (1, {"fig3.png", "fig3.svg"})
     assert found.findings[0] == f"{DATA}: {FORGED}: delete it: run ./reproduce"
@@ -332,7 +332,7 @@ def everything(tree, checked):
         except (archive.ArchiveError, FileError) as error:
             print(error)
     (tree.path / "a.tar").unlink(missing_ok=True)
-    given = Given(folder=[], yes=True)
+    given = Arguments(folder=[], yes=True)
     given.config = checked
     names = ["paper"]
     for file in clean._made(given, names):

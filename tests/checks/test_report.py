@@ -14,12 +14,12 @@ import pytest
 from project import ROOT, Tree, fresh_tree, shipped, small
 
 from pipeline import config
-from pipeline.checks import contracts
+from pipeline.checks import published_sets
 from pipeline.checks.claims import render as claims
-from pipeline.checks.claims.ledger import CORRECTED, FALSE
+from pipeline.checks.claims.schema import CORRECTED, FALSE
 from pipeline.checks.report import numbers, page
-from pipeline.config import places
-from pipeline.config.declared.kinds import KINDS
+from pipeline.config import paths
+from pipeline.config.schema.kinds import KINDS
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
 
@@ -252,31 +252,31 @@ def test_every_chart_has_words():
     checked = config.load(ROOT / "tests" / "scenes.yaml")
     scenes = {
         scene
-        for contract in contracts.committed(checked)
-        for scene in contract.scenes.values()
-        if contract.folder.rpartition("/")[2] in ("study", "atlas")
+        for published_set in published_sets.committed_sets(checked)
+        for scene in published_set.scenes.values()
+        if published_set.folder.rpartition("/")[2] in ("study", "atlas")
     }
     assert len(scenes) >= 8 and scenes <= set(numbers.CHARTS)
 
 
-def served(scenes):
+def artifact_paths(scenes):
     """(scene, stage) -> dataset of the paper's scenes."""
     return {
         (scene, stage): path
-        for (_, scene, stage), path in places.served({config.PAPER: scenes}).items()
+        for (_, scene, stage), path in paths.artifact_paths({config.PAPER: scenes}).items()
     }
 
 
 def test_every_kind_has_a_caption_and_measures(finished):
     """Of each of the paper's kinds: what is shown comes from the data, not from the config."""
     scenes = config.load(finished.config)["scenes"]
-    where = served(scenes)
+    where = artifact_paths(scenes)
     for scene, block in scenes.items():
         kind = KINDS[block["picture"]]
-        data = {stage: load(finished.path / where[scene, stage]) for stage in places.stages(block)}
+        data = {stage: load(finished.path / where[scene, stage]) for stage in paths.stages(block)}
         ours = numbers.measured(block, data.__getitem__)
-        assert kind.telling in ours and "What to see:" in kind.caption()
-        assert set(numbers.PRINTED[scene]) <= set(ours)
+        assert kind.headline in ours and "What to see:" in kind.caption()
+        assert set(numbers.PAPER_NUMBERS[scene]) <= set(ours)
         told = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
         told |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
         assert numbers.measured(told, data.__getitem__) == ours
@@ -284,10 +284,10 @@ def test_every_kind_has_a_caption_and_measures(finished):
 
 def test_other_data_other_numbers(finished):
     scenes = config.load(finished.config)["scenes"]
-    where = served(scenes)
+    where = artifact_paths(scenes)
 
     def measured(scene, **changes):
-        stages = places.stages(scenes[scene])
+        stages = paths.stages(scenes[scene])
         data = {stage: load(finished.path / where[scene, stage]) for stage in stages}
         for stage, change in changes.items():
             data[stage] = change(data[stage])

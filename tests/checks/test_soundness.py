@@ -9,8 +9,8 @@ from claim_data import made
 
 from pipeline.checks import claims
 from pipeline.checks.claims import soundness
-from pipeline.checks.claims.ledger import CORRECTED, HOLDS, UNDECIDED
-from pipeline.cli import ledger as cli_ledger
+from pipeline.checks.claims.schema import CORRECTED, HOLDS, UNDECIDED
+from pipeline.cli import claim_verdicts as cli_ledger
 from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics import motion
@@ -33,13 +33,13 @@ def with_all(dataset, change):
 
 
 def test_every_stage_that_claims_rest_on_has_its_check():
-    assert {name.rpartition("/")[2] for name in claims.needed()} == set(SOUND)
+    assert {name.rpartition("/")[2] for name in claims.required_datasets()} == set(SOUND)
     assert set(soundness.CHECKS) < set(SOUND)
 
 
 @pytest.mark.parametrize("stage", SOUND)
 def test_our_own_datasets_are_of_their_map(datasets, stage):
-    assert soundness.fault(stage, datasets[SOUND[stage]]) is None
+    assert soundness.dataset_error(stage, datasets[SOUND[stage]]) is None
 
 
 @pytest.mark.parametrize("stage", SOUND)
@@ -53,14 +53,16 @@ def test_our_own_datasets_are_of_their_map(datasets, stage):
     ids=["more", "less", "noise"],
 )
 def test_numbers_a_little_off_are_not_of_the_map(datasets, stage, change):
-    assert soundness.fault(stage, with_all(datasets[SOUND[stage]], change))
+    assert soundness.dataset_error(stage, with_all(datasets[SOUND[stage]], change))
 
 
 @pytest.mark.parametrize("stage", ["orbits", "periodic", "manifolds", "lyapunov", "spread"])
 def test_another_ball_or_energy_is_noticed(datasets, stage):
     dataset = datasets[SOUND[stage]]
     for name in ("k", "g", "energy"):
-        assert soundness.fault(stage, dataset.assign_attrs({name: 1.1 * dataset.attrs[name]}))
+        assert soundness.dataset_error(
+            stage, dataset.assign_attrs({name: 1.1 * dataset.attrs[name]})
+        )
 
 
 TENTH_LESS = {
@@ -81,24 +83,26 @@ TENTH_LESS = {
 @pytest.mark.parametrize(("stage", "name"), [(s, n) for s in TENTH_LESS for n in TENTH_LESS[s]])
 def test_one_variable_a_tenth_less_is_noticed_by_name(datasets, stage, name):
     dataset = datasets[SOUND[stage]]
-    words = soundness.fault(stage, dataset.assign({name: 0.9 * dataset[name]}))
+    words = soundness.dataset_error(stage, dataset.assign({name: 0.9 * dataset[name]}))
     assert name in words or name.removeprefix("regular_") in words
 
 
 def test_a_verdict_of_the_derivations_that_is_turned_round_is_noticed(datasets):
     dataset = datasets["derivations"]
     turned = dataset.assign({"printed": 1 - dataset["printed"]})
-    assert soundness.fault("derivations", turned) == "its printed[0] is 0, made again 1"
+    assert soundness.dataset_error("derivations", turned) == "its printed[0] is 0, made again 1"
 
 
 def test_numbers_by_another_method_are_made_again_by_it(datasets):
     dataset = datasets["as_published/fig7/lyapunov"]
-    assert soundness.fault("lyapunov", dataset) is None
+    assert soundness.dataset_error("lyapunov", dataset) is None
     other = dataset.assign_attrs(impacts_missed=0)
-    assert soundness.fault("lyapunov", other).startswith("its impacts_missed is 0, made again ")
+    assert soundness.dataset_error("lyapunov", other).startswith(
+        "its impacts_missed is 0, made again "
+    )
     config = json.loads(dataset.attrs["config"])
     del config["method"]
-    assert soundness.fault("lyapunov", dataset.assign_attrs(config=json.dumps(config)))
+    assert soundness.dataset_error("lyapunov", dataset.assign_attrs(config=json.dumps(config)))
 
 
 def test_what_a_method_does_not_decide_is_made_without_it():
@@ -108,15 +112,15 @@ def test_what_a_method_does_not_decide_is_made_without_it():
     fields = {"period": 1, "type": "elliptic", "duration": 16}
     found = made(motion.scene_motion, one, ball=ball, method=scan, **fields)
     found = found.assign_attrs(impacts=ball.map.impacts, impacts_missed=ball.map.missed)
-    assert soundness.fault("motion", found) is None
+    assert soundness.dataset_error("motion", found) is None
 
 
 def test_what_a_stage_does_not_make_is_not_believed(datasets):
     exact = datasets["fig7/lyapunov"].assign_attrs(impacts=600_000, impacts_missed=0)
     words = "it has impacts, impacts_missed, which its stage does not make"
-    assert soundness.fault("lyapunov", exact) == words
+    assert soundness.dataset_error("lyapunov", exact) == words
     more = datasets["fig3/motion"].assign(other=datasets["fig3/motion"]["t"])
-    assert soundness.fault("motion", more) == "it has other, which its stage does not make"
+    assert soundness.dataset_error("motion", more) == "it has other, which its stage does not make"
 
 
 def test_a_share_outside_its_interval_is_noticed_beside_one_that_is_no_number(datasets):
@@ -124,24 +128,24 @@ def test_a_share_outside_its_interval_is_noticed_beside_one_that_is_no_number(da
     places = (share["k"] == share["k"][1]) & (share["energy"] == share["energy"][0])
     for wrong in (np.nan, 5.0):
         plane = datasets["atlas/plane"].assign(regular=share.where(~places, wrong))
-        assert soundness.fault("plane", plane).startswith("a share is not between ")
+        assert soundness.dataset_error("plane", plane).startswith("a share is not between ")
 
 
 def test_a_number_without_dimensions_is_compared_too(monkeypatch):
     ours, given = (xr.Dataset({"zero": value}, attrs={"config": "{}"}) for value in (1.0, 2.0))
     monkeypatch.setattr(soundness, "_made", lambda *_: ours)
     given = given.assign_attrs(k=0.2, g=0.04, energy=HIGH)
-    assert soundness.fault("twist", given) == "its zero[] is 2.0, made again 1.0"
+    assert soundness.dataset_error("twist", given) == "its zero[] is 2.0, made again 1.0"
 
 
 @pytest.mark.parametrize("config", ["[]", "null", '"x"', "{"])
 def test_a_config_that_is_no_mapping_is_one_line(datasets, config):
     dataset = datasets["fig3/motion"].assign_attrs(config=config)
-    assert soundness.fault("motion", dataset).startswith("it cannot be read as one (")
+    assert soundness.dataset_error("motion", dataset).startswith("it cannot be read as one (")
 
 
 def test_a_dataset_of_another_stage_is_refused_in_words(datasets):
-    assert "cannot be read" in soundness.fault("spread", datasets["fig2/orbits"])
+    assert "cannot be read" in soundness.dataset_error("spread", datasets["fig2/orbits"])
 
 
 def test_a_file_is_judged_and_one_of_another_map_is_not(datasets, tmp_path):

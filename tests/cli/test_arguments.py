@@ -11,7 +11,7 @@ import pytest
 from project import ROOT
 
 from pipeline.cli import arguments
-from pipeline.config.checking import document
+from pipeline.config.validation import document
 
 
 def answer(capsys, *words):
@@ -27,18 +27,18 @@ def test_help_has_a_line_for_each_word(capsys):
     for words in (["--help"], ["-h"], ["help"], ["fig3", "--help"]):
         status, out, err = answer(capsys, *words)
         assert (status, err) == (0, "")
-        for word, about in arguments.WORDS.items():
+        for word, about in arguments.COMMANDS.items():
             assert re.search(rf"^  {word} +{re.escape(about.line)}$", out, re.MULTILINE)
     assert len(out.splitlines()) < 40
 
 
-@pytest.mark.parametrize("word", arguments.WORDS)
+@pytest.mark.parametrize("word", arguments.COMMANDS)
 def test_each_word_tells_its_arguments(capsys, word):
     told = [answer(capsys, word, "--help"), answer(capsys, "help", word)]
     assert told[0] == told[1]
     status, out, err = told[0]
     assert (status, err) == (0, "")
-    about = arguments.WORDS[word]
+    about = arguments.COMMANDS[word]
     for name, how in about.arguments:
         assert how.get("metavar", name) in out
     assert ("goes to snakemake" in " ".join(out.split())) == about.passes
@@ -64,13 +64,13 @@ def test_a_python_too_old_for_the_rest_answers_too(name):
     assert ask("--help").stdout.count("\n") < 40
     assert ask("fig33").stderr == "reproduce: no word or figure fig33: did you mean fig3?\n"
     going = ask("sweep", "plane", "-n")
-    assert (going.returncode, going.stderr) == (arguments.GO_ON, "")
+    assert (going.returncode, going.stderr) == (arguments.VALID_SO_FAR, "")
 
 
-@pytest.mark.parametrize("word", arguments.WORDS)
+@pytest.mark.parametrize("word", arguments.COMMANDS)
 def test_each_word_has_its_module(word):
-    name = arguments.WORDS[word].module or word
-    found = (ROOT / "src/pipeline/cli/words" / f"{name}.py").is_file()
+    name = arguments.COMMANDS[word].module or word
+    found = (ROOT / "src/pipeline/cli/commands" / f"{name}.py").is_file()
     assert found or word == "help"
 
 
@@ -81,7 +81,7 @@ def test_theorems_are_called_as_their_certificates():
 
 
 def test_the_config_knows_the_words():
-    assert {*arguments.WORDS, "all"} == set(document.WORDS)
+    assert {*arguments.COMMANDS, "all"} == set(document.WORDS)
 
 
 def test_the_version_is_ours_and_snakemakes(capsys):
@@ -146,7 +146,7 @@ def test_what_is_misspelt_is_one_line_with_the_nearest_name(capsys, line):
     ],
 )
 def test_what_may_be_right_goes_on(capsys, line):
-    assert answer(capsys, *line.split()) == (arguments.GO_ON, "", "")
+    assert answer(capsys, *line.split()) == (arguments.VALID_SO_FAR, "", "")
 
 
 def test_names_come_first_then_snakemakes_options_among_a_words_own():

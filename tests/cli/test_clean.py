@@ -8,8 +8,8 @@ import pytest
 from project import Tree, fresh_tree, of_scenes
 
 from pipeline import config
-from pipeline.cli.arguments import Given
-from pipeline.cli.words import clean
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import clean
 
 
 @pytest.fixture
@@ -107,7 +107,7 @@ def cleaned(tree, monkeypatch):
     monkeypatch.setattr(clean, "ROOT", tree.path)
     monkeypatch.setattr(clean, "RESULTS", tree.path / "results")
     monkeypatch.setattr(clean, "locked", nullcontext)
-    given = Given(folder=[], yes=True, config=config.load(tree.config))
+    given = Arguments(folder=[], yes=True, config=config.load(tree.config))
     return lambda: clean.run(given)
 
 

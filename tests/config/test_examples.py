@@ -10,9 +10,9 @@ from jinja2 import Environment, StrictUndefined
 from legible import assert_text_is_whole_and_apart
 
 from pipeline.config import ConfigError, check
-from pipeline.config.declared.kinds import KINDS
-from pipeline.config.declared.stages import STAGES, behind
 from pipeline.config.reference import example
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.stages import STAGES, upstream
 from pseudorigid import Ball
 from pseudorigid.figures.axes.panel import Panel
 from pseudorigid.figures.canvas.render import render
@@ -30,7 +30,7 @@ def made(block, legible=True):
     """The picture, the quantities and the caption of a complete block, computed here."""
     kind, data = KINDS[block["picture"]], {}
     ball, energy = Ball(**block["ball"]), block["energy"]
-    for name in behind(kind.stages):
+    for name in upstream(kind.stages):
         stage = STAGES[name]
         compute = getattr(import_module(stage.module), stage.function)
         fields = {field: block[field] for field in stage.fields if field in block}
@@ -80,7 +80,7 @@ def test_the_example_of_a_kind_is_made_without_a_warning(name, request):
         warnings.simplefilter("error")
         picture, numbers, caption = made(block)
     assert len(picture) > 5000
-    assert KINDS[name].telling in numbers
+    assert KINDS[name].headline in numbers
     assert "nan" not in " ".join(numbers.values())
     assert len(caption) > 100
 

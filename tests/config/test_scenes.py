@@ -6,7 +6,7 @@ from documents import AXES, SCENES, changed, complaint, complaints, good
 from project import shipped
 
 from pipeline import config
-from pipeline.config.declared.kinds import KINDS
+from pipeline.config.schema.kinds import KINDS
 
 
 def test_a_good_config_comes_back_complete():

@@ -5,7 +5,7 @@ from documents import complaints
 from project import shipped
 
 from pipeline import config
-from pipeline.config import places
+from pipeline.config import paths
 
 BASE = shipped()
 NO_SCENE_FITS = {"ball": {"g": 0.095}}  # of those at energy 0.01
@@ -117,10 +117,10 @@ def test_equal_stages_of_variants_are_computed_once():
         first={"scenes": {"fig8": {"impacts": [9] * 6}}},
         second={"scenes": {"fig8": {"impacts": [9] * 6, "sea": []}}},
     )
-    serves = places.served(variants)
-    assert serves["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
-    assert serves["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
-    assert serves["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
+    artifact_paths = paths.artifact_paths(variants)
+    assert artifact_paths["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
+    assert artifact_paths["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
+    assert artifact_paths["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
 
 
 def test_a_scale_is_exact():

@@ -32,7 +32,7 @@ def entry(name, call, value, **others):
     if isinstance(found, Ball):
         return [found.k, found.g]
     if isinstance(found, ImpactMap):
-        return list(found.how)
+        return list(found.root_finder)
     return list(found) if isinstance(found, tuple) else [found]
 
 

@@ -5,12 +5,12 @@ import pytest
 import xarray as xr
 
 from pipeline.checks.compare import exponents
-from pipeline.config.declared.kinds import KINDS
+from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid.analyses.spread import stretches
 from pseudorigid.dynamics import lyapunov
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
-from pseudorigid.evidence.spread import stretches
 from pseudorigid.figures.kinds.exponents import draw
 
 BALL = Ball(0.2, 0.04)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, lyapunov_spectrum
+from pseudorigid.analyses import clusters, flux, jumps, last_curve, rotation, spread
 from pseudorigid.dynamics import orbits
-from pseudorigid.evidence import clusters, flux, jumps, last_curve, rotation, spread
 from pseudorigid.figures import kinds
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render

@@ -22,7 +22,7 @@ from slowly import slowly
 
 from pseudorigid.figures.axes import box, projection
 from pseudorigid.figures.canvas import sheet, style
-from pseudorigid.figures.canvas.ragged import rows
+from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels
 
 
@@ -82,7 +82,7 @@ def test_sine_and_cosine_of_the_view_are_correctly_rounded(degrees):
 
 
 def test_settled_pixels_keep_their_distance_from_every_threshold():
-    pixels = sheet.settle(np.random.default_rng(6).uniform(0, 1500, 10000))
+    pixels = sheet.snap_to_pixels(np.random.default_rng(6).uniform(0, 1500, 10000))
     for step in (1 / 256, 1 / 2, 1):
         part = pixels / step % 1
         assert np.minimum(part, 1 - part).min() * step >= 0.2 / 256

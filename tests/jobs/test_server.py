@@ -33,7 +33,7 @@ if __name__ == "__main__":
     count, suffix, *programs = sys.argv[1:]
     specs = [spec(i, name, suffix) for i, name in enumerate(programs * int(count))]
     specs = {each.result: each for each in specs}
-    with server.serving(server.Plan({}, specs, set(specs))) as variables:
+    with server.job_server(server.Plan({}, specs, set(specs))) as variables:
         os.environ |= variables
         with ThreadPoolExecutor(8) as pool:
             print(*pool.map(status, specs))
@@ -85,7 +85,7 @@ def test_where_no_server_can_be_jobs_start_as_usual(monkeypatch):
         raise OSError("AF_UNIX path too long")
 
     monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
-    with server.serving(server.Plan({}, {}, set())) as variables:
+    with server.job_server(server.Plan({}, {}, set())) as variables:
         assert variables == {}
 
 
@@ -98,6 +98,6 @@ def test_a_job_whose_server_has_ended_fails(tmp_path):
 def test_what_is_current_when_its_job_begins_stays_as_it_is():
     spec = BuildSpec("results/paper/x.nc", "fig", "step", {}, "stage", None, [], [])
     plan = server.Plan({}, {spec.result: spec}, {spec.result})
-    with server.serving(plan, lambda path: path == spec.result) as variables:
+    with server.job_server(plan, lambda path: path == spec.result) as variables:
         command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", spec.result]
         assert subprocess.call(command, env=variables) == 0

@@ -6,11 +6,11 @@ import mpmath
 import numpy as np
 import pytest
 from flights import FAMILIES, TAU, ahead, before, by_mpmath, error
-from judge import judge
+from independent_solver import judge
 from mpmath import mpf
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.proofs.judge import first_root
+from pseudorigid.proofs.reference_solver import first_root
 
 # sha256 of the doubles of the flights of test_bits_of_many_flights.
 FROZEN = "17974d2c018124caaa0b355ed33a3819b44222e6f11b4825fe09d60f1405d4c0"

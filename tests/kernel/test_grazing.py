@@ -12,7 +12,7 @@ import pytest
 from flights import TAU, before, error
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from judge import judge
+from independent_solver import judge
 from mpmath import mpf
 from slowly import slowly
 

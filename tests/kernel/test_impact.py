@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from judge import exact_jacobian, judge
+from independent_solver import exact_jacobian, judge
 from sections import BALL, section_states
 
 from pseudorigid.dynamics.ball import Ball

@@ -69,20 +69,20 @@ def test_few_flights_leave_their_lane(monkeypatch):
     """What is left to `impact.step` is the exception, or the lanes would be for nothing."""
     states = sea(lanes.LANES)
     row = np.zeros(lanes.SIZE)
-    head, low = impact.transfer(BALL.k)
+    coefficients = impact.impact_coefficients(BALL.k)
     for i in range(lanes.LANES):
-        lanes._begin_orbit(row, i, *(a[i] for a in states), 10**6, BALL.k, BALL.g, head, low)
+        lanes._begin_orbit(row, i, *(a[i] for a in states), 10**6, BALL.k, BALL.g, coefficients)
     left = 0
     for _ in range(3000):
-        lanes._gaps(row, BALL.k, BALL.g, head, low)
+        lanes._gaps(row, BALL.k, BALL.g, coefficients)
         lanes._march(row, BALL.g)
         lanes._land(row)
         lanes._follow(row, BALL.g)
-        lanes._end_flights(row, BALL.k, BALL.g, head, low)
+        lanes._end_flights(row, BALL.k, BALL.g, coefficients)
         for i in range(lanes.LANES):
             odd = row[lanes.ODD + i]
             if odd == lanes._ALONE or (odd and not lanes._stride_alone(row, i, BALL.g)):
-                lanes._step_alone(row, i, BALL.k, BALL.g, head, low)
+                lanes._step_alone(row, i, BALL.k, BALL.g, coefficients)
                 left += 1
     done = np.sum(10**6 - row[lanes.LEFT : lanes.LEFT + lanes.LANES])
     assert done > 1000 * lanes.LANES
@@ -92,7 +92,7 @@ def test_few_flights_leave_their_lane(monkeypatch):
 @pytest.mark.parametrize("threads", ["1", "3", "8", "", "many"])
 def test_threads_do_not_matter(threads, monkeypatch):
     states = sea(300)
-    assert 3 * ensemble.WORTH < 300 * 400
+    assert 3 * ensemble.MIN_IMPACTS_PER_THREAD < 300 * 400
     expected = alone(states, BALL, 400)
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     out = np.empty_like(expected)

@@ -10,7 +10,7 @@ import numba
 import numpy as np
 from sections import BALL, section_states
 
-from pseudorigid.dynamics import follow, lyapunov
+from pseudorigid.dynamics import lyapunov, tangent_orbits
 from pseudorigid.kernel import arithmetic, impact, lanes, tangents
 
 # A fused multiply-add changes bits from processor to processor, and so does a library's sine.
@@ -51,16 +51,19 @@ def test_machine_code_is_strict():
 def test_the_loops_over_lanes_are_vector_instructions():
     """Whether the compiler sees that they may be depends on how an index is written."""
     row, h = np.ones(lanes.SIZE), (0.1, 0.1)
-    states, flights = tangents.room()
+    states, flights = tangents.allocate_buffers()
     states[:] = flights[:] = 1.0
     frames = np.ones(15 * tangents.GROUP)
     for loop, arguments in (
         (lanes._march, (row, 0.04)),
         (lanes._land, (row,)),
-        (lanes._end_flights, (row, 0.2, 0.04, *h)),
-        (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, *h)),
-        (follow._observe, (np.ones(follow._ROWS), 64, 0.2, 1.0, *h, states, flights, 0)),
-        (lyapunov._advance, (frames, 64, 0.2, 1.0, *h, states, flights, 0)),
+        (lanes._end_flights, (row, 0.2, 0.04, h)),
+        (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
+        (
+            tangent_orbits._observe,
+            (np.ones(tangent_orbits._ROWS), 64, 0.2, 1.0, h, states, flights, 0),
+        ),
+        (lyapunov._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
     ):
         assert re.search(r"fdiv <\d+ x double>", code(loop, *arguments)), loop
 

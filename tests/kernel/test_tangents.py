@@ -16,16 +16,16 @@ BALL = Ball(k=0.2, g=0.04)
 
 def alone(states, vectors, ball, impacts):
     """The vector (3, n) of each state after `impacts`, one orbit after the other."""
-    head, low = impact.transfer(ball.k)
+    coefficients = impact.impact_coefficients(ball.k)
     out = vectors.copy()
     for i in range(states[0].size):
         x, v, w = (float(a[i]) for a in states)
         vector = tuple(out[:, i])
         for _ in range(impacts):
             x, v, w, _, *flight, _ = impact.step_with_flight(
-                x, v, w, ball.k, ball.g, head, low, None
+                x, v, w, ball.k, ball.g, coefficients, None
             )
-            vector = impact.tangent(*vector, ball.k, ball.g, head, low, x, w, *flight)
+            vector = impact.tangent(*vector, ball.k, ball.g, coefficients, x, w, *flight)
         out[:, i] = vector
     return out
 
@@ -33,20 +33,20 @@ def alone(states, vectors, ball, impacts):
 def together(states, vectors, ball, impacts, how=None):
     """The same by stretches, and the states at the end."""
     x, v, w = (a.copy() for a in states)
-    head, low = impact.transfer(ball.k)
+    coefficients = impact.impact_coefficients(ball.k)
     out = vectors.copy()
     for first in range(0, x.size, tangents.GROUP):
         part = slice(first, min(first + tangents.GROUP, x.size))
-        rooms = tangents.room()
+        rooms = tangents.allocate_buffers()
         done = 0
         while done < impacts:
-            count = min(tangents.STRETCH, impacts - done)
-            tangents.stretch(x[part], v[part], w[part], ball.k, ball.g, count, *rooms, how)
+            count = min(tangents.CHUNK, impacts - done)
+            tangents.advance_chunk(x[part], v[part], w[part], ball.k, ball.g, count, *rooms, how)
             for row in range(0, count * tangents.GROUP, tangents.GROUP):
                 for i in range(part.stop - part.start):
                     at = row + i
-                    out[:, first + i] = tangents.carried(
-                        *out[:, first + i], ball.k, ball.g, head, low, *rooms, at
+                    out[:, first + i] = tangents.push_tangent(
+                        *out[:, first + i], ball.k, ball.g, coefficients, *rooms, at
                     )
             done += count
     return out, (x, v, w)
@@ -56,10 +56,19 @@ def some_vectors(n):
     return np.random.default_rng(n).normal(size=(3, n))
 
 
-@pytest.mark.parametrize("n", [1, lanes.FEW - 1, lanes.FEW, lanes.LANES + 1, tangents.GROUP + 2])
+@pytest.mark.parametrize(
+    "n",
+    [
+        1,
+        lanes.MIN_ORBITS_FOR_LANES - 1,
+        lanes.MIN_ORBITS_FOR_LANES,
+        lanes.LANES + 1,
+        tangents.GROUP + 2,
+    ],
+)
 def test_every_vector_has_the_bits_of_one_orbit(n):
     states, vectors = sea(n), some_vectors(n)
-    impacts = tangents.STRETCH + 9
+    impacts = tangents.CHUNK + 9
     found, ends = together(states, vectors, BALL, impacts)
     assert np.array_equal(found, alone(states, vectors, BALL, impacts))
     steps = [a.copy() for a in states]

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
-from judge import exact_map
+from independent_solver import exact_map
 
 from pseudorigid import Ball
 from pseudorigid.proofs import THEOREMS, Surface

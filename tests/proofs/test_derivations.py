@@ -9,7 +9,7 @@ import sympy as sp
 
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.kernel import impact, law
+from pseudorigid.kernel import impact, impact_law
 from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
 from pseudorigid.proofs.derivations.symbols import energy, flight, g, k, rebound, tau, v, w, x
@@ -72,7 +72,7 @@ def test_modes_that_an_axial_force_excites_by_eigenvectors(poisson, excited):
 
 def test_a_wrong_impact_law_is_noticed(monkeypatch):
     def wrong(v, w):
-        b, c = law.rebound(v, w, k, 2 / (1 + k), 0)[:2]
+        b, c = impact_law.rebound(v, w, k, (2 / (1 + k), 0))[:2]
         return b, -c
 
     monkeypatch.setattr(model, "rebound", wrong)
@@ -110,9 +110,9 @@ def test_tangent_map_of_the_code():
     slope = sum(flight(x, b, c, tau)).diff(tau)
     # as in impact.flight_derivatives
     parts = -(1 - cosine) / slope, tau / slope, -(sine - tau) / slope
-    names = dict(impact.tangent.py_func.__globals__) | {"rebound": law.rebound}
+    names = dict(impact.tangent.py_func.__globals__) | {"rebound": impact_law.rebound}
     plain = type(impact.tangent.py_func)(impact.tangent.py_func.__code__, names)
-    arguments = (k, g, 2 / (1 + k), 0, -strain, strain.diff(tau), sine, cosine, *parts)
+    arguments = (k, g, (2 / (1 + k), 0), -strain, strain.diff(tau), sine, cosine, *parts)
     pairs = zip(plain(*forms.DIRECTION, *arguments), forms.tangent_map(), strict=True)
     assert all(sp.simplify(found - wanted) == 0 for found, wanted in pairs)
 
@@ -123,7 +123,9 @@ def test_derivatives_of_a_flight_time():
     state = BALL.state_xy(0.31, 0.02, 0.01)
     end = BALL.impact(*state)
     values = dict(zip((x, v, w), state, strict=True)) | {k: BALL.k, g: BALL.g, tau: end[3]}
-    speed, rate = law.rebound(state[1], state[2], BALL.k, *law.transfer(BALL.k))[:2]
+    speed, rate = impact_law.rebound(
+        state[1], state[2], BALL.k, impact_law.impact_coefficients(BALL.k)
+    )[:2]
     speeds = state[0], speed, rate, state[1] + state[2], BALL.g, end[3]
     found = impact.flight_derivatives(*speeds, quadrant(end[3]))
     slope = float(gap.diff(tau).subs(values))

@@ -15,9 +15,9 @@ from pseudorigid.proofs.checks import horseshoe, jump, periodic
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.enclosure.surface import ball_of
+from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search import horseshoe as horseshoes
 from pseudorigid.proofs.search import jump as jumps
-from pseudorigid.proofs.search import known
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
 BALL = Ball(k=0.2, g=0.04)
@@ -213,7 +213,7 @@ def test_an_orbit_elsewhere_shorter_or_longer_is_refused(name):
         theorem.checker(text, **theorem.bounds | {"window": elsewhere})
     for rows in (points + points, points[:-1] or points * 2):
         assert f"points, not {period}" in refused(name, replaced(text, "points", rows))
-    ((x, y),) = known.points(theorem.bounds["surface"], 1, "elliptic")
+    ((x, y),) = approximate_orbits.points(theorem.bounds["surface"], 1, "elliptic")
     refused(name, replaced(text, "points", [[repr(x), repr(y)]] * period))
     smaller = theorem.bounds["radius"] / 2
     assert "as stated" in refused(name, re.sub("radius = .*", f'radius = "{smaller}"', text))
@@ -287,7 +287,10 @@ def test_a_longer_chain_is_refused_for_its_entropy():
     theorem = THEOREMS["horseshoe-outer"]
     surface = theorem.bounds["surface"]
     less = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(0)})
-    ball, points = known.ball(surface), known.points(surface, 6, "hyperbolic")
+    ball, points = (
+        approximate_orbits.ball(surface),
+        approximate_orbits.points(surface, 6, "hyperbolic"),
+    )
     plan = horseshoes.Plan(side=1, steps=72, size=3e-5, room=1.06)
     text = horseshoes.propose(surface, ball, points, plan, less.prove)
     assert less.check(text).verdict == "proved"
@@ -309,10 +312,10 @@ def test_a_finding_with_a_margin_that_is_not_positive_is_refused(margin):
 
 def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period():
     surface = Surface("1/3", "1/25", "1/10")
-    near = known.ball(surface)
+    near = approximate_orbits.ball(surface)
     found = symmetric_orbits(near, 0.1, 3)
     saddles = [i for i in range(found.sizes["orbit"]) if "hyper" in found["type"].values[i]]
-    points = known.chart(near, found.isel(orbit=saddles[0]))
+    points = approximate_orbits.chart(near, found.isel(orbit=saddles[0]))
     centres = [[Fraction(a) for a in point] for point in points]
     radius = Fraction(1, 10**9)
     assert len(periodic.prove(surface, centres, radius).points) == 3

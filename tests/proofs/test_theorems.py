@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from certificates import numbers
 from flint import arb, ctx
-from judge import exact_map
+from independent_solver import exact_map
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, search_certificate
@@ -238,7 +238,7 @@ def test_the_time_is_that_of_the_check():
 @pytest.mark.parametrize("name", ["twist-six", "twist-ten", "twist-twelve"])
 def test_the_twist_of_the_search_is_found_another_way(name):
     """The closed formula and the normal form: two derivations, one number."""
-    from pseudorigid.proofs.search import known
+    from pseudorigid.proofs.search import approximate_orbits
     from pseudorigid.proofs.search import twist as formula
     from pseudorigid.proofs.search.periodic import polished
 
@@ -246,5 +246,7 @@ def test_the_twist_of_the_search_is_found_another_way(name):
     found = theorem.prove(theorem.text()).digits["twist"]
     surface = theorem.bounds["surface"]
     with ctx.workprec(160):
-        points = polished(surface, known.points(surface, theorem.bounds["period"], "elliptic"))
+        points = polished(
+            surface, approximate_orbits.points(surface, theorem.bounds["period"], "elliptic")
+        )
         assert abs(formula.estimate(surface, points) - found) < arb("1e-25")

@@ -13,7 +13,7 @@ from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.proofs import true_orbit, true_scene_orbits
 from pseudorigid.proofs.enclosure import surface
-from pseudorigid.proofs.true_orbits import follow, keeping, orbit, start
+from pseudorigid.proofs.true_orbits import checkpoints, enclosed_run, orbit, start
 
 BALL = Ball(k=0.2, g=0.04)
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}
@@ -101,7 +101,7 @@ def test_a_run_short_of_bits_starts_over_with_more(monkeypatch):
 
 def test_the_bound_holds_the_true_orbit():
     place = exact_start()
-    run = follow.Run(place.surface, place, 150, 200)
+    run = enclosed_run.Run(place.surface, place, 150, 200)
     rows = independent(150, 80)
     for row in rows:
         run.step()
@@ -164,10 +164,10 @@ def test_the_elliptic_orbit_returns_for_as_long_as_one_looks():
 
 
 def test_a_killed_run_goes_on_where_it_was(tmp_path, monkeypatch):
-    monkeypatch.setattr(keeping, "EVERY", 0.0)
+    monkeypatch.setattr(checkpoints, "EVERY", 0.0)
     whole = true_orbit(**PAPER, x="2/5", impacts=200)
     file = tmp_path / "orbit.npz"
-    step, steps = follow.Run.step, []
+    step, steps = enclosed_run.Run.step, []
 
     def dies(run):
         if len(steps) == 120:
@@ -175,12 +175,12 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path, monkeypatch):
         steps.append(run.count)
         step(run)
 
-    monkeypatch.setattr(follow.Run, "step", dies)
+    monkeypatch.setattr(enclosed_run.Run, "step", dies)
     with pytest.raises(KeyboardInterrupt):
         true_orbit(**PAPER, x="2/5", impacts=200, checkpoint=file)
     assert file.exists()
     steps.clear()
-    monkeypatch.setattr(follow.Run, "step", lambda run: (steps.append(run.count), step(run)))
+    monkeypatch.setattr(enclosed_run.Run, "step", lambda run: (steps.append(run.count), step(run)))
     data = true_orbit(**PAPER, x="2/5", impacts=200, checkpoint=file)
     assert steps == list(range(120, 200))
     assert data.identical(whole)
@@ -188,33 +188,37 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path, monkeypatch):
 
 
 def test_a_checkpoint_of_another_orbit_or_a_damaged_one_is_not_used(tmp_path, monkeypatch):
-    monkeypatch.setattr(keeping, "EVERY", 0.0)
+    monkeypatch.setattr(checkpoints, "EVERY", 0.0)
     whole = true_orbit(**PAPER, x="2/5", impacts=30)
     file = tmp_path / "orbit.npz"
     for content in (b"", b"PK\x03\x04 damaged", b"x" * 1000):
         file.write_bytes(content)
         assert true_orbit(**PAPER, x="2/5", impacts=30, checkpoint=file).identical(whole)
-    run = follow.Run(exact_start().surface, exact_start(), 30, 300)
+    run = enclosed_run.Run(exact_start().surface, exact_start(), 30, 300)
     run.step()
-    keeping.save(file, identity=json.dumps(["another"]), state=run.state(), values=run.values[:1])
+    checkpoints.save(
+        file, identity=json.dumps(["another"]), state=run.state(), values=run.values[:1]
+    )
     assert true_orbit(**PAPER, x="2/5", impacts=30, checkpoint=file).identical(whole)
 
 
 def test_finished_orbits_of_a_scene_are_kept(tmp_path, monkeypatch):
     arguments = {**PAPER, "starts": ["0.5", "0.1"], "impacts": [40, 30]}
     whole = true_scene_orbits(**arguments)
-    step = follow.Run.step
+    step = enclosed_run.Run.step
 
     def dies(run):
         if run.impacts == 30:
             raise KeyboardInterrupt
         step(run)
 
-    monkeypatch.setattr(follow.Run, "step", dies)
+    monkeypatch.setattr(enclosed_run.Run, "step", dies)
     with pytest.raises(KeyboardInterrupt):
         true_scene_orbits(**arguments, folder=tmp_path / "kept")
     begun = []
-    monkeypatch.setattr(follow.Run, "step", lambda run: (begun.append(run.impacts), step(run)))
+    monkeypatch.setattr(
+        enclosed_run.Run, "step", lambda run: (begun.append(run.impacts), step(run))
+    )
     assert true_scene_orbits(**arguments, folder=tmp_path / "kept").identical(whole)
     assert set(begun) == {30}
     assert list(tmp_path.iterdir()) == []
@@ -254,7 +258,7 @@ def test_bad_input_is_refused_in_one_line(monkeypatch):
     refuse("is not inside the section's rim", energy="0", x="2/5")
     refuse("start = 1 is not inside", x=None, start="1")
     refuse("need [0-9]+ GB of memory", impacts=10**12)
-    monkeypatch.setattr(follow, "MOST_BITS", 200)
+    monkeypatch.setattr(enclosed_run, "MOST_BITS", 200)
     refuse("300 impacts of this orbit need [0-9]+ bits, more than 200", impacts=300)
 
 

@@ -2,13 +2,13 @@
 
 import pytest
 
-from pipeline.config.declared.stages import STAGES
+from pipeline.config.schema.stages import STAGES
 from pipeline.records import sources
 
 
 def of_stage(name):
     """The science's files behind a stage, without their package."""
-    files = sources.closure("pipeline.jobs.stage", STAGES[name].module)
+    files = sources.source_files("pipeline.jobs.stage", STAGES[name].module)
     return {file.removeprefix("src/pseudorigid/") for file in files if "pseudorigid" in file}
 
 
@@ -23,7 +23,7 @@ def test_a_job_depends_on_what_it_imports_and_no_more():
     assert wanted <= used
     assert not used & {"dynamics/manifolds.py", "dynamics/periodic.py"}
     assert not {name for name in of_stage("orbits") if name.startswith("figures")}
-    drawing = sources.closure("pipeline.jobs.draw", "pseudorigid.figures.kinds.motion")
+    drawing = sources.source_files("pipeline.jobs.draw", "pseudorigid.figures.kinds.motion")
     assert "src/pseudorigid/figures/kinds/motion.py" in drawing
     assert "src/pseudorigid/figures/kinds/portrait.py" not in drawing
     assert not [file for file in drawing if file.startswith("src/pipeline/config")]
@@ -46,9 +46,9 @@ def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
         (package / name).write_text(text)
     monkeypatch.setattr(sources, "SRC", tmp_path)
     monkeypatch.setattr(sources, "ROOT", package)
-    found = sources.closure("pseudorigid.a")
+    found = sources.source_files("pseudorigid.a")
     assert found == ["a.py", "c.py", "d.py", "inner/__init__.py", "inner/b.py"]
     with pytest.raises(ValueError, match="import Ball from its module"):
-        sources.closure("pseudorigid.lazy")
+        sources.source_files("pseudorigid.lazy")
     with pytest.raises(ValueError, match=r"no module pseudorigid\.nowhere"):
-        sources.closure("pseudorigid.lost")
+        sources.source_files("pseudorigid.lost")

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from judge import exact_map, judge
+from independent_solver import exact_map, judge
 from mpmath import mpf
 
-from pseudorigid.proofs import judge as proved
+from pseudorigid.proofs import reference_solver as proved
 from pseudorigid.study import failures, states
-from pseudorigid.study.methods.counted import OURS, engine_method, scan_method
+from pseudorigid.study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
 SCAN = scan_method(0.5, 1e-12)

@@ -8,11 +8,11 @@ import pytest
 
 pytest.importorskip("flint")
 
-from pipeline.config.declared import study as parts
-from pipeline.config.declared.kinds import KINDS
+from pipeline.config.schema import study as parts
+from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.study import figure_errors
-from pseudorigid.study.methods.counted import ENGINES, OURS, SCANS
+from pseudorigid.study.methods.counted_methods import ENGINES, OURS, SCANS
 
 BALL = {"k": 0.2, "g": 0.04}
 AXIS = {"limits": [-0.4, 0.6], "ticks": [-0.4, 0, 0.25]}

@@ -5,8 +5,8 @@ import pytest
 
 from pseudorigid import lyapunov_spectrum
 from pseudorigid.study import failures, states
-from pseudorigid.study.methods import counted, scipy_events
-from pseudorigid.study.methods.counted import OURS, engine_method, scan_method
+from pseudorigid.study.methods import counted_methods, scipy_events
+from pseudorigid.study.methods.counted_methods import OURS, engine_method, scan_method
 from pseudorigid.study.work import is_wrong
 
 BALL = states.BALL
@@ -19,7 +19,7 @@ def test_ours_is_the_map_itself():
     assert looks.min() >= 1
 
 
-@pytest.mark.parametrize("tolerance", counted.TOLERANCES)
+@pytest.mark.parametrize("tolerance", counted_methods.TOLERANCES)
 def test_a_scan_is_as_accurate_as_its_tolerance(tolerance):
     columns = states.uniform(300)
     tau, count = scan_method(0.1, tolerance).solve(BALL, *columns)
@@ -106,9 +106,9 @@ def test_heyoka_finds_easy_roots():
 @pytest.mark.slow  # it compiles a package whose numbers are in no figure; the bench calls it too
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
-    from pseudorigid.study.methods import toolkit
+    from pseudorigid.study.methods import pynamicalsys_lyapunov
 
     start, impacts = states.chaotic(), 20_000
-    found = np.sort(toolkit.spectrum(BALL, start, impacts))[::-1]
+    found = np.sort(pynamicalsys_lyapunov.spectrum(BALL, start, impacts))[::-1]
     ours = lyapunov_spectrum(BALL, start, impacts, records=1)["exponent"].values[-1]
     assert np.abs(found - ours).max() < 1e-3  # it starts from other tangent vectors

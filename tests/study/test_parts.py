@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from pipeline.config.declared import study as parts
+from pipeline.config.schema import study as parts
 from pipeline.records import sources
 from pseudorigid.figures import study
 
@@ -44,4 +44,6 @@ def test_every_chart_has_data_and_a_function():
 
 def test_the_figures_of_the_paper_need_nothing_of_the_study():
     for program in ("stage", "draw", "sweep"):
-        assert not any("/study" in file for file in sources.closure(f"pipeline.jobs.{program}"))
+        assert not any(
+            "/study" in file for file in sources.source_files(f"pipeline.jobs.{program}")
+        )

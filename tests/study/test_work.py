@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from judge import judge
+from independent_solver import judge
 
 from pseudorigid.study import states, work
-from pseudorigid.study.methods.counted import METHODS, OURS, scan_method
+from pseudorigid.study.methods.counted_methods import METHODS, OURS, scan_method
 
 COUNT = 60
 SETS = (states.uniform, states.grazing)

@@ -11,7 +11,7 @@ from project import ROOT
 
 from pipeline.records.artifacts import content_hash
 from pseudorigid import Ball, lyapunov_spectrum
-from pseudorigid.dynamics import fixed_point, follow
+from pseudorigid.dynamics import fixed_point, tangent_orbits
 from pseudorigid.sweep import blocks, cell, grid
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
@@ -56,13 +56,15 @@ def test_the_rotation_number_and_its_resonances():
 def test_the_angle_is_that_of_the_vector():
     rng = np.random.default_rng(3)
     for a, b in [*rng.normal(size=(2000, 2)), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1)]:
-        assert follow.angle(float(a), float(b)) == pytest.approx(math.atan2(b, a), abs=1e-14)
-    assert follow.angle(0.0, 0.0) == 0.0
+        assert tangent_orbits.angle(float(a), float(b)) == pytest.approx(
+            math.atan2(b, a), abs=1e-14
+        )
+    assert tangent_orbits.angle(0.0, 0.0) == 0.0
 
 
 def test_starts_are_even_in_area_and_have_the_energy():
     k, e, count = 0.2, 6.25, 4000
-    x, v, w = cell.even(k, e, count)
+    x, v, w = cell.sunflower_points(k, e, count)
     assert Ball(k=k, g=1.0).energy(x, v, w) == pytest.approx(np.full(count, e))
     y = (v - k * w) / math.sqrt((1 + k) * (2 * e + 1 / k))
     x = (x - 1 / k) / math.sqrt((2 * e + 1 / k) / k)

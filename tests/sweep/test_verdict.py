@@ -13,7 +13,9 @@ def judged(k, e, starts, impacts):
     theta = fixed_point.half_time(k, e)
     rotation = fixed_point.rotation(fixed_point.trace(k, theta))
     centre, expected = np.full(starts, fixed_point.place(k, theta)), np.full(starts, rotation)
-    return verdict.judge(k, cell.even(k, e, starts), centre, expected, impacts)
+    return verdict.classify_orbits(
+        k, cell.sunflower_points(k, e, starts), centre, expected, impacts
+    )
 
 
 def test_lengths_double_up_to_the_last():
@@ -38,11 +40,13 @@ def test_a_verdict_that_is_safe_stays():
 def test_an_orbit_is_judged_alone_as_in_company():
     k, e = 0.2, 0.625
     many = judged(k, e, 40, 1000)
-    states = np.array(cell.even(k, e, 40))
+    states = np.array(cell.sunflower_points(k, e, 40))
     theta = fixed_point.half_time(k, e)
     rotation = fixed_point.rotation(fixed_point.trace(k, theta))
     for i in (0, 7, 39):
-        one = verdict.judge(k, states[:, [i]], [fixed_point.place(k, theta)], [rotation], 1000)
+        one = verdict.classify_orbits(
+            k, states[:, [i]], [fixed_point.place(k, theta)], [rotation], 1000
+        )
         for name in ("regular", "winding", "growth", "exponent", "followed"):
             assert np.array_equal(getattr(one, name), getattr(many, name)[[i]])
 
@@ -52,7 +56,7 @@ def test_growth_is_the_mean_logarithm_of_a_tangent_vector():
     k, e, impacts = 0.2, 6.25, 400
     found = judged(k, e, 6, impacts)
     ball = Ball(k=k, g=1.0)
-    for i, start in enumerate(np.array(cell.even(k, e, 6)).T):
+    for i, start in enumerate(np.array(cell.sunflower_points(k, e, 6)).T):
         state = start
         vector, logs = np.array([0.0, k * state[2], -state[1]]), []
         for _ in range(impacts):
@@ -71,20 +75,20 @@ def test_the_winding_number_of_a_small_circle_is_the_fixed_points_own():
     place = fixed_point.place(k, theta)
     states = np.array(ball.state_xy(place + 1e-4, 0.0, e))[:, None]
     rotation = fixed_point.rotation(fixed_point.trace(k, theta))
-    found = verdict.judge(k, states, [place], [rotation], 2000)
+    found = verdict.classify_orbits(k, states, [place], [rotation], 2000)
     assert found.regular[0]
     assert found.winding[0] == pytest.approx(rotation, abs=1e-7)
 
 
 def test_orbits_that_go_on_keep_their_order_in_memory(monkeypatch):
     """In another order all that follows them would be compiled again."""
-    levels, follow = [], verdict.follow
+    levels, follow = [], verdict.propagate_with_tangent
 
     def watched(orbits, k, start, stop, *sums):
         levels.append(stop)
         assert all(array.flags.c_contiguous for array in (orbits, *sums))
         follow(orbits, k, start, stop, *sums)
 
-    monkeypatch.setattr(verdict, "follow", watched)
+    monkeypatch.setattr(verdict, "propagate_with_tangent", watched)
     cell.cell(0.2, 6.25, 50, 1000)
     assert levels == [500, 1000]

@@ -3,7 +3,7 @@
 import pytest
 from project import fresh_tree, of_scenes
 
-from pipeline.cli.words import benchmark
+from pipeline.cli.commands import benchmark
 
 
 @pytest.mark.slow

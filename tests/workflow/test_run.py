@@ -8,8 +8,8 @@ import time
 from project import ROOT, SHIPPED, fresh_tree
 from runs import FIG3, contents, rows
 
-from pipeline.config import expected, load
-from pipeline.config.declared import study
+from pipeline.config import build_specs, load
+from pipeline.config.schema import study
 
 
 def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
@@ -267,4 +267,4 @@ def test_the_long_jobs_are_jobs():
     rules = (ROOT / "workflow" / "rules" / "results.smk").read_text(encoding="utf-8")
     long = re.findall(r'"(results/\S+)": \d+,', rules)
     assert len(long) > 5
-    assert set(long) <= set(expected.of_all(load(SHIPPED)))
+    assert set(long) <= set(build_specs.of_all(load(SHIPPED)))

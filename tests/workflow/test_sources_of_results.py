@@ -35,7 +35,7 @@ def make(spec, answer):
 
 def loaded(tree, folder, *targets):
     """Result -> the files of the tree that its job, a Python of its own, had loaded at its end."""
-    with (tree.path / "src/pipeline/jobs/making.py").open("a") as making:
+    with (tree.path / "src/pipeline/jobs/dispatch.py").open("a") as making:
         making.write(NOTES)
     notes = folder / "notes"
     notes.mkdir()
@@ -128,16 +128,16 @@ def test_a_line_of_code_in_the_kernel_makes_the_datasets_again(done):
 PLANTED = {
     "pipeline": ("", ""),
     "pipeline.jobs": ("", ""),
-    "pipeline.jobs.making": ("pseudorigid: {spec", "planted: {spec"),
+    "pipeline.jobs.dispatch": ("pseudorigid: {spec", "planted: {spec"),
     "pipeline.jobs.server": ("the job was killed", "planted"),
     "pipeline.records": ("", ""),
     "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
-    "pipeline.records.sources": ("return meanings.meaning(path)", "return 'planted'"),
+    "pipeline.records.sources": ("return meanings.syntax_hash(path)", "return 'planted'"),
     "pseudorigid": ("_FROM_TEXT.add(package)", "pass"),
-    "pseudorigid.kernel.compiled.closure": ("    meaning.keep()\n", ""),
-    "pseudorigid.kernel.compiled.meaning": ("SCHEME = 1 ", "SCHEME = 99 "),
+    "pseudorigid.kernel.compiled.import_closure": ("    syntax_hash.keep()\n", ""),
+    "pseudorigid.kernel.compiled.syntax_hash": ("SCHEME = 1 ", "SCHEME = 99 "),
 }
 
 

@@ -16,7 +16,7 @@ import pytest
 from project import ROOT
 
 from pipeline.cli import running
-from pipeline.cli.folder import MisuseError
+from pipeline.cli.session import CommandLineError
 
 
 def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
@@ -68,7 +68,7 @@ def test_settings_on_the_command_line_are_refused(tree):
     "words", ["--coers 1", "--cores x", "-j x", "--set-threads x", "--default-resources ="]
 )
 def test_what_snakemake_cannot_read_is_one_line(words):
-    with pytest.raises(MisuseError) as refused:
+    with pytest.raises(CommandLineError) as refused:
         running.options_of(words.split())
     (line,) = str(refused.value).splitlines()
     assert ("did you mean --cores?" in line) == (words == "--coers 1")
@@ -76,7 +76,7 @@ def test_what_snakemake_cannot_read_is_one_line(words):
 
 @pytest.mark.parametrize("option", ["--directory", "-d", "--direct"])
 def test_a_run_is_of_its_own_folder(option):
-    with pytest.raises(MisuseError, match=r"^--directory is not used here"):
+    with pytest.raises(CommandLineError, match=r"^--directory is not used here"):
         running.options_of(["fig3", option, "elsewhere"])
 
 

@@ -13,10 +13,10 @@ import pytest
 from project import ROOT, fresh_tree, of_scenes
 from runs import rows
 
-from pipeline.cli.folder import MisuseError, UsageError
+from pipeline.cli.commands.sweep import chosen
 from pipeline.cli.running.space import require_space
-from pipeline.cli.words.sweep import chosen
-from pipeline.config import expected, places
+from pipeline.cli.session import CommandLineError, UsageError
+from pipeline.config import build_specs, paths
 from pipeline.records.artifacts import load
 from pipeline.records.build_spec import BuildSpec
 from pseudorigid.sweep import cell
@@ -27,14 +27,14 @@ SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 2
 
 def specs():
     """Result -> BuildSpec of a sweep of six cells."""
-    return expected.of_sweeps({"plane": SMALL})
+    return build_specs.of_sweeps({"plane": SMALL})
 
 
 def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=10_100_000))
     with pytest.raises(UsageError, match=r"^the disk is full: about 10 MB are needed here, 10 are"):
         require_space(specs().values())
-    blocks = places.block_files("plane", SMALL)
+    blocks = paths.block_files("plane", SMALL)
     require_space(each for path, each in specs().items() if path not in blocks)
 
 
@@ -42,7 +42,7 @@ def test_all_sweeps_are_meant_where_none_is_named():
     sweeps = {"plane": SMALL, "line": SMALL}
     assert chosen(sweeps, []) == ["plane", "line"]
     assert chosen(sweeps, ["line"]) == ["line"]
-    with pytest.raises(MisuseError, match="no sweep lime: did you mean line"):
+    with pytest.raises(CommandLineError, match="no sweep lime: did you mean line"):
         chosen(sweeps, ["lime"])
     with pytest.raises(UsageError, match="sweeps: missing, or empty"):
         chosen({}, [])
@@ -56,7 +56,7 @@ def test_progress_tells_rate_and_time_to_finish(monkeypatch):
     assert done == "sweep: 10 of 10 cells, 2 cells/s"
     assert cells.line(10, (9, 999_900), 1.0, (0.0, 10, 10**6)).endswith("2 h 46 min to go")
     # Before the first block the jobs may compile: no speed is told from that.
-    first, second, third = places.block_files("plane", SMALL)
+    first, second, third = paths.block_files("plane", SMALL)
     other = BuildSpec("results/claims/x.nc", "x", "x", {"cells": 24}, "stage", None, [], [])
     progress = cells.Cells(specs() | {other.result: other}, {second, third, other.result})
     assert progress.done(second) == "sweep: 4 of 6 cells"

@@ -2,10 +2,10 @@
 import sys
 from pathlib import Path
 
-from pipeline.config import ConfigError, expected, places
-from pipeline.config.declared import study as parts
-from pipeline.config.declared.kinds import KINDS
-from pipeline.config.declared.stages import STAGES
+from pipeline.config import ConfigError, build_specs, paths
+from pipeline.config.schema import study as parts
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.stages import STAGES
 from pipeline.jobs import server
 from pipeline.records.record import log_path, record_path
 from pipeline.records.sources import ROOT

@@ -26,7 +26,7 @@ PRIORITIES = {
     needed: seconds
     for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
     if path in PLAN.specs
-    for needed in expected.needed(PLAN.specs, [path])
+    for needed in build_specs.with_dependencies(PLAN.specs, [path])
 }
 # rule -> (its result, its scenes)
 STUDY = "results/study/{scene}.nc"
@@ -40,7 +40,7 @@ RULES = {
     "derivations": ("results/claims/{scene}.nc", ["derivations"]),
 }
 for name in STAGES:
-    scenes = [scene for scene, block in ALL.items() if name in places.stages(block)]
+    scenes = [scene for scene, block in ALL.items() if name in paths.stages(block)]
     RULES[name] = f"results/{{variant}}/{name}_{{scene}}.nc", scenes
 for kind in KINDS:
     scenes = [scene for scene, block in ALL.items() if block["picture"] == kind]

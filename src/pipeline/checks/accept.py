@@ -3,10 +3,10 @@
 import shutil
 
 from ..records.files import file_hash, obstacle, replacing
-from . import contracts, manifest
-from .currency import MISSING
+from . import manifest, published_sets
+from .checksums import SUMS, ChecksumError, read_sums, unlisted_files
 from .difference import UPSTREAM, Comparison, not_as_made
-from .sums import SUMS, ContractError, left_over, read_sums
+from .freshness import MISSING
 
 
 def accept(root, checked):
@@ -15,64 +15,67 @@ def accept(root, checked):
     Charts that are measured are published too, without a contract. 1 is returned where the
     results of the paper are not all there and current.
     """
-    for contract in contracts.committed(checked):
-        if contract.on_request and not any((root / p).exists() for p in contract.expected):
+    for published_set in published_sets.committed_sets(checked):
+        if published_set.on_request and not any(
+            (root / p).exists() for p in published_set.build_specs
+        ):
             continue
-        problem = _not_ready(root, contract)
+        problem = _not_ready(root, published_set)
         if problem is None:
-            _publish_measured(root, contract)
-            _renew(root, contract)
-        elif contract.on_request:
-            print(f"{contract.folder} stays as it is: {problem}: run {contract.command} first")
+            _publish_measured(root, published_set)
+            _renew(root, published_set)
+        elif published_set.on_request:
+            command = published_set.command
+            print(f"{published_set.folder} stays as it is: {problem}: run {command} first")
         else:
-            print(f"reproduce accept: {problem}: run {contract.command} first")
+            print(f"reproduce accept: {problem}: run {published_set.command} first")
             return 1
     return 0
 
 
-def _not_ready(root, contract):
+def _not_ready(root, published_set):
     """Why the results cannot be accepted, or None."""
-    for path, why in not_as_made(root, contract).items():
+    for path, why in not_as_made(root, published_set).items():
         return f"{path} is missing" if why == MISSING else f"{path}: {why}"
-    for name, drawing in contract.drawn.items():
-        if words := obstacle(root / contract.folder / name):
-            return f"{contract.folder}/{name}: {words}"
-        if file_hash(root / contract.folder / name) != file_hash(root / drawing):
-            return f"{contract.folder}/{name} is not {drawing}"
+    for name, drawing in published_set.drawn.items():
+        if words := obstacle(root / published_set.folder / name):
+            return f"{published_set.folder}/{name}: {words}"
+        if file_hash(root / published_set.folder / name) != file_hash(root / drawing):
+            return f"{published_set.folder}/{name} is not {drawing}"
     return None
 
 
-def _publish_measured(root, contract):
-    for name in contract.measured:
-        drawing = root / contract.results / "figures" / name
+def _publish_measured(root, published_set):
+    for name in published_set.measured:
+        drawing = root / published_set.results / "figures" / name
         if drawing.is_file():
-            with replacing(root / contract.folder / name) as part:
+            with replacing(root / published_set.folder / name) as part:
                 shutil.copyfile(drawing, part)
 
 
-def _renew(root, contract):
-    folder = contract.folder
+def _renew(root, published_set):
+    folder = published_set.folder
     try:
         committed = manifest.read(root, folder)
         sums = read_sums(root, folder)
-    except ContractError as error:
+    except ChecksumError as error:
         committed = sums = None
         changes = [f"a new contract ({error})"]
     else:
-        changes = _changes(Comparison(root, contract, committed), contract, committed)
-    fresh = manifest.build(root, contract)
+        changes = _changes(Comparison(root, published_set, committed), published_set, committed)
+    fresh = manifest.build(root, published_set)
     if fresh == committed and sums == manifest.sums(fresh):
         print(f"{folder}: nothing changed")
         return
     manifest.write(root, folder, fresh)
-    print(*(changes or [f"other changes behind the same {contract.what}"]), sep="\n")
+    print(*(changes or [f"other changes behind the same {published_set.what}"]), sep="\n")
     renewed = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST} renewed"
-    print(f"{renewed}: {len(contract.drawn)} {contract.what}")
+    print(f"{renewed}: {len(published_set.drawn)} {published_set.what}")
 
 
-def _changes(comparison, contract, committed):
+def _changes(comparison, published_set, committed):
     changes = []
-    for name in contract.drawn:
+    for name in published_set.drawn:
         layers = comparison.layers(name)
         if layers is None:
             changes.append(f"{name}  new")
@@ -80,6 +83,8 @@ def _changes(comparison, contract, committed):
         changes += [f"{name}  {layer}: {words}" for layer, words in layers.items()]
         if layers and set(layers) <= UPSTREAM:
             changes.append(f"{name}  the file is the same")
-    gone = sorted(set(manifest.figures(committed)) - set(contract.drawn))
-    left = left_over(comparison.root, contract.folder, {*contract.drawn, *contract.measured})
+    gone = sorted(set(manifest.figures(committed)) - set(published_set.drawn))
+    left = unlisted_files(
+        comparison.root, published_set.folder, {*published_set.drawn, *published_set.measured}
+    )
     return changes + [f"{name}  gone" for name in gone] + left

@@ -12,16 +12,16 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
-from ..config.places import LEDGER, PAPER, PUBLISHED
+from ..config.paths import LEDGER, PAPER, PUBLISHED
 from ..records import files
 from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, obstacle, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
-from . import contracts, manifest
-from .currency import MISSING
+from . import manifest, published_sets
+from .checksums import SUMS, ChecksumError, known_sums, read_sums
 from .difference import Comparison, not_as_made
-from .sums import SUMS, ContractError, known_sums, read_sums
+from .freshness import MISSING
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -47,8 +47,8 @@ def write(root, checked, path):
         raise ArchiveError(f"{path} is a folder")
     if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
-    for contract in contracts.committed(checked):
-        if problem := _problem(root, contract):
+    for published_set in published_sets.committed_sets(checked):
+        if problem := _problem(root, published_set):
             raise ArchiveError(problem)
     found = contents(root, checked)
     with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
@@ -63,16 +63,16 @@ def contents(root, checked):
     found, sets = {}, []
     places = ["config.yaml", "LICENSE", "CITATION.cff", LEDGER]
     places += [str(f.relative_to(root)) for f in (root / CERTIFICATES).glob("*.toml")]
-    for contract in contracts.committed(checked):
-        if not manifest.there(root, contract):
+    for published_set in published_sets.committed_sets(checked):
+        if not manifest.is_present(root, published_set):
             continue
-        names = [*known_sums(root, contract.folder), SUMS, manifest.MANIFEST]
-        places += [f"{contract.folder}/{name}" for name in names]
-        data = sorted({path for stages in contract.data.values() for path in stages.values()})
+        names = [*known_sums(root, published_set.folder), SUMS, manifest.MANIFEST]
+        places += [f"{published_set.folder}/{name}" for name in names]
+        data = sorted({path for stages in published_set.data.values() for path in stages.values()})
         there = [path for path in data if (root / path).is_file()]
-        sets += [f"{len(there)} of {len(data)} datasets of {contract.command}"]
+        sets += [f"{len(there)} of {len(data)} datasets of {published_set.command}"]
         places += there
-        for path in (*there, *contract.drawn.values()):
+        for path in (*there, *published_set.drawn.values()):
             if (root / path).is_file():
                 found[record_path(path)] = _public_record(root, path)
     for path in places:
@@ -96,34 +96,34 @@ def _public_record(root, path):
     return (json.dumps(kept, sort_keys=True, indent=1) + "\n").encode()
 
 
-def _problem(root, contract):
+def _problem(root, published_set):
     """Why a contract's files cannot be archived, in a line with what to run, or None."""
-    if contract.on_request and not manifest.there(root, contract):
+    if published_set.on_request and not manifest.is_present(root, published_set):
         return None
     try:
-        committed = manifest.read(root, contract.folder)
-        sums = read_sums(root, contract.folder)
-    except ContractError as error:
+        committed = manifest.read(root, published_set.folder)
+        sums = read_sums(root, published_set.folder)
+    except ChecksumError as error:
         return f"{error}: run ./reproduce accept"
-    comparison = Comparison(root, contract, committed)
-    for path, why in not_as_made(root, contract, comparison).items():
+    comparison = Comparison(root, published_set, committed)
+    for path, why in not_as_made(root, published_set, comparison).items():
         if why != MISSING:
-            return f"{path}: {why}: run {contract.command}"
-        if not contract.on_request:
-            return f"{path} is missing: run {contract.command}"
-    for name in sorted({*contract.drawn, *sums}):
-        path = f"{contract.folder}/{name}"
+            return f"{path}: {why}: run {published_set.command}"
+        if not published_set.on_request:
+            return f"{path} is missing: run {published_set.command}"
+    for name in sorted({*published_set.drawn, *sums}):
+        path = f"{published_set.folder}/{name}"
         if words := obstacle(root / path):
             return f"{path}: {words}"
-        here, drawn = file_hash(root / path), file_hash(root / contract.drawn.get(name, path))
+        here, drawn = file_hash(root / path), file_hash(root / published_set.drawn.get(name, path))
         if here is None or drawn not in (None, here):
-            return f"{path} is not the one that was drawn: run {contract.command}"
+            return f"{path} is not the one that was drawn: run {published_set.command}"
         if here != sums.get(name):
-            return f"{path} is not as in {contract.folder}/{SUMS}: run ./reproduce accept"
-    listed = f"{contract.folder}/{manifest.MANIFEST}"
-    for path in contract.texts:
+            return f"{path} is not as in {published_set.folder}/{SUMS}: run ./reproduce accept"
+    listed = f"{published_set.folder}/{manifest.MANIFEST}"
+    for path in published_set.texts:
         if file_hash(root / path) != committed["texts"].get(path):
-            return f"{path} is not as in {listed}: run {contract.command}"
+            return f"{path} is not as in {listed}: run {published_set.command}"
     return None
 
 
@@ -224,7 +224,7 @@ def read_folder(folder, checked):
         for name in _listed(read_bytes(folder / SUMS)) if (folder / SUMS).is_file() else ():
             if name not in found and _is_plain(name) and (folder / name).is_file():
                 found[name] = read_bytes(folder / name)
-    except (ContractError, FileError) as error:
+    except (ChecksumError, FileError) as error:
         what = "no tree of this project, and no archive of it that was unpacked"
         raise ArchiveError(f"{folder} is {what}: {error}") from None
     del found[SUMS]
@@ -274,11 +274,13 @@ def _differences(root, checked, ours, theirs, folder):
         if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
             files.write_whole(folder / name, theirs[name])
     known = {}
-    for contract in contracts.committed(checked):
-        with suppress(ContractError):
-            committed = manifest.read(folder, contract.folder)
-            comparison = Comparison(root, contract, committed, folder)
-            known |= {f"{contract.folder}/{name}": (comparison, name) for name in contract.drawn}
+    for published_set in published_sets.committed_sets(checked):
+        with suppress(ChecksumError):
+            committed = manifest.read(folder, published_set.folder)
+            comparison = Comparison(root, published_set, committed, folder)
+            known |= {
+                f"{published_set.folder}/{name}": (comparison, name) for name in published_set.drawn
+            }
 
     def layers(path):
         comparison, name = known.get(path, (None, None))
@@ -290,7 +292,7 @@ def _differences(root, checked, ours, theirs, folder):
                 alone = Comparison(root, None, {"data": described}, folder)
                 return {"data": alone.differing_data(path, path) or "the same in other bytes"}
             if comparison and not {"drawing", "file"} & {*found}:
-                image = root / comparison.contract.results / "differences" / name
+                image = root / comparison.published_set.results / "differences" / name
                 found[layer] = difference(root / path, folder / path, image)[0]
         except (ArtifactError, PictureError, FileError) as error:
             found[layer] = str(error)

@@ -9,8 +9,8 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep import blocks
 
-from ..config.declared.stages import STAGES
-from ..config.declared.study import FIXED, MEASURED
+from ..config.schema.stages import STAGES
+from ..config.schema.study import FIXED, MEASURED
 from ..records import artifacts
 from ..records.files import write_whole
 from ..records.sources import ROOT

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..config.expected import needed
+from ..config.build_specs import with_dependencies
 from ..records.artifacts import ArtifactError, canonical_values, load
 from ..records.differences import (
     differing_block,
@@ -21,10 +21,10 @@ from ..records.differences import (
 from ..records.files import FileError, file_hash, obstacle
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
-from ..records.sources import meaning
+from ..records.sources import syntax_hash
 from . import manifest
-from .currency import Currency
-from .sums import ContractError
+from .checksums import ChecksumError
+from .freshness import Freshness
 
 # A difference in one of these alone leaves the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
@@ -33,7 +33,7 @@ UNEXPLAINED = (
 )
 
 
-def not_as_made(root, contract, comparison=None):
+def not_as_made(root, published_set, comparison=None):
     """Which results of a contract are not what this tree makes: one answer for every command.
 
     A result's record decides. Where the manifest lists the result, and all that makes it is as
@@ -45,15 +45,15 @@ def not_as_made(root, contract, comparison=None):
     dict of str to str
         Result -> why, in words.
     """
-    found = Currency(root, contract.expected).outdated()
+    found = Freshness(root, published_set.build_specs).outdated()
     if comparison is None:
         try:
-            comparison = Comparison(root, contract, manifest.read(root, contract.folder))
-        except ContractError:
+            comparison = Comparison(root, published_set, manifest.read(root, published_set.folder))
+        except ChecksumError:
             return found
     found = comparison.unexplained() | found
-    for path in contract.expected:  # each after its inputs
-        for used in contract.expected[path].inputs:
+    for path in published_set.build_specs:  # each after its inputs
+        for used in published_set.build_specs[path].inputs:
             if used in found:
                 found.setdefault(path, f"made from {used}, which is not current")
     return found
@@ -66,8 +66,8 @@ class Comparison:
     difference is.
     """
 
-    def __init__(self, root, contract, committed, against=None):
-        self.root, self.contract, self.committed = root, contract, committed
+    def __init__(self, root, published_set, committed, against=None):
+        self.root, self.published_set, self.committed = root, published_set, committed
         self.against = against
         self.versions = versions()
         self.file_hash = cache(lambda path: file_hash(root / path))
@@ -75,14 +75,14 @@ class Comparison:
 
     def layers(self, name) -> dict[str, str] | None:
         """Layer -> words, for each that differs, the cause first; None for a file that is new."""
-        scene = self.contract.scenes[name]
+        scene = self.published_set.scenes[name]
         entry = self.committed["scenes"].get(scene)
         if entry is None or name not in entry["figures"]:
             return None
         sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
-        here = {path: meaning(self.root / path) for path in self.contract.sources(scene)}
-        blocks, was = (entry["config"], self.contract.config[scene]), "in the manifest"
-        data = (self._dataset(*each, entry) for each in self.contract.data[scene].items())
+        here = {path: syntax_hash(self.root / path) for path in self.published_set.sources(scene)}
+        blocks, was = (entry["config"], self.published_set.config[scene]), "in the manifest"
+        data = (self._dataset(*each, entry) for each in self.published_set.data[scene].items())
         layers = {
             "config": differing_block(*blocks, was, "in config.yaml"),
             "source": differing_files(sources, here),
@@ -139,10 +139,10 @@ class Comparison:
 
     def _drawing_or_file(self, name, entry):
         """{"drawing": words} or {"file": words}, of the published file or the one in results."""
-        published, drawn = f"{self.contract.folder}/{name}", self.contract.drawn[name]
+        published, drawn = f"{self.published_set.folder}/{name}", self.published_set.drawn[name]
         if self.file_hash(published) is None:
             why = obstacle(self.root / published)
-            missing = f"{published} is missing: {self.contract.command} makes it"
+            missing = f"{published} is missing: {self.published_set.command} makes it"
             return {"file": f"{published}: {why}" if why else missing}
         encoding = {}
         for path in (published, drawn):
@@ -161,16 +161,19 @@ class Comparison:
     def _how_drawn(self, path, name, entry, others):
         with tempfile.TemporaryDirectory() as folder:
             candidates = [self.root / other for other in others]
-            blob = git("show", f"HEAD:./{self.contract.folder}/{name}", root=self.root)
+            blob = git("show", f"HEAD:./{self.published_set.folder}/{name}", root=self.root)
             if blob is not None:
                 candidates.append(Path(folder) / name)
                 candidates[-1].write_bytes(blob)
             if self.against is not None:
-                drawing = self.contract.drawn[name]
-                candidates += [self.against / self.contract.folder / name, self.against / drawing]
+                drawing = self.published_set.drawn[name]
+                candidates += [
+                    self.against / self.published_set.folder / name,
+                    self.against / drawing,
+                ]
             for candidate in candidates:
                 if file_hash(candidate) == entry["sha256"]:
-                    image = f"{self.contract.results}/differences/{name}"
+                    image = f"{self.published_set.results}/differences/{name}"
                     try:
                         words, saved = difference(self.root / path, candidate, self.root / image)
                     except FileError:
@@ -184,10 +187,10 @@ class Comparison:
         Its record may say that this tree made it: then the record says something untrue.
         """
         found = []
-        for name, drawing in self.contract.drawn.items():
-            scene = self.contract.scenes[name]
+        for name, drawing in self.published_set.drawn.items():
+            scene = self.published_set.scenes[name]
             entry = self.committed["scenes"].get(scene, {"data": {}, "figures": {}})
-            stages = self.contract.data[scene].items()
+            stages = self.published_set.data[scene].items()
             different = [path for stage, path in stages if self._dataset(stage, path, entry)]
             figure = entry["figures"].get(name)
             if figure and self.file_hash(drawing) not in (None, figure["sha256"]):
@@ -197,16 +200,16 @@ class Comparison:
 
     def _explained(self, path, scene, entry):
         """Whether what makes a result may differ from what made the committed one."""
-        expected = self.contract.expected
-        made = [expected[each] for each in needed(expected, [path])]
+        build_specs = self.published_set.build_specs
+        made = [build_specs[each] for each in with_dependencies(build_specs, [path])]
         keys = {key for each in made for key in each.config}
-        blocks = (entry["config"], self.contract.config[scene])
+        blocks = (entry["config"], self.published_set.config[scene])
         return bool(
-            any(used not in expected for each in made for used in each.inputs)
+            any(used not in build_specs for each in made for used in each.inputs)
             or differing_package(self.committed["environment"], self.versions)
             or differing_block(*({k: block[k] for k in keys & {*block}} for block in blocks))
             or any(
-                meaning(self.root / file) != self.committed["sources"].get(file)
+                syntax_hash(self.root / file) != self.committed["sources"].get(file)
                 for each in made
                 for file in each.sources
             )

@@ -14,8 +14,8 @@ from ..records.artifacts import canonical_json, canonical_values, load, plain_at
 from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
-from ..records.sources import meaning
-from .sums import SUMS, ContractError, text_of
+from ..records.sources import syntax_hash
+from .checksums import SUMS, ChecksumError, text_of
 
 MANIFEST = "MANIFEST.json"
 BLOCK = 1024  # values hashed together, so that a difference can be placed
@@ -79,37 +79,41 @@ def describe_data(dataset):
     return {"attributes": _attributes(dataset), "sizes": sizes, "variables": variables}
 
 
-def build(root, contract):
+def build(root, published_set):
     """The manifest of a tree that has its results and figures; raises ValueError or OSError."""
-    artifacts = sorted({path for stages in contract.data.values() for path in stages.values()})
-    sources = {scene: contract.sources(scene) for scene in contract.config}
+    artifacts = sorted({path for stages in published_set.data.values() for path in stages.values()})
+    sources = {scene: published_set.sources(scene) for scene in published_set.config}
     return {
         "environment": versions(),
-        "texts": {path: file_hash(root / path) for path in contract.texts},
-        "sources": {path: meaning(root / path) for path in sorted(set().union(*sources.values()))},
+        "texts": {path: file_hash(root / path) for path in published_set.texts},
+        "sources": {
+            path: syntax_hash(root / path) for path in sorted(set().union(*sources.values()))
+        },
         "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
         "scenes": {
             scene: {
                 "config": block,
                 "sources": sources[scene],
-                "data": {stage: Path(path).name for stage, path in contract.data[scene].items()},
+                "data": {
+                    stage: Path(path).name for stage, path in published_set.data[scene].items()
+                },
                 "figures": {
                     name: {
-                        "drawing": describe(root / contract.folder / name),
-                        "sha256": file_hash(root / contract.folder / name),
+                        "drawing": describe(root / published_set.folder / name),
+                        "sha256": file_hash(root / published_set.folder / name),
                     }
-                    for name in sorted(contract.drawn)
-                    if contract.scenes[name] == scene
+                    for name in sorted(published_set.drawn)
+                    if published_set.scenes[name] == scene
                 },
             }
-            for scene, block in contract.config.items()
+            for scene, block in published_set.config.items()
         },
     }
 
 
-def there(root, contract):
+def is_present(root, published_set):
     """Whether anything of a contract is committed."""
-    return any((root / contract.folder / name).exists() for name in (MANIFEST, SUMS))
+    return any((root / published_set.folder / name).exists() for name in (MANIFEST, SUMS))
 
 
 def read(root, folder):
@@ -119,14 +123,14 @@ def read(root, folder):
         manifest = json.loads(text_of(root, name))
         # It covers every entry: none can be lost or changed without a word.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
-            raise ContractError(f"{name}: was edited: its content does not fit its own checksum")
+            raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
         _Manifest.model_validate(manifest, strict=True)
     except pydantic.ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
-        raise ContractError(f"{name}: broken: {place}: {first['msg']}") from None
+        raise ChecksumError(f"{name}: broken: {place}: {first['msg']}") from None
     except (ValueError, RecursionError) as error:
-        raise ContractError(f"{name}: broken: {error}") from None
+        raise ChecksumError(f"{name}: broken: {error}") from None
     return manifest
 
 

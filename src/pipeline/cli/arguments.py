@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-GO_ON = 75  # the exit status of `main` where the words are well as far as can be said
-MISUSE = 2
+VALID_SO_FAR = 75  # the exit status of `main` where the words are well as far as can be said
+USAGE_STATUS = 2
 OTHERS = ("paper", "all")  # names that are not in config.yaml
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
@@ -20,7 +20,7 @@ DATA = "a dataset to judge it by, in the place of that name (as in fig2/orbits)"
 AGAINST = "an archive, or a folder with one unpacked or another tree: compare file by file with it"
 
 
-class Word:
+class Command:
     """A word: its line in the list, its arguments, and the module in `words` behind it.
 
     `arguments` are (name, arguments of argparse's add_argument) each.
@@ -32,7 +32,7 @@ class Word:
         self.line, self.arguments, self.module, self.more = line, arguments, module, more
 
 
-class Making(Word):
+class SnakemakeCommand(Command):
     """One that runs snakemake: options that it does not know go there, after its names."""
 
     passes = True
@@ -59,33 +59,33 @@ _SWEPT = (
     _any("sweep", "sweeps of config.yaml; all without a name"),
     _switch("--slurm", "hand blocks of cells to Slurm, as profiles/slurm says"),
 )
-WORDS = {
-    "list": Word("every figure, chart and dataset that there can be, and the state of its file"),
-    "variant": Making(
+COMMANDS = {
+    "list": Command("every figure, chart and dataset that there can be, and the state of its file"),
+    "variant": SnakemakeCommand(
         "the figures of a variant of config.yaml, into results/NAME/figures/",
         _one("variant", "a variant of config.yaml", "NAME"),
         _any("figure", FIGURES),
     ),
-    "compare": Making(
+    "compare": SnakemakeCommand(
         "what differs between two variants, figure by figure",
         _one("a", "a variant of config.yaml, or paper"),
         _one("b", "another one"),
         _any("figure", "figures to compare, by the names in config.yaml; all without a name"),
         _switch("--all", "a line for each variable and each orbit that differs"),
     ),
-    "sweep": Making("grids over k and E/g^2, into results/sweep/", *_SWEPT),
-    "atlas": Making("their pictures, into more_figures/atlas/", *_SWEPT, module="sweep"),
-    "study": Making(
+    "sweep": SnakemakeCommand("grids over k and E/g^2, into results/sweep/", *_SWEPT),
+    "atlas": SnakemakeCommand("their pictures, into more_figures/atlas/", *_SWEPT, module="sweep"),
+    "study": SnakemakeCommand(
         "speed and accuracy against other methods, into more_figures/study/",
         more=" Installs the packages of its rivals first (once).",
     ),
-    "claims": Making(
+    "claims": SnakemakeCommand(
         "every statement of the paper, checked: CLAIMS.md, more_figures/claims/",
         ("--check", {"type": int, "metavar": "ID", "help": "judge one claim alone"}),
         ("--data", {"metavar": "[NAME=]FILE", "help": DATA}),
         more=" What is missing is made first, the sweeps too.",
     ),
-    "prove": Word(
+    "prove": Command(
         "the theorems, each checked from its certificate",
         _any("theorem", "theorems; all without a name"),
         _switch("--search", "make the certificates anew first"),
@@ -93,39 +93,41 @@ WORDS = {
         _switch("--pictures", "draw the pictures, into more_figures/proofs/"),
         more=" Exit status 1 where one is not proved.",
     ),
-    "report": Making("one HTML page: figures, numbers beside the paper's, corrections, run times"),
-    "archive": Word(
+    "report": SnakemakeCommand(
+        "one HTML page: figures, numbers beside the paper's, corrections, run times"
+    ),
+    "archive": Command(
         "one tar with figures, data and what they were made from",
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
         more=" It is the same to the byte wherever its files are. Everything must be made.",
     ),
-    "verify": Word(
+    "verify": Command(
         "whether everything here is as committed, and if not, what differs",
         ("--against", {"metavar": "PLACE", "help": AGAINST}),
         _switch("--strict", "exit 1 for notes too"),
         more=" The layers are config, source, environment, data, drawing, file. Exit status 1 for "
         "other bytes and for results that this tree did not make; other differences are notes.",
     ),
-    "accept": Word(
+    "accept": Command(
         "makes the figures as they are now the committed ones",
         more=" The study's charts too where they were made, and so on; it says what changed.",
     ),
-    "clean": Word(
+    "clean": Command(
         "deletes results that were made; committed files stay",
         _any("folder", "variants, or other folders of results/; all without a name"),
         _switch("--yes", "do not ask"),
     ),
-    "benchmark": Word(
+    "benchmark": Command(
         "one table of ratios of speed, measured now",
         more=" Installs the packages of the study's rivals first (once).",
     ),
-    "test": Word(
+    "test": Command(
         "the test suite (arguments go to pytest)",
         more=" Installs the packages of the tests first (once).",
     ),
-    "help": Word("this list, or the arguments of a WORD", _one("word", "one of these words")),
+    "help": Command("this list, or the arguments of a WORD", _one("word", "one of these words")),
 }
-NO_WORD = Making(
+DEFAULT_COMMAND = SnakemakeCommand(
     "Draw the paper's figures from config.yaml, those that are not current, into paper_figures/.",
     _any("figure", f"{FIGURES}; also files, such as results/paper/orbits_fig2.nc"),
     _switch("--version", "print the versions of this project and of snakemake"),
@@ -135,7 +137,7 @@ OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, withou
 SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
 
 
-class Given(argparse.Namespace):
+class Arguments(argparse.Namespace):
     """A command line: names and flags of its `word` (None where there is none), and `options`.
 
     These are for snakemake or pytest.
@@ -162,16 +164,16 @@ class _Parser(argparse.ArgumentParser):
 def read(arguments):
     """What a command line asks for; help and mistakes end in SystemExit."""
     first, *rest = arguments or [""]
-    word = first if first in WORDS else None
+    word = first if first in COMMANDS else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
-        return Given(word=word, options=rest)
-    own, options = _split(WORDS.get(word, NO_WORD), rest if word else arguments)
+        return Arguments(word=word, options=rest)
+    own, options = _split(COMMANDS.get(word, DEFAULT_COMMAND), rest if word else arguments)
     if not word and {"-h", "--help"} & set(own):
         _refuse_unknown("figure", [name for name in own if not name.startswith("-")])
-    given = _parser(word).parse_args(own, Given())
+    given = _parser(word).parse_args(own, Arguments())
     if word == "help":
-        if given.word not in (None, *WORDS):
-            refuse(f"no word {given.word}{hint(given.word, WORDS)}")
+        if given.word not in (None, *COMMANDS):
+            refuse(f"no word {given.word}{hint(given.word, COMMANDS)}")
         return read(["--help"] if given.word is None else [given.word, "--help"])
     if not word and given.version:
         print(_versions())
@@ -194,7 +196,7 @@ def main(arguments):
     for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
         names = getattr(given, argument, None) or []
         _refuse_unknown(argument, [names] if isinstance(names, str) else names, given.word)
-    return GO_ON
+    return VALID_SO_FAR
 
 
 def _refuse_unknown(argument, names, word=None):
@@ -207,7 +209,7 @@ def _refuse_unknown(argument, names, word=None):
     except OSError:  # which is said when it is read in earnest
         return
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    known, near = [*words, *OTHERS], keys if word else [*keys, *WORDS]
+    known, near = [*words, *OTHERS], keys if word else [*keys, *COMMANDS]
     if word == "prove":
         known = near = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
     kinds = {"a": "variant", "b": "variant", "figure": "figure" if word else "word or figure"}
@@ -244,7 +246,7 @@ def hint(name, known):
 def refuse(message, program="./reproduce"):
     """End with one line about what was typed."""
     print(f"{program.replace('./', '', 1)}: {message}", file=sys.stderr)
-    sys.exit(MISUSE)
+    sys.exit(USAGE_STATUS)
 
 
 def _split(word, arguments):
@@ -267,7 +269,7 @@ def _split(word, arguments):
 
 
 def _parser(name):
-    word = WORDS.get(name, NO_WORD)
+    word = COMMANDS.get(name, DEFAULT_COMMAND)
     if name:
         line = f"{word.line[0].upper()}{word.line[1:]}.{word.more}"
         parser = _Parser(f"./reproduce {name}", description=line, allow_abbrev=False)
@@ -276,8 +278,8 @@ def _parser(name):
         as_it_stands = argparse.RawDescriptionHelpFormatter
         parser = _Parser("./reproduce", formatter_class=as_it_stands, allow_abbrev=False)
         parser.description = word.line
-        width = max(map(len, WORDS))
-        lines = [f"  {word:{width}}  {WORDS[word].line}" for word in WORDS]
+        width = max(map(len, COMMANDS))
+        lines = [f"  {word:{width}}  {COMMANDS[word].line}" for word in COMMANDS]
         more = "./reproduce WORD --help has a word's arguments."
         parser.epilog = "\n".join(["words:", *lines, "", more, OFFLINE, SNAKEMAKE])
     for key, how in word.arguments:

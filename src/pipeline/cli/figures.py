@@ -4,17 +4,17 @@ import filecmp
 import shutil
 from pathlib import PurePath
 
-from ..checks.currency import MISSING, Currency
-from ..checks.sums import left_over
-from ..config import expected, places, unknown
-from ..config.declared.kinds import KINDS
+from ..checks.checksums import unlisted_files
+from ..checks.freshness import MISSING, Freshness
+from ..config import build_specs, paths, unknown
+from ..config.schema.kinds import KINDS
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, replacing
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import running
-from .folder import MisuseError
-from .telling import states
+from .progress import states
+from .session import CommandLineError
 
 
 def make(checked, variant, options, named=None, others=(), brief=False, before=None) -> int:
@@ -45,23 +45,23 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
         The exit status.
     """
     variants = checked["variants"]
-    figures = places.figures(variants, variant)
+    figures = paths.figures(variants, variant)
     wanted = {path: figures[path] for path in (figures if named is None else named)}
     wanted |= {path: ("", [path]) for path in others}
-    results = expected.of_variants(variants)
+    results = build_specs.of_variants(variants)
     if set(others) - set(results):
-        results = expected.of_all(checked)
+        results = build_specs.of_all(checked)
     # File, as published -> its drawing.
     made = {path: behind[-1] for path, (_, behind) in wanted.items()}
     before = before or {drawing: identity(drawing) for drawing in made.values()}
-    currency = Currency(ROOT, results)
+    freshness = Freshness(ROOT, results)
     hidden = [*_hidden(variants[variant], [scene for scene, _ in wanted.values()])]
-    status = running.make(checked, currency, made.values(), options)
-    if running.only_says(options) or status == running.INTERRUPTED:
+    status = running.make(checked, freshness, made.values(), options)
+    if running.is_dry_run(options) or status == running.INTERRUPTED:
         print(*hidden, sep="\n", end="\n" * bool(hidden))
         return status
-    currency = Currency(ROOT, results)
-    outdated, absent = currency.outdated(before), known_absent(currency, variants, variant)
+    freshness = Freshness(ROOT, results)
+    outdated, absent = freshness.outdated(before), known_absent(freshness, variants, variant)
     missing = {scene for path, (scene, _) in wanted.items() if made[path] in outdated}
     if missing and missing <= set(absent):
         status = 0
@@ -84,13 +84,13 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
     for path, why in publish(good).items():
         rows[path], status = (rows[path][0], f"not published: {why}"), status or 1
     more = [*hidden, *_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
-    if variant in places.PUBLISHED:
-        folder = places.PUBLISHED[variant]
-        more += left_over(ROOT, folder, [PurePath(path).name for path in figures])
+    if variant in paths.PUBLISHED:
+        folder = paths.PUBLISHED[variant]
+        more += unlisted_files(ROOT, folder, [PurePath(path).name for path in figures])
     shown = {path: row for path, row in rows.items() if not (brief and row[1] == "current")}
     if shown:
-        table(places.PUBLISHED.get(variant), shown, more)
-    if variant in places.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
+        table(paths.PUBLISHED.get(variant), shown, more)
+    if variant in paths.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
     return status
 
@@ -129,8 +129,8 @@ def of_scenes(checked, variant, names) -> list[str] | None:
     scenes = checked["variants"][variant]
     for name in names:
         if name not in scenes:
-            raise MisuseError(unknown("figure", name, list(scenes)))
-    found = places.figures(checked["variants"], variant)
+            raise CommandLineError(unknown("figure", name, list(scenes)))
+    found = paths.figures(checked["variants"], variant)
     return [path for path, (scene, _) in found.items() if scene in names] if names else None
 
 
@@ -153,11 +153,11 @@ def publish(drawings) -> dict[str, str]:
     return problems
 
 
-def known_absent(currency, variants, variant) -> dict[str, str]:
+def known_absent(freshness, variants, variant) -> dict[str, str]:
     """Scene -> why its figure cannot exist, as far as the jobs of a variant have found."""
     found = {
-        scene: currency.refusal(behind[-1])
-        for scene, behind in places.figures(variants, variant).values()
+        scene: freshness.refusal(behind[-1])
+        for scene, behind in paths.figures(variants, variant).values()
     }
     return {scene: why for scene, why in found.items() if why}
 
@@ -171,9 +171,9 @@ def _hidden(blocks, scenes):
 
 def _missed_impacts(variants, variant, scenes):
     """Of each of these scenes with a `method`: what it did, one line a scene."""
-    serves = places.served(variants)
+    artifact_paths = paths.artifact_paths(variants)
     for scene, block in variants[variant].items():
-        method, stages = block.get("method", {}), places.stages(block)
+        method, stages = block.get("method", {}), paths.stages(block)
         if scene in scenes and "exact" in method:
             exact = "orbits of their exact starts"
             how = exact if "orbits" in stages else "no stage with an exact method"
@@ -182,7 +182,7 @@ def _missed_impacts(variants, variant, scenes):
             from ..records.artifacts import load  # takes a while
 
             names = [stage for stage in stages if "method" in stages[stage]]
-            found = [load(ROOT / serves[variant, scene, stage]).attrs for stage in names]
+            found = [load(ROOT / artifact_paths[variant, scene, stage]).attrs for stage in names]
             missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
             how = ", ".join(f"{key} {value:g}" for key, value in method.items())
             yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"

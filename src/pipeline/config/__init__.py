@@ -4,9 +4,9 @@ Whatever is wrong with the file becomes one `ConfigError`, with a line for each 
 the key, its value and what is allowed. Importing this package is cheap: it is part of every start.
 """
 
-from .checking.document import check
-from .checking.reading import load
-from .checking.words import ConfigError, unknown
-from .places import PAPER, PUBLISHED, figures
+from .paths import PAPER, PUBLISHED, figures
+from .validation.document import check
+from .validation.reading import load
+from .validation.words import ConfigError, unknown
 
 __all__ = ["PAPER", "PUBLISHED", "ConfigError", "check", "figures", "load", "unknown"]

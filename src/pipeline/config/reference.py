@@ -7,18 +7,18 @@ from textwrap import indent
 
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from .checking.mistakes import allowed_at
-from .declared.fields import Axis, BallBlock, Block, Scan
-from .declared.kinds import KINDS
-from .declared.scene import Scene
-from .declared.stages import STAGES, behind
-from .declared.sweep import SPAN_MEANINGS, Span, Sweep
-from .declared.variant import Prove, Variant
+from .schema.fields import Axis, BallBlock, Block, Scan
+from .schema.kinds import KINDS
+from .schema.scene import Scene
+from .schema.stages import STAGES, upstream
+from .schema.sweep import SPAN_MEANINGS, Span, Sweep
+from .schema.variant import Prove, Variant
+from .validation.mistakes import allowed_at
 
 HEAD = """\
 # config.yaml, field by field
 
-Made from the declarations in `src/pipeline/config/declared/` by
+Made from the declarations in `src/pipeline/config/schema/` by
 `.venv/bin/python -m pipeline.config.reference`. Lengths are in R and times in 1/omega; what is said
 to be in section radii is relative to the radius of the section along the symmetry line
 y = xdot - k udot = 0. A block with an unknown key, a number in quotes or a value out of bounds is
@@ -43,7 +43,7 @@ def page() -> str:
         own = [field for field in kind.model_fields if field not in of_all]
         narrowed = [f for f in of_all if kind.model_fields[f].annotation != of_all[f]]
         first = kind.__doc__.partition("\n")[0]
-        drawn = ", ".join(f"`{stage}`" for stage in behind(kind.stages))
+        drawn = ", ".join(f"`{stage}`" for stage in upstream(kind.stages))
         about = f"{first[0].upper()}{first[1:]}. Computed: {drawn}."
         parts += [f"### picture: {name}", about, _table(kind, [*own, *narrowed])]
         parts += [f"{EXAMPLE}\n\n```yaml\nanother:\n{indent(example(name), '  ')}\n```"]

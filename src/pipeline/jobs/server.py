@@ -23,7 +23,7 @@ from typing import NamedTuple
 from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
 from ..records.record import log_path
-from . import making
+from . import dispatch
 
 ADDRESS = "PSEUDORIGID_JOBS"  # the variable that holds the server's socket
 _PLAN = "plan"  # what the Snakefile asks for
@@ -49,20 +49,20 @@ def plan() -> Plan:
             server.sendall(f"{_PLAN}\n".encode())
             with server.makefile("rb") as answer:
                 return pickle.load(answer)
-    from ..checks.currency import Currency
-    from ..config import expected, load
+    from ..checks.freshness import Freshness
+    from ..config import build_specs, load
     from ..records.sources import ROOT
 
     config = load(ROOT / "config.yaml")
-    specs = expected.of_all(config)
-    return Plan(config, specs, set(Currency(ROOT, specs).outdated()))
+    specs = build_specs.of_all(config)
+    return Plan(config, specs, set(Freshness(ROOT, specs).outdated()))
 
 
 def run(context, spec) -> bool:
     """Make a result in a process of its own, from a context of multiprocessing; whether it did."""
     # Not by its exit status: where other threads start jobs, multiprocessing may lose that.
     done, answer = context.Pipe(duplex=False)
-    job = context.Process(target=making.make, args=(spec, answer))
+    job = context.Process(target=dispatch.make, args=(spec, answer))
     job.start()
     answer.close()
     made = False
@@ -84,7 +84,7 @@ class _Server(socketserver.ThreadingUnixStreamServer):
 
 
 @contextmanager
-def serving(plan, current=lambda path: False):
+def job_server(plan, current=lambda path: False):
     """Serve the jobs of a run while the body runs.
 
     Parameters
@@ -133,7 +133,7 @@ def _start(computes):
     # Inherited: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        modules = ["loaded", *(["compiled"] if computes else [])]
+        modules = ["loaded_sources", *(["compiled"] if computes else [])]
         jobs = multiprocessing.get_context("forkserver")
         jobs.set_forkserver_preload([f"{__package__}.{name}" for name in modules])
         forkserver.ensure_running()

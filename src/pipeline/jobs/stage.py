@@ -38,8 +38,8 @@ def make(spec):
     compute = getattr(import_module(module), function)
     # A block with a `method` is computed by it, and its data say how many impacts that missed.
     method = block.get("method", {})
-    how = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
-    ball = Ball(**block["ball"], map=how)
+    root_finder = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
+    ball = Ball(**block["ball"], map=root_finder)
     inputs = [artifacts.load(path) for path in spec.inputs]
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
     if "exact" in method:
@@ -47,7 +47,7 @@ def make(spec):
     else:
         dataset = compute(ball, block["energy"], *inputs, **fields)
     if "scan" in method:
-        dataset.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
+        dataset.attrs |= {"impacts": root_finder.impacts, "impacts_missed": root_finder.missed}
     about = {"stage": spec.step, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
     about["title"] = artifacts.title_of(compute)
     artifacts.save(dataset, spec.result, block, **about)

@@ -17,7 +17,7 @@ from pathlib import Path
 import pseudorigid
 
 from .files import file_hash, read_text, write_whole
-from .sources import ROOT, meaning
+from .sources import ROOT, syntax_hash
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
@@ -126,7 +126,7 @@ def recorded(spec):
         "dirty": dirty,
         "config": spec.config,
         "inputs": {path: file_hash(path) for path in sorted(spec.inputs)},
-        "sources": {path: meaning(path) for path in texts},
+        "sources": {path: syntax_hash(path) for path in texts},
         "environment": versions(),
         "python": platform.python_version(),
     }

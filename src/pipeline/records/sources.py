@@ -6,8 +6,8 @@ Records and manifests name these, so that editing a module makes again what uses
 import os
 from pathlib import Path
 
-from pseudorigid.kernel.compiled import closure as imports
-from pseudorigid.kernel.compiled import meaning as meanings
+from pseudorigid.kernel.compiled import import_closure as imports
+from pseudorigid.kernel.compiled import syntax_hash as meanings
 
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
@@ -16,7 +16,7 @@ ROOT = SRC.parent
 BOOKKEEPING = (
     "pipeline",
     "pipeline.jobs",
-    "pipeline.jobs.making",
+    "pipeline.jobs.dispatch",
     "pipeline.jobs.server",
     "pipeline.records",
     "pipeline.records.build_spec",
@@ -24,8 +24,8 @@ BOOKKEEPING = (
     "pipeline.records.record",
     "pipeline.records.sources",
     "pseudorigid",
-    "pseudorigid.kernel.compiled.closure",
-    "pseudorigid.kernel.compiled.meaning",
+    "pseudorigid.kernel.compiled.import_closure",
+    "pseudorigid.kernel.compiled.syntax_hash",
 )
 # Module -> the files that it reads.
 _READS = {
@@ -33,26 +33,26 @@ _READS = {
 }
 
 
-def closure(*modules: str) -> list[str]:
+def source_files(*modules: str) -> list[str]:
     """The project's files behind some modules, without BOOKKEEPING.
 
     Parameters
     ----------
     *modules : str
-        Dotted names, as for pseudorigid.kernel.compiled.closure.
+        Dotted names, as for pseudorigid.kernel.compiled.import_closure.
 
     Returns
     -------
     list of str
         From the root.
     """
-    found = imports.closure(SRC, *modules, leave_out=BOOKKEEPING)
+    found = imports.import_closure(SRC, *modules, leave_out=BOOKKEEPING)
     files = [os.path.relpath(file, ROOT) for file in found]
     for module in set(files) & set(_READS):
         files += sorted(os.path.relpath(file, ROOT) for file in ROOT.glob(_READS[module]))
     return files
 
 
-def meaning(path) -> str | None:
+def syntax_hash(path) -> str | None:
     """Hash of what a file means, None where there is none; see pseudorigid.kernel.compiled."""
-    return meanings.meaning(path)
+    return meanings.syntax_hash(path)

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..kernel.law import rebound, transfer
+from ..kernel.impact_law import impact_coefficients, rebound
 from .ensemble import ImpactMap
-from .reading import coordinates, not_allowed, number, whole_number
+from .inputs import coordinates, not_allowed, number, whole_number
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class Ball:
             R undoes itself, and R F R is the inverse of the impact map F.
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
-        b, c, _ = rebound(xdot, udot, self.k, *transfer(self.k))
+        b, c, _ = rebound(xdot, udot, self.k, impact_coefficients(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
     def time_to_impact(self, x, xdot, udot):

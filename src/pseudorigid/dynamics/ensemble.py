@@ -10,9 +10,9 @@ import numba
 import numpy as np
 
 from ..kernel import impact, lanes
-from .reading import not_allowed, number
+from .inputs import not_allowed, number
 
-WORTH = 20_000  # impacts, half a millisecond, that a thread does at least
+MIN_IMPACTS_PER_THREAD = 20_000  # impacts, half a millisecond, that a thread does at least
 
 
 def threads() -> int:
@@ -45,7 +45,7 @@ def shared(work, impacts, *arrays):
         The sum of what `work` returns.
     """
     orbits = len(arrays[0])
-    workers = min(threads(), orbits // lanes.LANES, orbits * impacts // WORTH)
+    workers = min(threads(), orbits // lanes.LANES, orbits * impacts // MIN_IMPACTS_PER_THREAD)
     if workers < 2:
         return work(*arrays)
     pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)
@@ -68,7 +68,7 @@ class ImpactMap:
 
     Attributes
     ----------
-    how : None or (float, float)
+    root_finder : None or (float, float)
         `scan`, as the kernel's functions take it.
     impacts, missed : int
         Computed so far, and of these the ones that came after an impact that was flown past.
@@ -91,23 +91,27 @@ class ImpactMap:
                 raise not_allowed("scan", scan, "None, or (step, tolerance)") from None
             named = ("step", step), ("tolerance", tolerance)
             scan = tuple(number(*pair, "above 0, finite", lambda v: v > 0.0) for pair in named)
-        self.how = scan
+        self.root_finder = scan
         self.impacts = 0
         self.missed = 0
 
     def __repr__(self):
-        return "ImpactMap()" if self.certified else f"ImpactMap(scan={self.how})"
+        return "ImpactMap()" if self.certified else f"ImpactMap(scan={self.root_finder})"
 
     def __eq__(self, other):
-        return self.how == other.how if isinstance(other, ImpactMap) else NotImplemented
+        return (
+            self.root_finder == other.root_finder
+            if isinstance(other, ImpactMap)
+            else NotImplemented
+        )
 
     def __hash__(self):
-        return hash(self.how)
+        return hash(self.root_finder)
 
     @property
     def certified(self):
         """Whether every impact is the first one."""
-        return self.how is None
+        return self.root_finder is None
 
     def steps(self, x, v, w, k, g, impacts, tau):
         """Advance states in place; the memory does not grow with `impacts`.
@@ -148,7 +152,7 @@ class ImpactMap:
         tau : ndarray, shape (n,)
             The times (1/omega) of the flights that the states reached begin are written here.
         """
-        missed = impact.steps_back(x, v, w, k, g, impacts, tau, self.how)
+        missed = impact.steps_back(x, v, w, k, g, impacts, tau, self.root_finder)
         self.count(impacts * x.size, missed)
 
     def jacobians(self, x, v, w, k, g, impacts, out):
@@ -163,7 +167,7 @@ class ImpactMap:
         out : ndarray, shape (n, 3, 3)
             Row i, column j: the derivative of the i-th new variable by the j-th old one.
         """
-        missed = impact.jacobians(x, v, w, k, g, impacts, out, self.how)
+        missed = impact.jacobians(x, v, w, k, g, impacts, out, self.root_finder)
         self.count(impacts * x.size, missed)
 
     def count(self, impacts, missed):
@@ -179,9 +183,14 @@ class ImpactMap:
 
     def _some(self, x, v, w, k, g, impacts, tau, out):
         """One thread's share; how many impacts it missed."""
-        if self.certified and x.size >= lanes.FEW and impacts > 0 and not numba.config.DISABLE_JIT:
+        if (
+            self.certified
+            and x.size >= lanes.MIN_ORBITS_FOR_LANES
+            and impacts > 0
+            and not numba.config.DISABLE_JIT
+        ):
             lanes.steps(x, v, w, k, g, impacts, tau, out)
             return 0
         if out.size > 0:
-            return impact.history(x, v, w, k, g, out, self.how)
-        return impact.steps(x, v, w, k, g, impacts, tau, self.how)
+            return impact.history(x, v, w, k, g, out, self.root_finder)
+        return impact.steps(x, v, w, k, g, impacts, tau, self.root_finder)

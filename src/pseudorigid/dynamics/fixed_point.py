@@ -16,7 +16,7 @@ import math
 from ..kernel.arithmetic import sincos
 
 
-def bent(theta):
+def one_minus_theta_cot(theta):
     """1 - theta cot(theta), for 0 < theta < pi."""
     sine, cosine = sincos(theta)
     return 1.0 - theta * cosine / sine
@@ -37,7 +37,7 @@ def energy(k, theta):
     float
         E/g^2, which rises with theta from -1/(2k).
     """
-    b = bent(theta)
+    b = one_minus_theta_cot(theta)
     return ((1.0 + k) * theta * theta + b * b - 1.0) / (2.0 * k)
 
 
@@ -74,7 +74,7 @@ def place(k, theta):
     float
         x in g R.
     """
-    return (1.0 - bent(theta)) / k
+    return (1.0 - one_minus_theta_cot(theta)) / k
 
 
 def trace(k, theta):
@@ -93,7 +93,7 @@ def trace(k, theta):
         Falls with theta from 2; elliptic above -2.
     """
     sine, cosine = sincos(2.0 * theta)
-    shear = bent(theta) * (2.0 * theta - sine) / (theta * (1.0 + k))
+    shear = one_minus_theta_cot(theta) * (2.0 * theta - sine) / (theta * (1.0 + k))
     return 2.0 * (1.0 + k * (cosine - shear)) / (1.0 + k)
 
 

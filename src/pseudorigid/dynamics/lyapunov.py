@@ -12,11 +12,11 @@ import xarray as xr
 
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
-from ..kernel.impact import step_with_flight, tangent, transfer
-from ..kernel.lanes import FEW
-from ..kernel.tangents import GROUP, STRETCH, carried, room, stretch
+from ..kernel.impact import impact_coefficients, step_with_flight, tangent
+from ..kernel.lanes import MIN_ORBITS_FOR_LANES
+from ..kernel.tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
 from .ensemble import shared
-from .reading import not_allowed, state_of, whole_number
+from .inputs import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims
 
@@ -73,8 +73,10 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
     def some(x, v, w, out):
-        spectra = _each if x.size < FEW else _spectrum  # the second one takes long to compile
-        return spectra(x, v, w, ball.k, ball.g, at, out, ball.map.how)
+        spectra = (
+            _each if x.size < MIN_ORBITS_FOR_LANES else _spectrum
+        )  # the second one takes long to compile
+        return spectra(x, v, w, ball.k, ball.g, at, out, ball.map.root_finder)
 
     missed = shared(some, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
@@ -157,7 +159,7 @@ _A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
 
 
 @jit
-def _advance(frames, n, k, g, head, low, states, flights, row):
+def _advance(frames, n, k, g, coefficients, states, flights, row):
     """Carry the frames of some orbits over an impact, and make them orthonormal.
 
     Their lengths are multiplied up. Returns whether one of these nears the end of what a double
@@ -170,9 +172,9 @@ def _advance(frames, n, k, g, head, low, states, flights, row):
         b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
         c0, c1, c2 = frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i]
         at = row + i
-        a0, a1, a2 = carried(a0, a1, a2, k, g, head, low, states, flights, at)
-        b0, b1, b2 = carried(b0, b1, b2, k, g, head, low, states, flights, at)
-        c0, c1, c2 = carried(c0, c1, c2, k, g, head, low, states, flights, at)
+        a0, a1, a2 = push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at)
+        b0, b1, b2 = push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at)
+        c0, c1, c2 = push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at)
         p, a0, a1, a2 = _unit(a0, a1, a2)
         q, b0, b1, b2 = _unit(*_without(a0, a1, a2, b0, b1, b2))
         c0, c1, c2 = _without(a0, a1, a2, c0, c1, c2)
@@ -205,15 +207,15 @@ def _collect(total, frames, i):
 
 
 @jit
-def _spectrum(x, v, w, k, g, at, out, how):
+def _spectrum(x, v, w, k, g, at, out, root_finder):
     """Exponents of the states (n,) after each of `at` (m,) impacts: out (n, m, 3).
 
-    `how` and what is returned, the impacts missed, are as in `impact`.
+    `root_finder` and what is returned, the impacts missed, are as in `impact`.
     """
     missed = 0
     for first in range(0, x.size, GROUP):
         group = slice(first, min(first + GROUP, x.size))
-        missed += _group(x[group], v[group], w[group], k, g, at, out[group], how)
+        missed += _group(x[group], v[group], w[group], k, g, at, out[group], root_finder)
     return missed
 
 
@@ -227,12 +229,12 @@ def _orthonormal(a, b, c):
 
 
 @jit
-def _one(x, v, w, k, g, at, out, how):
+def _one(x, v, w, k, g, at, out, root_finder):
     """Write the exponents of one orbit after each of `at` impacts to out (m, 3).
 
     The frame stays in the processor's registers, which is faster for few orbits than `_group`.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     p = q = r = 1.0
     sums = np.zeros(3)
@@ -240,12 +242,12 @@ def _one(x, v, w, k, g, at, out, how):
     for m in range(at.size):
         while done < at[m]:
             x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
-                x, v, w, k, g, head, low, how
+                x, v, w, k, g, coefficients, root_finder
             )
             missed += late
-            a = tangent(*a, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            b = tangent(*b, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            c = tangent(*c, k, g, head, low, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            a = tangent(*a, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            b = tangent(*b, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
+            c = tangent(*c, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
             one, two, three, a, b, c = _orthonormal(a, b, c)
             p, q, r = p * one, q * two, r * three
             done += 1
@@ -258,33 +260,33 @@ def _one(x, v, w, k, g, at, out, how):
 
 
 @jit
-def _each(x, v, w, k, g, at, out, how):
+def _each(x, v, w, k, g, at, out, root_finder):
     """Write the exponents of orbits, one after the other, to out (n, m, 3), as `_spectrum` does."""
     missed = 0
     for i in range(x.size):
-        missed += _one(x[i], v[i], w[i], k, g, at, out[i], how)
+        missed += _one(x[i], v[i], w[i], k, g, at, out[i], root_finder)
     return missed
 
 
 @jit
-def _group(x, v, w, k, g, at, out, how):
+def _group(x, v, w, k, g, at, out, root_finder):
     """Write the exponents of at most GROUP orbits after each of `at` impacts to out (n, m, 3)."""
     n = x.size
     missed, done = 0, 0
-    if n < FEW:
-        return _each(x, v, w, k, g, at, out, how)
-    head, low = transfer(k)
-    states, flights = room()
+    if n < MIN_ORBITS_FOR_LANES:
+        return _each(x, v, w, k, g, at, out, root_finder)
+    coefficients = impact_coefficients(k)
+    states, flights = allocate_buffers()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
     for i in range(n):
         frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
         frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
     for m in range(at.size):
         while done < at[m]:
-            impacts = min(STRETCH, at[m] - done)
-            missed += stretch(x, v, w, k, g, impacts, states, flights, how)
+            impacts = min(CHUNK, at[m] - done)
+            missed += advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder)
             for row in range(0, impacts * GROUP, GROUP):
-                if _advance(frames, n, k, g, head, low, states, flights, row):
+                if _advance(frames, n, k, g, coefficients, states, flights, row):
                     _collect_far(total, frames, n)
             done += impacts
         for i in range(n):

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from .branch import Branch
-from .reading import coordinates, not_allowed, number, one_of
-from .tracing import traced
+from .inputs import coordinates, not_allowed, number, one_of
+from .tracing import trace
 from .variables import NAMES, of_rows, of_type, variables
 
 MOST_IN_ALL = 10_000_000  # points of a scene
@@ -101,7 +101,7 @@ def trace_manifold(
     bend = number("bend", bend, "between 0 and 180 degrees", lambda v: 0.0 < v < 180.0)
     window = None if window is None else _edges(window)
     branch = Branch(ball, energy, points, saddle, side, stable)
-    vertices = traced(branch, length, distance, bend, window)
+    vertices = trace(branch, length, distance, bend, window)
     attributes = {"start_error": branch.start_error()}
     if branch.ended is not None:
         attributes["ended"] = branch.ended

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.law import rebound, transfer
+from ..kernel.impact_law import impact_coefficients, rebound
 from .variables import LENGTH, TIME, of_type, variables
 
 # Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
@@ -102,7 +102,7 @@ def motion(ball, orbit, duration):
         )
     flights = _flights(ball, orbit)
     following = next(flights)
-    head, low = transfer(ball.k)
+    coefficients = impact_coefficients(ball.k)
     columns = [[], [], []]
     impacts = [[], []]
     time = 0.0
@@ -110,7 +110,7 @@ def motion(ball, orbit, duration):
         (x, xdot, udot, tau), following = following, next(flights)
         impacts[0].append(time)
         impacts[1].append(x)
-        b, c, _ = rebound(xdot, udot, ball.k, head, low)
+        b, c, _ = rebound(xdot, udot, ball.k, coefficients)
         t = tau * (np.arange(SAMPLES + 1) / SAMPLES)
         t = np.append(t[time + t < duration], duration - time) if time + tau > duration else t
         sine, cosine = sincos_each(t)

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from .reading import not_allowed, one_of, state_of, whole_number
+from .inputs import not_allowed, one_of, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims, variables
 

@@ -12,8 +12,8 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.law import rebound, transfer
-from .reading import number, whole_number
+from ..kernel.impact_law import impact_coefficients, rebound
+from .inputs import number, whole_number
 from .variables import NAMES, TIME, variables
 
 # Cells into which a symmetry line is divided; each sign change between neighbours is followed. Of
@@ -172,7 +172,7 @@ def _lines(ball, energy, period):
             sine, cosine = sincos_each(theta)
             square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
             a = (g * cosine + sign * np.sqrt(np.where(square >= 0.0, square, np.nan))) / k
-            xdot, udot, _ = rebound(-g * theta, -a * sine, k, *transfer(k))
+            xdot, udot, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
             state = np.where(xdot + udot >= 0.0, (a * cosine, xdot, udot), np.nan)
             tau = ball.time_to_impact(*state)
             # no earlier impact has ended the flight; where it grazes tau is good to 1e-8

@@ -19,7 +19,7 @@ MOST_VERTICES = 3_000_000
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 
-def traced(branch, length, distance, bend, window):
+def trace(branch, length, distance, bend, window):
     """The polyline of a branch, image by image until it is long enough.
 
     Parameters
@@ -95,12 +95,12 @@ def _too_coarse(branch, u, states, distance, straight, window):
         coarse = _sides(states) > COARSE * branch.radius
     step, sides = np.diff(drawn, axis=1), _sides(drawn)
     cosine = np.sum(step[:, 1:] * step[:, :-1], axis=0)
-    bent = cosine < straight * sides[1:] * sides[:-1]
-    bent &= np.maximum(sides[1:], sides[:-1]) > FINEST * distance
+    bends = cosine < straight * sides[1:] * sides[:-1]
+    bends &= np.maximum(sides[1:], sides[:-1]) > FINEST * distance
     # a bend is mended by halving the longer of its two sides, both where they are alike
     fine = sides > distance
-    fine[:-1] |= bent & (sides[:-1] >= 0.5 * sides[1:])
-    fine[1:] |= bent & (sides[1:] >= 0.5 * sides[:-1])
+    fine[:-1] |= bends & (sides[:-1] >= 0.5 * sides[1:])
+    fine[1:] |= bends & (sides[1:] >= 0.5 * sides[:-1])
     return ((fine & inside) | coarse) & ~_is_jump(u)
 
 

@@ -9,7 +9,7 @@ from ..dynamics import fixed_point
 from .axes import raster
 from .axes.panel import Axis, Panel, log10
 from .canvas import style
-from .canvas.ragged import pieces
+from .canvas.ragged_rows import pieces
 from .canvas.sheet import POINT, Sheet
 
 RESONANCES = tuple((1, q) for q in range(2, 11))

@@ -46,7 +46,9 @@ VERDICTS = {
 }
 LEFT, RIGHT = 150, 1010  # pixels: the frames of charts
 ZERO = -18  # the decade at which zeros are drawn, named so: a double's own error is above 1e-17
-FEW = 0.01  # share of wrong roots above which what counts as wrong decides the worst right one
+MAX_WRONG_SHARE = (
+    0.01  # share of wrong roots above which what counts as wrong decides the worst right one
+)
 COSTS = {
     "evaluations": decades((0, 5), "Evaluations a flight"),
     "seconds": decades((-8, 0), "Seconds a flight"),
@@ -75,8 +77,8 @@ def work(data, which, cost):
     matplotlib.figure.Figure
     """
     entries, notes = _families(data), [("filled: the median", style.FRAME, "o", False)]
-    if (data["wrong"].values[which] <= FEW).any():
-        words = f"hollow: the worst right root, if at most {100 * FEW:.0f} % are wrong"
+    if (data["wrong"].values[which] <= MAX_WRONG_SHARE).any():
+        words = f"hollow: the worst right root, if at most {100 * MAX_WRONG_SHARE:.0f} % are wrong"
         notes.append((words, style.FRAME, "o", True))
     if cost == "seconds":
         notes.append(("heavy bars: quartiles of the seconds", style.FRAME, "", False, 1.6))
@@ -92,7 +94,7 @@ def work(data, which, cost):
         some = data.isel(set=which, method=data["family"].values == family)
         x = some[cost].values
         median, worst = (_seen(some[name].values, ZERO) for name in ("median", "worst"))
-        few = some["wrong"].values <= FEW
+        few = some["wrong"].values <= MAX_WRONG_SHARE
         upper.line(x, median, color=color, lw=0.9)
         upper.line(x[few], worst[few], color=color, lw=0.5, ls="--")
         upper.dots(x[few], worst[few], color, hollow=True, marker=marker)

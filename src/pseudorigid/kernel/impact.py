@@ -1,30 +1,31 @@
 """The impact map, eqs. (25)-(28), and its Jacobian, eq. (33): one step, and loops over it.
 
 Everything here is compiled. A state is (x, v, w), that is (x, xdot, udot) just before an impact,
-and a loop gives each state the bits it would have alone. `how` says how the next impact is found:
-None by the certified march of `flight`, (step, tolerance) by the scan of `scan`; it is decided when
-a function is compiled. Loops return how many impacts a scan flew past, 0 for the march.
+and a loop gives each state the bits it would have alone. `root_finder` says
+how the next impact is found: None by the certified march of `flight`, (step, tolerance) by the scan
+of `scan`; it is decided when a function is compiled. Loops return how many impacts a scan flew
+past, 0 for the march.
 """
 
-from . import law
+from . import impact_law
 from .arithmetic import quadrant, quarter_turns
 from .compiled import jit
 from .flight import first_impact
 from .scan import scanned_impact
 
-transfer = jit(law.transfer)
-rebound = jit(law.rebound)
+impact_coefficients = jit(impact_law.impact_coefficients)
+rebound = jit(impact_law.rebound)
 
 
 @jit
-def next_impact(x, b, c, s, g, how):
+def next_impact(x, b, c, s, g, root_finder):
     """The flight after an impact, by the march or by the scan.
 
     Parameters
     ----------
     x, b, c, s, g : float
         As for `flight.first_impact`.
-    how : None or (float, float)
+    root_finder : None or (float, float)
 
     Returns
     -------
@@ -35,15 +36,15 @@ def next_impact(x, b, c, s, g, how):
     missed : int
         1 where the scan flew past an impact.
     """
-    if how is None:
+    if root_finder is None:
         tau, p, q, evaluations = first_impact(x, b, c, s, g)
         return tau, p, q, evaluations, 0
-    tau, p, q, missed = scanned_impact(x, b, c, s, g, how)
+    tau, p, q, missed = scanned_impact(x, b, c, s, g, root_finder)
     return tau, p, q, 0, missed
 
 
 @jit
-def step(x, v, w, k, g, head, low, how):
+def step(x, v, w, k, g, coefficients, root_finder):
     """The impact map, eq. (28): one impact and the flight after it.
 
     Parameters
@@ -52,9 +53,9 @@ def step(x, v, w, k, g, head, low, how):
         State just before the impact: position (R), xdot (R omega), udot (omega).
     k, g : float
         The ball.
-    head, low : float
-        `transfer` of k.
-    how : None or (float, float)
+    coefficients : float
+        `impact_coefficients` of k.
+    root_finder : None or (float, float)
 
     Returns
     -------
@@ -65,8 +66,8 @@ def step(x, v, w, k, g, head, low, how):
     evaluations, missed : int
         As from `next_impact`.
     """
-    b, c, s = rebound(v, w, k, head, low)
-    tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, how)
+    b, c, s = rebound(v, w, k, coefficients)
+    tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, root_finder)
     v = b + g * tau
     # on the section to the last bit, also where the impact grazes
     return p, v, max(q, -v), tau, evaluations, missed
@@ -107,7 +108,7 @@ def flight_derivatives(x, b, c, s, g, tau, trigonometry):
 
 
 @jit
-def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c):
+def tangent(dx, dv, dw, k, g, coefficients, p, q, sine, cosine, tau_x, tau_s, tau_c):
     """A tangent vector carried over one impact and flight: J times (dx, dv, dw), eq. (33).
 
     Parameters
@@ -116,8 +117,8 @@ def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c
         The vector at the state before.
     k, g : float
         The ball.
-    head, low : float
-        `transfer` of k.
+    coefficients : float
+        `impact_coefficients` of k.
     p, q : float
         Position and udot just before the next impact.
     sine, cosine, tau_x, tau_s, tau_c : float
@@ -128,7 +129,7 @@ def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c
     dx, dv, dw : float
         The vector at the next state.
     """
-    db, dc, ds = rebound(dv, dw, k, head, low)
+    db, dc, ds = rebound(dv, dw, k, coefficients)
     dtau = tau_x * dx + tau_s * ds + tau_c * dc
     return (
         cosine * dx - sine * dc - q * dtau,
@@ -138,12 +139,12 @@ def tangent(dx, dv, dw, k, g, head, low, p, q, sine, cosine, tau_x, tau_s, tau_c
 
 
 @jit
-def step_with_flight(x, v, w, k, g, head, low, how):
+def step_with_flight(x, v, w, k, g, coefficients, root_finder):
     """One `step`, and what `tangent` needs to carry vectors along with it.
 
     Parameters
     ----------
-    x, v, w, k, g, head, low, how
+    x, v, w, k, g, coefficients, root_finder
         As for `step`.
 
     Returns
@@ -154,14 +155,14 @@ def step_with_flight(x, v, w, k, g, head, low, how):
         As from `flight_derivatives`.
     missed : int
     """
-    b, c, s = rebound(v, w, k, head, low)
-    p, v, q, tau, _, missed = step(x, v, w, k, g, head, low, how)
+    b, c, s = rebound(v, w, k, coefficients)
+    p, v, q, tau, _, missed = step(x, v, w, k, g, coefficients, root_finder)
     sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, g, tau, quadrant(tau))
     return p, v, q, tau, sine, cosine, tau_x, tau_s, tau_c, missed
 
 
 @jit
-def steps(x, v, w, k, g, impacts, tau, how):
+def steps(x, v, w, k, g, impacts, tau, root_finder):
     """Advance states by a number of impacts, in place.
 
     Parameters
@@ -174,31 +175,31 @@ def steps(x, v, w, k, g, impacts, tau, how):
         At least 0.
     tau : ndarray, shape (n,)
         The last flights' times are written here.
-    how : None or (float, float)
+    root_finder : None or (float, float)
 
     Returns
     -------
     int
         Impacts missed.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
         a, b, c, t = x[i], v[i], w[i], tau[i]
         for _ in range(impacts):
-            a, b, c, t, _, late = step(a, b, c, k, g, head, low, how)
+            a, b, c, t, _, late = step(a, b, c, k, g, coefficients, root_finder)
             missed += late
         x[i], v[i], w[i], tau[i] = a, b, c, t
     return missed
 
 
 @jit
-def steps_back(x, v, w, k, g, impacts, tau, how):
+def steps_back(x, v, w, k, g, impacts, tau, root_finder):
     """`steps` towards the past: F^-1 = R F R, where R reverses the velocities after an impact.
 
     Parameters
     ----------
-    x, v, w, k, g, impacts, tau, how
+    x, v, w, k, g, impacts, tau, root_finder
         As for `steps`; tau are the flights from the states reached to those after them.
 
     Returns
@@ -206,13 +207,13 @@ def steps_back(x, v, w, k, g, impacts, tau, how):
     int
         Impacts missed.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
         a, b, c, t = x[i], v[i], w[i], tau[i]
         for _ in range(impacts):
-            t, p, q, _, late = next_impact(a, -b, -c, b + c, g, how)
-            b, c, _ = rebound(g * t - b, q, k, head, low)
+            t, p, q, _, late = next_impact(a, -b, -c, b + c, g, root_finder)
+            b, c, _ = rebound(g * t - b, q, k, coefficients)
             a, b, c = p, -b, max(-c, b)  # as in `step`
             missed += late
         x[i], v[i], w[i], tau[i] = a, b, c, t
@@ -220,7 +221,7 @@ def steps_back(x, v, w, k, g, impacts, tau, how):
 
 
 @jit
-def history(x, v, w, k, g, out, how):
+def history(x, v, w, k, g, out, root_finder):
     """`steps` with every impact kept.
 
     Parameters
@@ -231,19 +232,19 @@ def history(x, v, w, k, g, out, how):
         The ball.
     out : ndarray, shape (n, impacts, 4)
         x, v, w and tau of every impact, the start excluded, are written here.
-    how : None or (float, float)
+    root_finder : None or (float, float)
 
     Returns
     -------
     int
         Impacts missed.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
         a, b, c = x[i], v[i], w[i]
         for j in range(out.shape[1]):
-            a, b, c, t, _, late = step(a, b, c, k, g, head, low, how)
+            a, b, c, t, _, late = step(a, b, c, k, g, coefficients, root_finder)
             out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = a, b, c, t
             missed += late
         x[i], v[i], w[i] = a, b, c
@@ -251,7 +252,7 @@ def history(x, v, w, k, g, out, how):
 
 
 @jit
-def jacobians(x, v, w, k, g, impacts, out, how):
+def jacobians(x, v, w, k, g, impacts, out, root_finder):
     """The Jacobian of the map's iterate at each state, eq. (33), by the chain rule.
 
     Parameters
@@ -264,14 +265,14 @@ def jacobians(x, v, w, k, g, impacts, out, how):
         Of the iterate.
     out : ndarray, shape (n, 3, 3)
         Row i, column j: the derivative of the i-th new variable by the j-th old one.
-    how : None or (float, float)
+    root_finder : None or (float, float)
 
     Returns
     -------
     int
         Impacts missed.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
         a, b, c = x[i], v[i], w[i]
@@ -280,12 +281,12 @@ def jacobians(x, v, w, k, g, impacts, out, how):
                 out[i, m, j] = 1.0 if m == j else 0.0
         for _ in range(impacts):
             a, b, c, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
-                a, b, c, k, g, head, low, how
+                a, b, c, k, g, coefficients, root_finder
             )
             missed += late
             for j in range(3):
                 out[i, 0, j], out[i, 1, j], out[i, 2, j] = tangent(
                     out[i, 0, j], out[i, 1, j], out[i, 2, j],
-                    k, g, head, low, a, c, sine, cosine, tau_x, tau_s, tau_c,
+                    k, g, coefficients, a, c, sine, cosine, tau_x, tau_s, tau_c,
                 )  # fmt: skip
     return missed

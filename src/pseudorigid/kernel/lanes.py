@@ -28,10 +28,10 @@ from .flight import (
     stride,
     sure_stride,
 )
-from .impact import rebound, step, transfer
+from .impact import impact_coefficients, rebound, step
 
 LANES = 32  # four turns of a loop with vectors of eight doubles, eight with vectors of four
-FEW = 12  # fewer orbits than this are faster one after the other
+MIN_ORBITS_FOR_LANES = 12  # fewer orbits than this are faster one after the other
 # The state of a lane, the flight that led there, and how many impacts are left; of the flight under
 # way the time to evaluate at, 1 once it is close to its root, the bracket then, what
 # `impact_free_time` gave, and how many evaluations it took.
@@ -54,10 +54,10 @@ _PLAIN, _ALONE, _LONG = 0.0, 1.0, 2.0
 
 
 @jit
-def _gaps(lanes, k, g, head, low):
+def _gaps(lanes, k, g, coefficients):
     for i in range(LANES):
         x, v, w, t = lanes[X + i], lanes[V + i], lanes[W + i], lanes[T + i]
-        b, c, s = rebound(v, w, k, head, low)
+        b, c, s = rebound(v, w, k, coefficients)
         s = max(s, 0.0)
         f, df, ddf, p, q = gap(t, x, b, c, s, g, narrow_quadrant(t))
         lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i] = f, df, ddf, p, q
@@ -119,7 +119,7 @@ def _follow(lanes, g):
 
 
 @jit
-def _end_flights(lanes, k, g, head, low):
+def _end_flights(lanes, k, g, coefficients):
     """The next state where a flight has ended, and the flight from there.
 
     Returns 0 where every lane goes on in the common case and no orbit has ended.
@@ -134,7 +134,7 @@ def _end_flights(lanes, k, g, head, low):
         p, q = rotated(lanes[P + i], lanes[Q + i], lanes[STEP + i])
         v1 = lanes[B + i] + g * after
         q = max(q, -v1)
-        b, c, s = rebound(v1, q, k, head, low)
+        b, c, s = rebound(v1, q, k, coefficients)
         amplitude = amplitude_bound(p, c)
         first = first_step(p, c, max(s, 0.0), g, amplitude)
         rise1, rate1, free1 = impact_free_time(p, b, g, amplitude)
@@ -155,10 +155,10 @@ def _end_flights(lanes, k, g, head, low):
 
 
 @jit
-def _begin_flight(lanes, i, k, g, head, low):
+def _begin_flight(lanes, i, k, g, coefficients):
     """Begin the flight of lane i from its state."""
     x = lanes[X + i]
-    b, c, s = rebound(lanes[V + i], lanes[W + i], k, head, low)
+    b, c, s = rebound(lanes[V + i], lanes[W + i], k, coefficients)
     amplitude = amplitude_bound(x, c)
     t = first_step(x, c, max(s, 0.0), g, amplitude)
     rise, rate, free = impact_free_time(x, b, g, amplitude)
@@ -184,20 +184,20 @@ def _stride_alone(lanes, i, g):
 
 
 @jit
-def _step_alone(lanes, i, k, g, head, low):
+def _step_alone(lanes, i, k, g, coefficients):
     """Do the whole flight of lane i on its own, and begin the next."""
-    x, v, w, tau, _, _ = step(lanes[X + i], lanes[V + i], lanes[W + i], k, g, head, low, None)
+    x, v, w, tau, _, _ = step(lanes[X + i], lanes[V + i], lanes[W + i], k, g, coefficients, None)
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, tau
     lanes[LEFT + i] -= 1.0
-    _begin_flight(lanes, i, k, g, head, low)
+    _begin_flight(lanes, i, k, g, coefficients)
 
 
 @jit
-def _begin_orbit(lanes, i, x, v, w, impacts, k, g, head, low):
+def _begin_orbit(lanes, i, x, v, w, impacts, k, g, coefficients):
     """Give lane i a new orbit."""
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, math.nan
     lanes[LEFT + i] = impacts
-    _begin_flight(lanes, i, k, g, head, low)
+    _begin_flight(lanes, i, k, g, coefficients)
 
 
 @jit
@@ -226,26 +226,26 @@ def steps(x, v, w, k, g, impacts, tau, out):
     out : ndarray, shape (n, impacts, 4)
         x, v, w and tau of every impact are written here, unless it is empty.
     """
-    head, low = transfer(k)
+    coefficients = impact_coefficients(k)
     lanes = np.zeros(SIZE)
     begun = min(x.size, LANES)
     orbit = np.arange(begun)
     for i in range(LANES):
         j = min(i, x.size - 1)  # a lane without an orbit repeats the last one, with nothing left
-        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts if i < x.size else 0, k, g, head, low)
+        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts if i < x.size else 0, k, g, coefficients)
     flying = begun
     while flying > 0:
-        _gaps(lanes, k, g, head, low)
+        _gaps(lanes, k, g, coefficients)
         _march(lanes, g)
         _land(lanes)
         _follow(lanes, g)
-        wanting = _end_flights(lanes, k, g, head, low)
+        wanting = _end_flights(lanes, k, g, coefficients)
         if wanting > 0:
             for i in range(LANES):
                 if lanes[ODD + i] == 0.0 or lanes[LEFT + i] == 0.0:
                     continue
                 if lanes[ODD + i] != _LONG or not _stride_alone(lanes, i, g):
-                    _step_alone(lanes, i, k, g, head, low)
+                    _step_alone(lanes, i, k, g, coefficients)
         if out.size > 0:
             _store(lanes, orbit, impacts, out)
         if wanting > 0:
@@ -258,6 +258,6 @@ def steps(x, v, w, k, g, impacts, tau, out):
                     if begun < x.size:
                         j = begun
                         orbit[i] = j
-                        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts, k, g, head, low)
+                        _begin_orbit(lanes, i, x[j], v[j], w[j], impacts, k, g, coefficients)
                         begun += 1
                         flying += 1

@@ -76,14 +76,14 @@ def scan(x, b, c, g, step, tolerance):
 
 
 @jit
-def scanned_impact(x, b, c, s, g, how):
+def scanned_impact(x, b, c, s, g, root_finder):
     """The flight after an impact by the scan, held against the certified one.
 
     Parameters
     ----------
     x, b, c, s, g : float
         As for `flight.first_impact`.
-    how : (float, float)
+    root_finder : (float, float)
         Step and tolerance (1/omega).
 
     Returns
@@ -98,7 +98,7 @@ def scanned_impact(x, b, c, s, g, how):
     ArithmeticError
         Where the scan ends without an impact.
     """
-    step, tolerance = how
+    step, tolerance = root_finder
     tau, count = scan(x, b, c, g, step, tolerance)
     if math.isnan(tau) and count:
         raise ArithmeticError("the scan for the next impact does not end")

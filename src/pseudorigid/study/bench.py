@@ -12,18 +12,18 @@ import numpy as np
 
 from ..dynamics import branch as branch_rule
 from ..dynamics.ball import Ball
-from ..dynamics.follow import begin, follow
 from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.manifolds import trace_manifold
 from ..dynamics.periodic import symmetric_orbits
+from ..dynamics.tangent_orbits import begin, propagate_with_tangent
 from ..dynamics.variables import of_type
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
 from ..sweep.cell import cells
 from . import states
 from .machine import machine
-from .methods import counted as own
-from .methods import scipy_events, taylor, to_the_end, toolkit
+from .methods import counted_methods as own
+from .methods import full_length_cell, pynamicalsys_lyapunov, scipy_events, taylor
 from .timing import interleaved
 from .verdicts import places
 
@@ -88,7 +88,7 @@ def run(repetitions=REPETITIONS):
         "heyoka": (partial(hey.solve, ball, *some), 500),
         "DOP853": (partial(dop.solve, ball, *few), 20),
         "spectrum": (partial(lyapunov_spectrum, ball, chaotic, IMPACTS, records=1), IMPACTS),
-        "pynamicalsys": (partial(toolkit.spectrum, ball, chaotic, IMPACTS), IMPACTS),
+        "pynamicalsys": (partial(pynamicalsys_lyapunov.spectrum, ball, chaotic, IMPACTS), IMPACTS),
         "ensemble": (partial(_steps, many, 200), 200 * LANES),
         "stored": (partial(_history, many, room), 200 * LANES),
         "vectors": (partial(_vectors, many, 192), 192 * LANES),
@@ -120,7 +120,7 @@ def _whole():
     def each_to_the_end():
         for k, energies in plane:
             for e in energies:
-                to_the_end.cell(k, e, 200, 4000)
+                full_length_cell.cell(k, e, 200, 4000)
 
     def from_the_segment():
         usual, branch_rule.WEAK = branch_rule.WEAK, 0.0
@@ -161,7 +161,7 @@ def _vectors(start, impacts):
     ball, lanes = states.BALL, start[0].size
     orbits = begin(ball.k, [a / ball.g for a in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, lanes))
-    follow(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
+    propagate_with_tangent(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
 
 
 def _along(state, count):

@@ -7,9 +7,9 @@ million impacts. A failure is a wrong root as in `work.is_wrong`.
 import numpy as np
 
 from ..dynamics.variables import LENGTH
-from ..proofs import judge
+from ..proofs import reference_solver
 from . import states
-from .methods.counted import OURS, engine_method, scan_method
+from .methods.counted_methods import OURS, engine_method, scan_method
 from .states import BALL
 from .work import dataset, is_wrong, proved_times
 
@@ -120,7 +120,9 @@ def orbits(impacts=MILLION):
         drift.append(energy_drift(BALL, start, track)[records - 1])
     starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
     tracks = [[m.orbit(BALL, state, AGREE_IMPACTS)[0][0] for state in starts] for m in methods]
-    proved = [np.array(judge.orbit(BALL, state, AGREE_IMPACTS))[:, 0] for state in starts]
+    proved = [
+        np.array(reference_solver.orbit(BALL, state, AGREE_IMPACTS))[:, 0] for state in starts
+    ]
     tracks = np.array([*tracks, proved])
     apart = np.median(np.abs(tracks[:-1] - tracks[-1]), axis=1)
     agree = [[_agreement(one, other) for other in tracks] for one in tracks]

@@ -30,10 +30,10 @@ from ..figures.canvas.style import DPI
 from ..figures.kinds import closeup, exponents, motion
 from ..kernel.arithmetic import log, sincos_each
 from ..kernel.compiled import jit
-from ..kernel.law import rebound, transfer
-from ..proofs import judge
+from ..kernel.impact_law import impact_coefficients, rebound
+from ..proofs import reference_solver
 from .failures import certified_orbit, energy_drift
-from .methods.counted import ENGINES, OURS, SCANS
+from .methods.counted_methods import ENGINES, OURS, SCANS
 from .work import dataset, is_wrong, proved_times
 
 # The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
@@ -146,7 +146,7 @@ def _motion(block, periodic):
     orbit = of_type(periodic, block["type"])
     state = tuple(states_of(orbit)[:, 0].tolist())
     impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
-    truth = np.array(judge.orbit(ball, state, impacts)).T
+    truth = np.array(reference_solver.orbit(ball, state, impacts)).T
     times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
     across, up = _pixels(motion.plane(block))
     error, evaluations = [], []
@@ -232,7 +232,7 @@ def _solved(ball, columns, truth):
 def _next_states(ball, columns, tau):
     """The states after flights of given times, eq. (26)."""
     x, xdot, udot = columns
-    b, c, _ = rebound(xdot, udot, ball.k, *transfer(ball.k))
+    b, c, _ = rebound(xdot, udot, ball.k, impact_coefficients(ball.k))
     sine, cosine = sincos_each(tau)
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..dynamics.ball import Ball
 from ..kernel.arithmetic import sincos_each
-from ..kernel.law import rebound, transfer
+from ..kernel.impact_law import impact_coefficients, rebound
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01
@@ -100,6 +100,8 @@ def near_miss(height, count):
             continue  # too far out, too near to grazing, or no sharp maximum
         gaps = x + times * (b + 0.5 * g * times) - x * cosines + c * sines
         if gaps[:-11].max() < 0.0:  # nothing earlier; the last tenths belong to the maximum
-            xdot, udot, _ = rebound(b, c, k, *transfer(k))  # the impact law is an involution
+            xdot, udot, _ = rebound(
+                b, c, k, impact_coefficients(k)
+            )  # the impact law is an involution
             states.append((x, xdot, udot))
     return np.array(states).T.copy()

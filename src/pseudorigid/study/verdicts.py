@@ -25,11 +25,11 @@ import xarray as xr
 
 from ..dynamics import fixed_point
 from ..dynamics.ensemble import threads
-from ..dynamics.follow import CENTRE, SIZE, VECTOR, begin, follow
+from ..dynamics.tangent_orbits import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
 from ..dynamics.variables import described, of_rows
 from ..sweep.blocks import AXES
-from ..sweep.cell import even
-from ..sweep.verdict import THRESHOLD, judge, means, windows
+from ..sweep.cell import sunflower_points
+from ..sweep.verdict import THRESHOLD, classify_orbits, means, windows
 
 LONG, EARLY = 400_000, 20_000
 DOUBT = 10 * THRESHOLD  # a regular orbit's growth is about 0.85 whatever its length
@@ -131,10 +131,15 @@ def places(count, number):
 def _cell(k, e, count):
     """What each method has to say about the orbits of a cell, and the truth."""
     place, _, rotation = fixed_point.numbers(k, e)
-    about = k, np.stack(even(k, e, count)), np.full(count, place), np.full(count, rotation)
+    about = (
+        k,
+        np.stack(sunflower_points(k, e, count)),
+        np.full(count, place),
+        np.full(count, rotation),
+    )
     found = {"k": k, "energy": e} | _watched(*about)
     found["alignment"] = _alignment(*about)
-    safe = [judge(*about, length) for length in LENGTHS]
+    safe = [classify_orbits(*about, length) for length in LENGTHS]
     found["safe"] = np.array([one.regular for one in safe])
     found["followed"] = np.array([one.followed for one in safe])
     found["exponent"] = safe[-1].exponent
@@ -148,14 +153,14 @@ def _watched(k, states, centre, expected):
     orbits = begin(k, states, centre, expected)
     turned = np.zeros((len(turning), centre.size))
     sums = np.zeros((len(growing), centre.size))
-    follow(orbits, k, 0, EARLY, turning, growing, turned, sums)
+    propagate_with_tangent(orbits, k, 0, EARLY, turning, growing, turned, sums)
     winding, growth = means(turning, growing, turned, sums)
     exponent = orbits[SIZE] / EARLY
     rest = ~(growth[-2] > DOUBT)  # NaN, of orbits that graze, goes on
     truth = np.zeros(centre.size, bool)
     if rest.any():
         orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
-        follow(orbits, k, EARLY, LONG, turning, growing, turned, sums)
+        propagate_with_tangent(orbits, k, EARLY, LONG, turning, growing, turned, sums)
         exponent[rest] = orbits[SIZE] / LONG
         truth[rest] = means(turning, growing, turned, sums)[1][-1] < THRESHOLD
     return {
@@ -178,7 +183,7 @@ def _alignment(k, states, centre, expected):
     found, start = [], 0
     for stop in LENGTHS:
         for orbits in (one, other):
-            follow(orbits, k, start, stop, nothing, nothing, sums, sums)
+            propagate_with_tangent(orbits, k, start, stop, nothing, nothing, sums, sums)
         a, b = (orbits[VECTOR:CENTRE][:3] for orbits in (one, other))
         a, b = (c / np.sqrt((c[0] * c[0] + c[1] * c[1]) + c[2] * c[2]) for c in (a, b))
         gaps = [np.sqrt(np.sum((a + sign * b) ** 2, axis=0)) for sign in (1.0, -1.0)]

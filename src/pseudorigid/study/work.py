@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.variables import described
-from ..proofs import judge
+from ..proofs import reference_solver
 from . import states
-from .methods.counted import METHODS
+from .methods.counted_methods import METHODS
 
 SETS = ("uniform", "near-grazing")
 EACH = ("method", "set")  # dims
@@ -71,7 +71,7 @@ def measured(methods, count=200, repetitions=5):
 
 def proved_times(ball, columns):
     """The proved flight times (n,) of states (3, n)."""
-    return np.array(judge.flight_times(ball, *columns))
+    return np.array(reference_solver.flight_times(ball, *columns))
 
 
 def is_wrong(tau, truth):

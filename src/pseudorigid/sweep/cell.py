@@ -8,7 +8,7 @@ import numpy as np
 from ..dynamics import fixed_point
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from .verdict import judge
+from .verdict import classify_orbits
 
 PERIODS = 24  # chains of more islands are not told from curves around the fixed point
 LOCKED = 1e-5  # turns an impact; that far from a fraction a winding number is taken for it
@@ -102,9 +102,9 @@ def cells(k, energies, starts, impacts):
 def _batch(k, energies, starts, impacts):
     fixed = [fixed_point.numbers(k, e) for e in energies]
     places, traces, rotations = zip(*fixed, strict=True)
-    states = np.concatenate([even(k, e, starts) for e in energies], axis=1)
+    states = np.concatenate([sunflower_points(k, e, starts) for e in energies], axis=1)
     about = np.repeat(places, starts), np.repeat(rotations, starts)
-    verdicts = judge(k, states, *about, impacts)
+    verdicts = classify_orbits(k, states, *about, impacts)
     return [
         {"trace": trace, "rotation": rotation}
         | _numbers(verdicts[i * starts : (i + 1) * starts], rotation)
@@ -191,7 +191,7 @@ def _spiral(e, k, x, v, w):
         w[i] = (s - y) / (1.0 + k)
 
 
-def even(k, e, count):
+def sunflower_points(k, e, count):
     """States evenly over the half y >= 0 of the section's area.
 
     Radius by equal areas, angle by the golden section.

@@ -21,14 +21,14 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..dynamics.follow import SIZE, begin, follow, weight
+from ..dynamics.tangent_orbits import SIZE, begin, propagate_with_tangent, weight
 
 FIRST = 500  # impacts that all orbits have: the exponent is taken from them
 # Of growth: half of it is still above a regular orbit's 0.85. `study.verdicts` holds it against the
 # threshold with the fewest wrong verdicts.
 THRESHOLD = 2.2
 SETTLED = 1e-7  # turns an impact
-SURE = 15.0  # a regular orbit's G is about ln 16,000 = 9.7 after as many impacts
+MIN_CHAOTIC_GROWTH = 15.0  # a regular orbit's G is about ln 16,000 = 9.7 after as many impacts
 
 
 def levels(impacts):
@@ -71,7 +71,7 @@ class Verdicts:
         return Verdicts(*(getattr(self, field.name)[part] for field in fields(self)))
 
 
-def judge(k, states, centre, expected, impacts):
+def classify_orbits(k, states, centre, expected, impacts):
     """Follow orbits for at most `impacts` and judge them.
 
     Parameters
@@ -109,7 +109,7 @@ def judge(k, states, centre, expected, impacts):
     which = np.arange(len(centre))  # those that are still followed
     start = 0
     for level, length in enumerate(lengths):
-        follow(orbits, k, start, length, turning, growing, turned, growth)
+        propagate_with_tangent(orbits, k, start, length, turning, growing, turned, growth)
         turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
         (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
         if not start:
@@ -117,7 +117,7 @@ def judge(k, states, centre, expected, impacts):
         strict = grown < 0.5 * THRESHOLD
         if length < impacts:
             regular = strict & (np.abs(winding[1] - winding[2]) < SETTLED)
-            chaotic = (grown > 2.0 * THRESHOLD) & (orbits[SIZE] > SURE)
+            chaotic = (grown > 2.0 * THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_GROWTH)
             decided = regular | chaotic | np.isnan(grown)
             strict = lenient = regular
         else:
@@ -135,7 +135,7 @@ def judge(k, states, centre, expected, impacts):
 
 
 def windows(lengths):
-    """The windows over which `follow` takes sums, as pairs of first impact and length.
+    """Return the windows over which sums are taken, as pairs of first impact and length.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def windows(lengths):
 
 
 def means(turning, growing, turned, growth):
-    """Winding numbers and growth from the sums of `follow` over `windows`.
+    """Winding numbers and growth from the sums of `propagate_with_tangent` over `windows`.
 
     Parameters
     ----------

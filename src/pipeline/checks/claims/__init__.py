@@ -3,7 +3,7 @@
 from inspect import getmembers, isfunction
 from pathlib import Path
 
-from . import chaos, closure, impacts, ledger, model, periodic
+from . import chaos, closure, impacts, model, periodic, schema
 
 # MODULE.FUNCTION -> the public functions of the modules with checks.
 CHECKS = {
@@ -13,21 +13,21 @@ CHECKS = {
     if function.__module__ == module.__name__ and not name.startswith("_")
 }
 TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
-DOCUMENT, CLAIMS = ledger.load(TEXT, CHECKS)
+DOCUMENT, CLAIMS = schema.load(TEXT, CHECKS)
 VERDICTS = DOCUMENT.verdicts
 
 
-def needed():
+def required_datasets():
     """Names of all datasets that the checks need, in order."""
     return sorted({name for claim in CLAIMS.values() for name in claim.data})
 
 
-def theorems():
+def required_theorems():
     """Names of all theorems whose proofs the checks ask for, in order."""
     return sorted({name for claim in CLAIMS.values() for name in claim.theorems})
 
 
-def judge(datasets, proofs):
+def judge_claims(datasets, proofs):
     """The verdicts on all claims.
 
     Parameters

@@ -2,21 +2,26 @@
 
 import numpy as np
 
+from pseudorigid.analyses.rotation import regular
+from pseudorigid.analyses.spread import in_sea, regular_bound, stretches
 from pseudorigid.dynamics.variables import final_exponents
-from pseudorigid.evidence.rotation import regular
-from pseudorigid.evidence.spread import in_sea, regular_bound, stretches
 
-from .ledger import CORRECTED, FALSE, HOLDS, UNDECIDED, decided, formula
+from .schema import CORRECTED, FALSE, HOLDS, UNDECIDED, formula, verdict_of
 
 SHORT = 200_000  # impacts of a run of Figure 7
 ENERGIES = (0.001, 0.01)  # of the paper's figures
 ENDS = ("", "_low", "_high")
-PRINTED = 0.235
+PRINTED_EXPONENT = 0.235
 OF_FIGURE_2 = 6.25  # E/g^2
 CONNECTED = 0.95  # of the cells that any orbit enters; each has to enter more
-CLEARLY = 100.0  # times the exponent that a regular orbit may have
-PARTS, FAR = 50, 5.0  # of an orbit; standard errors that an orbit's mean may be off by chance
-LITTLE = 0.01  # of a variance: what an uncorrelated cluster may seem to explain of the next
+CHAOTIC_EXPONENT_RATIO = 100.0  # times the exponent that a regular orbit may have
+ORBIT_PARTS, MAX_STANDARD_ERRORS = (
+    50,
+    5.0,
+)  # of an orbit; standard errors that an orbit's mean may be off by chance
+MAX_EXPLAINED_VARIANCE = (
+    0.01  # of a variance: what an uncorrelated cluster may seem to explain of the next
+)
 # A share that near to 0 or 1 may be wrong verdicts: 0.0041 of them are in the plane, docs/atlas.md.
 MARGIN = 0.01
 
@@ -31,14 +36,20 @@ def clustered(found):
     rows = zip(*columns, strict=True)
     clusters = "; ".join(f"{cut:g}: {size:.1f} impacts, {period:.2f}" for cut, size, period in rows)
     error = float(found["period_error"].values.max())
-    return decided(deep, valley=edge[valley], clusters=clusters, period_error=error)
+    return verdict_of(deep, valley=edge[valley], clusters=clusters, period_error=error)
 
 
 def uncorrelated(found):
     """Measure how much of the next cluster's first state the first state of a cluster explains."""
     explained = found["dependence_low"].values[:, 0].max(axis=1)
     least, most = float(explained.min()), float(explained.max())
-    word = FALSE if least > LITTLE else CORRECTED if most > LITTLE else HOLDS
+    word = (
+        FALSE
+        if least > MAX_EXPLAINED_VARIANCE
+        else CORRECTED
+        if most > MAX_EXPLAINED_VARIANCE
+        else HOLDS
+    )
     numbers, widest = {"cuts": ", ".join(f"{cut:g}" for cut in found["cut"].values)}, 0.0
     for index, name in enumerate("xy"):
         at = {"correlation": np.s_[:, 0, index, index], "dependence": np.s_[:, 0, index]}
@@ -82,7 +93,7 @@ def vanish(found):
     length = int(found["length"].values[-1])
     largest = float(np.abs(found["regular_exponent"].values[-1]).max())
     small = largest < regular_bound(length)
-    return decided(small, largest=largest, length=length, orbits=found.sizes["island"])
+    return verdict_of(small, largest=largest, length=length, orbits=found.sizes["island"])
 
 
 def _largest_exponents(found):
@@ -95,14 +106,14 @@ def independent(found):
     block = found["exponent"].values[:, in_sea(found)]
     means = _largest_exponents(found)
     # parts of an orbit spread by chance; if orbits do not differ, so do their means
-    parts = np.array_split(block, min(PARTS, block.shape[0]))
+    parts = np.array_split(block, min(ORBIT_PARTS, block.shape[0]))
     within = np.array([part.mean(axis=0).max(axis=-1) for part in parts]) - means
     freedom = (len(parts) - 1) * means.size
     error = np.sqrt(float(np.sum(within * within)) / freedom / len(parts))
     furthest = float(np.abs(means - means.mean()).max()) / error
-    alike = furthest < FAR and float(means.min()) > 0.0
+    alike = furthest < MAX_STANDARD_ERRORS and float(means.min()) > 0.0
     ends = {"least": means.min(), "most": means.max()}
-    return decided(alike, orbits=_chaotic(found), furthest=furthest, **ends)
+    return verdict_of(alike, orbits=_chaotic(found), furthest=furthest, **ends)
 
 
 def chaotic_nature(found):
@@ -110,8 +121,8 @@ def chaotic_nature(found):
     impacts = found.sizes["block"] * int(found.attrs["block_impacts"])
     least = float(_largest_exponents(found).min())
     bound = regular_bound(impacts)
-    positive = least > CLEARLY * bound
-    return decided(positive, orbits=_chaotic(found), least=least, impacts=impacts, bound=bound)
+    positive = least > CHAOTIC_EXPONENT_RATIO * bound
+    return verdict_of(positive, orbits=_chaotic(found), least=least, impacts=impacts, bound=bound)
 
 
 def figure_7(found):
@@ -120,7 +131,7 @@ def figure_7(found):
     ends = final_exponents(found)[:, 0]
     good = impacts == SHORT and orbits == 3 and float(ends.min()) > 0.1
     ends = ", ".join(f"{end:.4f}" for end in ends)
-    return decided(good, orbits=orbits, impacts=impacts, ends=ends)
+    return verdict_of(good, orbits=orbits, impacts=impacts, ends=ends)
 
 
 def long_run(found):
@@ -131,10 +142,15 @@ def long_run(found):
     block = int(found.attrs["block_impacts"])
     # as long as a run of Figure 7, or as a block where that is longer
     runs = stretches(found, max(SHORT // block, 1) * block)
-    above = float(np.mean(runs > PRINTED))
+    above = float(np.mean(runs > PRINTED_EXPONENT))
     likely = 0.025 < above < 0.975
-    word = HOLDS if abs(mean - PRINTED) < 2 * error else CORRECTED if likely else FALSE
-    numbers = {"mean": mean, "percent": 100 * above, "printed": PRINTED, "standard_error": error}
+    word = HOLDS if abs(mean - PRINTED_EXPONENT) < 2 * error else CORRECTED if likely else FALSE
+    numbers = {
+        "mean": mean,
+        "percent": 100 * above,
+        "printed": PRINTED_EXPONENT,
+        "standard_error": error,
+    }
     return word, numbers
 
 
@@ -144,7 +160,7 @@ def opposite(algebra, found):
     impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
     drift = max(float(np.abs(means[:, 0] + means[:, 2]).max()), float(np.abs(means[:, 1]).max()))
     holds = formula(algebra, "determinants")[0] and drift < 100.0 / impacts
-    return decided(holds, drift=drift, impacts=impacts)
+    return verdict_of(holds, drift=drift, impacts=impacts)
 
 
 def depends_on_energy(line):
@@ -155,7 +171,7 @@ def depends_on_energy(line):
         row = int(np.argmin(np.abs(energy - one)))
         share, *ends = (float(line[f"regular{end}"].values[0, row]) for end in ENDS)
         shares += f"; {share:.4f} ({ends[0]:.4f} to {ends[1]:.4f}) at E = {energy[row]:.4g}"
-    return decided(low < 0.5 * high, low=low, high=high, shares=shares, width=_widest(line))
+    return verdict_of(low < 0.5 * high, low=low, high=high, shares=shares, width=_widest(line))
 
 
 def destroyed(line):
@@ -207,7 +223,7 @@ def discontinuous(found):
     counts = " and ".join(
         f"{count} times at E = {energy:g}" for count, energy in zip(switches, ENERGIES, strict=True)
     )
-    return decided(min(switches) >= 3, counts=counts, starts=good.size)
+    return verdict_of(min(switches) >= 3, counts=counts, starts=good.size)
 
 
 def mixture(plane):
@@ -217,7 +233,7 @@ def mixture(plane):
         float(np.mean((low > margin) & (high < 1.0 - margin))) for margin in (MARGIN, 1e-9)
     )
     everywhere = np.isfinite(plane["trace"].values).all()
-    return decided(
+    return verdict_of(
         mixed > 0.5,
         mixed=100 * mixed,
         bare=100 * bare,
@@ -238,4 +254,4 @@ def material(plane):
         for row in rows
     )
     depends = float(low[rows[1]]) > float(high[rows[0]])
-    return decided(depends, energy=plane["energy"].values[column], least=least, most=most)
+    return verdict_of(depends, energy=plane["energy"].values[column], least=least, most=most)

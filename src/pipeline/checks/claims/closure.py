@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pseudorigid.evidence.rotation import island, regular
+from pseudorigid.analyses.rotation import island, regular
 
-from .ledger import HOLDS, PROVED, UNDECIDED, formula
+from .schema import HOLDS, PROVED, UNDECIDED, formula
 
 
 def no_twist_map(found, proved):

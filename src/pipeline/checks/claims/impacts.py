@@ -7,7 +7,7 @@ import numpy as np
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 
-from .ledger import HOLDS, PROVED, decided, derived, formula, numbers_of
+from .schema import HOLDS, PROVED, derived, formula, numbers_of, verdict_of
 
 ROUNDING = 1e-13  # of an energy, over an orbit
 SHOWN = (1e-3, 1e-5, 1e-7)  # distances from the jump curve
@@ -18,7 +18,7 @@ def diffeomorphism(algebra, jumps, proved):
     energy, length = float(jumps["energy"].values[0]), float(jumps["length"].values[0])
     if not (length > 0.0 and formula(algebra, "smooth")[1]):
         return HOLDS, f"no jump at E = {energy:g}", ""
-    return decided(
+    return verdict_of(
         False,
         said="proved" if all(proved.values()) else "computed",
         energy=energy,
@@ -60,21 +60,21 @@ def energy_surface(algebra, sea):
     error = float(sea["energy_error"].max())
     kept = formula(algebra, "conserved_energy", "jump_conditions")[0] and error < ROUNDING
     bound = f"below {ROUNDING:.0e}" if error < ROUNDING else f"{error:.1e}"
-    return decided(kept, proved=True, bound=bound)
+    return verdict_of(kept, proved=True, bound=bound)
 
 
 def half_of_it(*portraits):
     """Find the least contact speed of the orbits of two portraits."""
     speeds = [portrait["xdot"].values + portrait["udot"].values for portrait in portraits]
     least = min(float(speed.min()) for speed in speeds)
-    return decided(least >= 0.0, least=least, count=sum(speed.size for speed in speeds))
+    return verdict_of(least >= 0.0, least=least, count=sum(speed.size for speed in speeds))
 
 
 def never_inside_out(algebra, sea):
     """Find the least strain of the sea, beside the bound that algebra gives."""
     least = float(sea["least_strain"].min())
     bounded = formula(algebra, "bound_in_flight")[0] and least > -1.0
-    return decided(bounded, proved=True, least=least)
+    return verdict_of(bounded, proved=True, least=least)
 
 
 def bisection(lyapunov):
@@ -83,7 +83,7 @@ def bisection(lyapunov):
     method = json.loads(lyapunov.attrs["config"])["method"]
     least = _least_contact_speed(lyapunov, method, impacts)
     holds = missed == 0 and least >= 0.0
-    return decided(holds, missed=missed, impacts=impacts, least=least, step=method["scan"])
+    return verdict_of(holds, missed=missed, impacts=impacts, least=least, step=method["scan"])
 
 
 def _least_contact_speed(lyapunov, method, impacts):
@@ -109,7 +109,7 @@ def figure_8(orbits, line):
     share, low, high = (
         float(line[f"regular{end}"].values[0, row]) for end in ("", "_low", "_high")
     )
-    return decided(word == HOLDS and low > 0.5, share=share, low=low, high=high, **drawn)
+    return verdict_of(word == HOLDS and low > 0.5, share=share, low=low, high=high, **drawn)
 
 
 def jacobian(algebra):
@@ -123,11 +123,11 @@ def third_exponent(algebra, found):
     middle = float(np.abs(found["exponent"].values[:, :, 1].mean(axis=0)).max())
     impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
     kept = formula(algebra, "conserved_energy", "jump_conditions")[0]
-    return decided(kept and middle < 100.0 / impacts, middle=middle, impacts=impacts)
+    return verdict_of(kept and middle < 100.0 / impacts, middle=middle, impacts=impacts)
 
 
 def _portrait(orbits, starts, points):
     """Compare a portrait's numbers of starts and points with the paper's, the latter to 5 %."""
     found, total = orbits.sizes["orbit"], int(orbits["row_size"].sum())
     as_said = found == starts and abs(total - points) < 0.05 * points
-    return decided(as_said, starts=found, points=total)
+    return verdict_of(as_said, starts=found, points=total)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pseudorigid.evidence.spread import stretches
+from pseudorigid.analyses.spread import stretches
 
-from .ledger import CORRECTED, FALSE, HOLDS, decided, formula, numbers_of
+from .schema import CORRECTED, FALSE, HOLDS, formula, numbers_of, verdict_of
 
 APPRECIABLE = 0.1  # of the energy
 INFINITESIMAL = 0.1  # a strain larger than that is none
@@ -18,7 +18,7 @@ def strain_energy(sea, found):
     mean = float(share.mean())
     exponent = float(stretches(found, int(found.attrs["block_impacts"])).mean())
     large = mean - 3 * error > APPRECIABLE and exponent > 0.0
-    return decided(large, mean=mean, exponent=exponent, standard_error=error)
+    return verdict_of(large, mean=mean, exponent=exponent, standard_error=error)
 
 
 def homogeneous(algebra, orbits):
@@ -45,4 +45,4 @@ def parameters(algebra, orbits):
     example = ", 5 kPa for 10 cm of water's density" if abs(ratio - 5.0) < 1e-9 else ""
     same = (energy, g) == (0.01, 0.04) and abs(k - 0.2) < 1e-12 and abs(k - solid) < 1e-12
     good = same and formula(algebra, "softness")[0]
-    return decided(good, energy=energy, k=k, g=g, ratio=ratio, example=example)
+    return verdict_of(good, energy=energy, k=k, g=g, ratio=ratio, example=example)

@@ -5,10 +5,10 @@ import re
 
 import numpy as np
 
+from pseudorigid.analyses.rotation import plateaus, regular
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.evidence.rotation import plateaus, regular
 
-from .ledger import CORRECTED, HOLDS, PROVED, UNDECIDED, decided
+from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, verdict_of
 
 TRANSVERSAL = 1e-8  # sines of crossing angles in doubles can be told from 0 above that
 STEPS = range(20, 44)  # of differences, as negative powers of two
@@ -22,7 +22,7 @@ def fixed_point(found, proved):
     one = found["type"].values.tolist() == ["elliptic"]
     known = all(proved.values())
     x = ", ".join(f"{float(x):.12f}" for x in found["x"].values[:, 0])
-    return decided(one, known, x=x, unique=", and no other" if known else "")
+    return verdict_of(one, known, x=x, unique=", and no other" if known else "")
 
 
 def period_six(orbits, proved):
@@ -30,7 +30,7 @@ def period_six(orbits, proved):
     kinds = orbits["type"].values.tolist()
     exist = "each proved to exist" if all(proved.values()) else "not proved to exist"
     both = "elliptic" in kinds and "hyperbolic" in kinds
-    return decided(both, count=len(kinds), orbits=_named(orbits), exist=exist)
+    return verdict_of(both, count=len(kinds), orbits=_named(orbits), exist=exist)
 
 
 def in_between(orbits, proved):
@@ -38,7 +38,7 @@ def in_between(orbits, proved):
     kinds = orbits["type"].values.tolist()
     alternate = "elliptic" in kinds and "hyperbolic" in kinds and _alternate(orbits)
     curves = "; closed curves around the elliptic ones are proved" if proved["twist-six"] else ""
-    return decided(alternate, do="" if alternate else "do not ", curves=curves)
+    return verdict_of(alternate, do="" if alternate else "do not ", curves=curves)
 
 
 def _named(found):
@@ -83,7 +83,7 @@ def motions(*found):
     times = [float(line["t"].values[-1]) for line in lines]
     one, six = (float(orbit["total_time"].values[0]) for orbit in orbits)
     elliptic = all(str(orbit["type"].values[0]) == "elliptic" for orbit in orbits)
-    return decided(elliptic and times == [16.0, 60.0], one=one, six=six)
+    return verdict_of(elliptic and times == [16.0, 60.0], one=one, six=six)
 
 
 def differences(found):
@@ -97,7 +97,7 @@ def differences(found):
         exact = float(found["trace"].values[orbit])
         errors = [abs(trace - exact) / max(1.0, abs(exact)) for trace in traces]
         worst = max(worst, min(errors))
-    return decided(worst < 1e-3, period=period, worst=worst)
+    return verdict_of(worst < 1e-3, period=period, worst=worst)
 
 
 def _trace(ball, point, step, period):
@@ -115,7 +115,7 @@ def transversal(flux, proved):
     known = known if all(proved.values()) else ""
     inner, outer = (" and ".join(f"{sine:.8g}" for sine in row) for row in sines)
     crossed = float(sines.min()) > TRANSVERSAL
-    return decided(crossed, all(proved.values()), known=known, inner=inner, outer=outer)
+    return verdict_of(crossed, all(proved.values()), known=known, inner=inner, outer=outer)
 
 
 def oscillations(found):
@@ -123,7 +123,7 @@ def oscillations(found):
     areas = [float(area) for area in found["area"].values]
     inner, outer = (_short(str(text)) for text in found["digits"].values)
     errors = zip(("inner_error", "outer_error"), found["area_error"].values, strict=True)
-    return decided(areas[0] < 1e-3 * areas[1], inner=inner, outer=outer, **dict(errors))
+    return verdict_of(areas[0] < 1e-3 * areas[1], inner=inner, outer=outer, **dict(errors))
 
 
 def stretching(manifolds):
@@ -134,7 +134,7 @@ def stretching(manifolds):
     )
     turns = min(_half_turns(manifolds, row) for row in _unstable(manifolds, "outer"))
     large = outer > 10.0 and outer > 3.0 * inner and turns > 1.0
-    return decided(large, impacts=LATER, inner=inner, outer=outer, turns=turns)
+    return verdict_of(large, impacts=LATER, inner=inner, outer=outer, turns=turns)
 
 
 def _unstable(manifolds, side):
@@ -191,7 +191,7 @@ def window(manifolds, proved):
     """Ask whether the hyperbolic point lies in the window of Figure 6."""
     x, xdot = (float(manifolds.attrs[f"point_{name}"]) for name in ("x", "xdot"))
     inside = 0.21 < x < 0.2116 and 0.0925 < xdot < 0.0932
-    return decided(inside, proved["six-hyperbolic"], x=x, xdot=xdot)
+    return verdict_of(inside, proved["six-hyperbolic"], x=x, xdot=xdot)
 
 
 def horseshoe(proved):
@@ -220,7 +220,7 @@ def heteroclinic(found):
     """Ask whether branches lead from one saddle to another."""
     pairs = zip(found["saddle"].values.tolist(), found["target"].values.tolist(), strict=True)
     inner, outer = pairs
-    return decided(inner[0] != inner[1] and outer[0] != outer[1], inner=inner, outer=outer)
+    return verdict_of(inner[0] != inner[1] and outer[0] != outer[1], inner=inner, outer=outer)
 
 
 def source_of_chaos(found, proved):
@@ -230,7 +230,7 @@ def source_of_chaos(found, proved):
     inner, outer = (float(area) for area in found["area"].values)
     config = json.loads(found.attrs["config"])
     impacts = int(config["orbits"]) * int(config["impacts"])
-    return decided(
+    return verdict_of(
         crossed and inside == 0.0 < share,
         said="proved to make chaos" if all(proved.values()) else "seen",
         share=share,

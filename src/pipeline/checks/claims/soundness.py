@@ -12,26 +12,26 @@ from itertools import product
 
 import numpy as np
 
+from pseudorigid.analyses.sea import section_points
+from pseudorigid.analyses.spread import in_sea
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.variables import states_of
-from pseudorigid.evidence.sea import section_points
-from pseudorigid.evidence.spread import in_sea
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep.cell import cell
 
-from ...config.declared.stages import STAGES
+from ...config.schema.stages import STAGES
 from ...records.artifacts import ABOUT
 
-NEAR = 1e-9  # of numbers that one map gives twice
-SOME = 8  # entries of a sample
+RELATIVE_TOLERANCE = 1e-9  # of numbers that one map gives twice
+SAMPLE_SIZE = 8  # entries of a sample
 # What a file has besides what its stage returns.
-SAVED = {"k", "g", "energy", "stage", "config", "title", *ABOUT}
-SHORT = 4096  # impacts of an orbit that is followed again
+SAVED_ATTRIBUTES = {"k", "g", "energy", "stage", "config", "title", *ABOUT}
+CHECKED_IMPACTS = 4096  # impacts of an orbit that is followed again
 
 
-def fault(stage, dataset):
+def dataset_error(stage, dataset):
     """What is wrong with a dataset of a stage, in words, or None.
 
     Parameters
@@ -55,7 +55,7 @@ def _ball(dataset):
     return Ball(k, g), energy
 
 
-def _off(found, given, near=NEAR):
+def _off(found, given, near=RELATIVE_TOLERANCE):
     """Whether numbers differ by more than `near`, of the larger of them or of 1."""
     found, given = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (found, given)))
     same = np.abs(found - given) <= near * np.maximum(1.0, np.abs(given))
@@ -65,7 +65,7 @@ def _off(found, given, near=NEAR):
 def _again(stage, dataset):
     """What differs from the dataset that its stage makes of its config, in words, or None."""
     found = _made(stage, *_ball(dataset), dataset.attrs["config"])
-    more = dataset.attrs.keys() - found.attrs.keys() - SAVED
+    more = dataset.attrs.keys() - found.attrs.keys() - SAVED_ATTRIBUTES
     if more := more | set(dataset.variables) - set(found.variables):
         return f"it has {', '.join(sorted(map(str, more)))}, which its stage does not make"
     for name, value in found.attrs.items():
@@ -91,13 +91,13 @@ def _made(stage, ball, energy, config):
     if not isinstance(block, dict):
         raise ValueError("its config is no mapping")
     method = block.get("method", {}) if row.follows else {}
-    how = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
+    root_finder = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
     inputs = [_made(name, ball, energy, config) for name in row.inputs]
     fields = {name: block[name] for name in row.fields if name in block}
     make = getattr(import_module(row.module), row.function)
-    found = make(Ball(ball.k, ball.g, map=how), energy, *inputs, **fields)
+    found = make(Ball(ball.k, ball.g, map=root_finder), energy, *inputs, **fields)
     if "scan" in method:
-        found.attrs |= {"impacts": how.impacts, "impacts_missed": how.missed}
+        found.attrs |= {"impacts": root_finder.impacts, "impacts_missed": root_finder.missed}
     return found
 
 
@@ -106,7 +106,7 @@ def _same(ours, given):
     ours, given = np.asarray(ours), np.asarray(given)
     if ours.dtype.kind in "OU":
         return ours == given
-    return np.isclose(given, ours, rtol=NEAR, atol=0.0, equal_nan=True)
+    return np.isclose(given, ours, rtol=RELATIVE_TOLERANCE, atol=0.0, equal_nan=True)
 
 
 def _orbits(dataset):
@@ -129,16 +129,16 @@ def _spread(dataset):
     if _off(points, [dataset["start_x"].values, dataset["start_y"].values]):
         return "its orbits do not start uniformly over the section"
     impacts = int(dataset.attrs["block_impacts"])
-    states = ball.state_xy(*(a[:SOME] for a in points), energy)
+    states = ball.state_xy(*(a[:SAMPLE_SIZE] for a in points), energy)
     found = lyapunov_spectrum(ball, states, impacts, 1)["exponent"].values[0]
-    if _off(found, dataset["exponent"].values[0, :SOME]):
+    if _off(found, dataset["exponent"].values[0, :SAMPLE_SIZE]):
         return "its first block has other exponents"
     sea = in_sea(dataset)
-    first, rest = found[sea[:SOME], 0], dataset["exponent"].values[:, sea, 0]
+    first, rest = found[sea[:SAMPLE_SIZE], 0], dataset["exponent"].values[:, sea, 0]
     if first.size and np.abs(rest.mean() - first.mean()) > 6.0 * rest.std() / np.sqrt(first.size):
         return "its exponents are not those of its first block"
     lengths = dataset["length"].values
-    row = int(np.searchsorted(lengths, SHORT, side="right")) - 1
+    row = int(np.searchsorted(lengths, CHECKED_IMPACTS, side="right")) - 1
     states = ball.start(dataset["regular_start"].values, energy)
     found = lyapunov_spectrum(ball, states, int(lengths[row]), 1)["exponent"].values[0]
     if _off(found, dataset["regular_exponent"].values[row]):
@@ -151,7 +151,12 @@ def _sweep(dataset):
     for low, high in (("low", "high"), ("strict", "lenient")):
         names = (f"regular_{low}", "regular", f"regular_{high}")
         a, b, c = (dataset[name].values for name in names)
-        if not np.all((a >= -NEAR) & (b >= a - NEAR) & (c >= b - NEAR) & (c <= 1.0 + NEAR)):
+        if not np.all(
+            (a >= -RELATIVE_TOLERANCE)
+            & (b >= a - RELATIVE_TOLERANCE)
+            & (c >= b - RELATIVE_TOLERANCE)
+            & (c <= 1.0 + RELATIVE_TOLERANCE)
+        ):
             return f"a share is not between its {low} and its {high} one, or not between 0 and 1"
     k, energy = dataset["k"].values, dataset["energy"].values
     rows, columns = ({0, axis.size // 2, axis.size - 1} for axis in (k, energy))

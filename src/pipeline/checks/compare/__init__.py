@@ -3,7 +3,7 @@
 Nothing is computed here: both must have their results.
 """
 
-from ...config import places
+from ...config import paths
 from ...records.artifacts import canonical_json, load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
@@ -27,10 +27,10 @@ def compare(root, variants, names, absent, scenes, everything):
     everything : bool
         Whether each variable and each orbit that differs has a line; else each stage has.
     """
-    serves = places.served(variants)
+    artifact_paths = paths.artifact_paths(variants)
 
     def data(scene, stage):
-        return [load(root / serves[name, scene, stage]) for name in names]
+        return [load(root / artifact_paths[name, scene, stage]) for name in names]
 
     pairs = {scene: [variants[name][scene] for name in names] for scene in scenes}
     print(f"{names[0]} | {names[1]}")
@@ -43,7 +43,7 @@ def compare(root, variants, names, absent, scenes, everything):
             if reason:
                 print(f"  cannot exist in {name}: {reason}")
         if not any(missing):
-            for stage in places.stages(blocks[0]):
+            for stage in paths.stages(blocks[0]):
                 if stage != "periodic":
                     lines = _of_stage(stage, data(scene, stage), names, everything)
                     for i, line in enumerate(lines):
@@ -53,14 +53,14 @@ def compare(root, variants, names, absent, scenes, everything):
             image.unlink(missing_ok=True)
             continue
         drawings = [
-            None if reason else root / places.drawn(scene, "png", name)
+            None if reason else root / paths.drawn(scene, "png", name)
             for name, reason in zip(names, missing, strict=True)
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
     _periodic(pairs, names, data)
     for scene, blocks in pairs.items():
-        if "lyapunov" in places.stages(blocks[0]):
+        if "lyapunov" in paths.stages(blocks[0]):
             said = "mean over its orbits ± their standard deviation"
             print(f"\nLyapunov exponents of {scene}: {said}")
             for line in exponents.table(*data(scene, "lyapunov"), names):
@@ -84,7 +84,7 @@ def _differences(one, other):
     """A line for each key of the config that differs."""
     lines = [
         f"{key}: {brief(before)} | {brief(after)}"
-        for key, before, after in differing_keys(places.drawing(one), places.drawing(other))
+        for key, before, after in differing_keys(paths.drawing(one), paths.drawing(other))
         if key != "axes"  # left out where they are those of the data
     ]
     return lines or ["the same config"]
@@ -94,8 +94,8 @@ def _periodic(pairs, names, data):
     """Print what became of the periodic orbits, once for all scenes with the same ones."""
     groups = {}
     for scene, blocks in pairs.items():
-        if "periodic" in places.stages(blocks[0]):
-            orbits_of = canonical_json([places.stages(block)["periodic"] for block in blocks])
+        if "periodic" in paths.stages(blocks[0]):
+            orbits_of = canonical_json([paths.stages(block)["periodic"] for block in blocks])
             groups.setdefault(orbits_of, []).append(scene)
     if groups:
         far = f"an orbit further than {cycles.REACH:g} away counts as another"

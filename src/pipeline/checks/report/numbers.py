@@ -3,11 +3,11 @@
 import tomllib
 from pathlib import Path
 
-from ...config.declared.kinds import KINDS
-from ...config.places import stages
+from ...config.paths import stages
+from ...config.schema.kinds import KINDS
 
 TEXT = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
-PRINTED = TEXT["printed"]  # scene -> quantity -> the paper's value
+PAPER_NUMBERS = TEXT["printed"]  # scene -> quantity -> the paper's value
 CHARTS = TEXT["charts"]  # chart of the study, or sweep -> what its picture shows
 
 
@@ -18,5 +18,5 @@ def measured(block, load):
 
 def beside(scene, ours):
     """Rows (quantity, the paper's value or "not printed", ours) of a scene of the paper."""
-    printed = PRINTED.get(scene, {})
+    printed = PAPER_NUMBERS.get(scene, {})
     return [(name, printed.get(name, "not printed"), value) for name, value in ours.items()]

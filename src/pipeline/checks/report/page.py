@@ -11,18 +11,18 @@ from pathlib import Path
 
 import jinja2
 
-from ...config import expected, places
-from ...config.declared.kinds import KINDS
+from ...config import build_specs, paths
+from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import PictureError
 from ...records.record import read_record, record_path
-from .. import contracts, manifest
+from .. import manifest, published_sets
+from ..checksums import ChecksumError, known_sums
 from ..claims import render as claims
-from ..claims.ledger import CORRECTED, FALSE
-from ..currency import MISSING, Currency
+from ..claims.schema import CORRECTED, FALSE
 from ..difference import not_as_made
-from ..sums import ContractError, known_sums
+from ..freshness import MISSING, Freshness
 from . import numbers
 
 _PNG = b"\x89PNG\r\n\x1a\n"
@@ -44,8 +44,8 @@ def render(root, checked, absent) -> str:
         A result that cannot be read; it is named.
     """
     page = _Page(root, checked, absent)
-    figures = page.variant(places.PAPER)
-    shown = {name: page.variant(name) for name in page.variants if name not in places.PUBLISHED}
+    figures = page.variant(paths.PAPER)
+    shown = {name: page.variant(name) for name in page.variants if name not in paths.PUBLISHED}
     made = {name: found for name, found in shown.items() if any(one["image"] for one in found)}
     return _TEMPLATES.get_template("page.html").render(
         figures=figures,
@@ -62,11 +62,11 @@ class _Page:
     def __init__(self, root, checked, absent):
         self.root, self.checked, self.absent = root, checked, absent
         self.variants = checked["variants"]
-        self.serves = places.served(self.variants)
-        self.expected = expected.of_variants(self.variants)
-        self.outdated = Currency(root, self.expected).outdated()
-        self.contracts = {each.folder: each for each in contracts.committed(checked)}
-        paper = self.contracts[places.PUBLISHED[places.PAPER]]
+        self.artifact_paths = paths.artifact_paths(self.variants)
+        self.build_specs = build_specs.of_variants(self.variants)
+        self.outdated = Freshness(root, self.build_specs).outdated()
+        self.published = {each.folder: each for each in published_sets.committed_sets(checked)}
+        paper = self.published[paths.PUBLISHED[paths.PAPER]]
         self.outdated |= not_as_made(root, paper)
         self.shown = {}  # every result behind what the page shows, in order
 
@@ -74,14 +74,14 @@ class _Page:
         """Each scene of a set: its picture where that is current, in words and in numbers."""
         found = []
         for scene, block in self.variants[name].items():
-            file = places.drawn(scene, "png", name)
+            file = paths.drawn(scene, "png", name)
             why = self.absent.get(name, {}).get(scene) or self._not_current(file)
             about = self._about(scene, block) | {"id": f"{name}-{scene}", "missing": why}
-            about |= {"image": None, "rows": [], "telling": None}
+            about |= {"image": None, "rows": [], "headline": None}
             if not why:
                 about |= self._measured(name, scene)
                 about |= {"image": self._read(file), "file": self._file(name, scene)}
-                behind = [self.serves[name, scene, stage] for stage in places.stages(block)]
+                behind = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
                 self.shown |= dict.fromkeys([*behind, file])
             found.append(about)
         return found
@@ -89,55 +89,55 @@ class _Page:
     def on_request(self):
         """Pictures of claims, proofs, study and atlas: (what makes them, pictures) of each set."""
         found = []
-        for contract in self.contracts.values():
-            if contract.on_request:
-                outdated = not_as_made(self.root, contract)
-                names = [name for name in contract.drawn if name.endswith(".png")]
-                names += contract.measured
-                pictures = [self._on_request(contract, name, outdated) for name in names]
-                found.append((contract.command, [each for each in pictures if each]))
+        for published_set in self.published.values():
+            if published_set.on_request:
+                outdated = not_as_made(self.root, published_set)
+                names = [name for name in published_set.drawn if name.endswith(".png")]
+                names += published_set.measured
+                pictures = [self._on_request(published_set, name, outdated) for name in names]
+                found.append((published_set.command, [each for each in pictures if each]))
         return found
 
-    def _on_request(self, contract, name, outdated):
+    def _on_request(self, published_set, name, outdated):
         """The picture of a name: that of this tree, else the committed one, or None."""
-        published, drawing = f"{contract.folder}/{name}", contract.drawn.get(name)
-        scene = contract.scenes.get(name, name.removesuffix(".png"))
-        variant = Path(contract.results).name
+        published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
+        scene = published_set.scenes.get(name, name.removesuffix(".png"))
+        variant = Path(published_set.results).name
         block = self.variants.get(variant, {}).get(scene)
         about = self._about(scene, block) if block else _chart(scene)
-        about |= {"telling": None, "image": None, "id": published.replace("/", "-")}
+        about |= {"headline": None, "image": None, "id": published.replace("/", "-")}
         if drawing and drawing not in outdated:
             about |= self._measured(variant, scene) if block else {}
-            self.shown |= dict.fromkeys([*contract.data[scene].values(), drawing])
+            self.shown |= dict.fromkeys([*published_set.data[scene].values(), drawing])
             return about | {"image": self._read(drawing), "file": published}
         if not (self.root / published).is_file():
             return None
         data = read_bytes(self.root / published)
-        wanted = known_sums(self.root, contract.folder).get(name)
+        wanted = known_sums(self.root, published_set.folder).get(name)
         same = drawing is None or hashlib.sha256(data).hexdigest() == wanted
         if not (same and data.startswith(_PNG)):
             missing = f"{published} is not the committed one, nor made by this tree"
             return about | {"missing": missing}
         said = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
         # A caption has the values of config.yaml.
-        if block and not self._made_of(contract, scene):
+        if block and not self._made_of(published_set, scene):
             about |= {"shows": "", "see": ""}
             said += "; made from other values than config.yaml's"
         said = f"{published}: the committed one ({said}), not made by this tree"
         return about | {"image": _image(data), "file": said}
 
-    def _made_of(self, contract, scene):
+    def _made_of(self, published_set, scene):
         """Whether the committed picture of a scene was made from the values in config.yaml."""
         try:
-            scenes = manifest.read(self.root, contract.folder)["scenes"]
-            return scenes[scene]["config"] == contract.config[scene]
-        except (ContractError, KeyError, TypeError):
+            scenes = manifest.read(self.root, published_set.folder)["scenes"]
+            return scenes[scene]["config"] == published_set.config[scene]
+        except (ChecksumError, KeyError, TypeError):
             return False
 
     def claims(self):
         """The rows of CLAIMS.md, or none."""
         try:
-            return claims.read(read_text(self.root / places.LEDGER))
+            return claims.read(read_text(self.root / paths.LEDGER))
         except (OSError, ValueError):
             return []
 
@@ -162,15 +162,15 @@ class _Page:
     def _measured(self, variant, scene):
         """The rows of a scene's numbers, and the one that tells."""
         block = self.variants[variant][scene]
-        data = {stage: self.serves[variant, scene, stage] for stage in places.stages(block)}
+        data = {stage: self.artifact_paths[variant, scene, stage] for stage in paths.stages(block)}
         try:
             ours = numbers.measured(block, lambda stage: load(self.root / data[stage]))
         except (LookupError, TypeError, AttributeError, ArithmeticError):
             files = ", ".join(data.values())
             raise ValueError(f"not datasets of {scene}: delete {files} and run again") from None
         rows = numbers.beside(scene, ours)
-        telling = KINDS[block["picture"]].telling
-        return {"rows": rows, "telling": next(row for row in rows if row[0] == telling)}
+        headline = KINDS[block["picture"]].headline
+        return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
 
     def _about(self, scene, block):
         kind = KINDS[block["picture"]]
@@ -190,10 +190,10 @@ class _Page:
 
     def _file(self, variant, scene):
         """Where a picture is published, and whether it is the committed one."""
-        drawn = places.drawn(scene, "png", variant)
-        if variant != places.PAPER:
+        drawn = paths.drawn(scene, "png", variant)
+        if variant != paths.PAPER:
             return drawn
-        folder = places.PUBLISHED[variant]
+        folder = paths.PUBLISHED[variant]
         wanted = known_sums(self.root, folder).get(f"{scene}.png")
         same = "identical to" if wanted == file_hash(self.root / drawn) else "not"
         words = f"{same} the committed one" if wanted else "not among the committed ones"

@@ -18,7 +18,7 @@ from importlib import metadata
 from pathlib import Path
 
 from ...records.sources import ROOT
-from ..folder import UsageError, interruptible, locked, say
+from ..session import UsageError, interruptible, locked, print_error
 from . import activation, indexes
 
 VENV = ROOT / ".venv"
@@ -63,7 +63,7 @@ def told_damage() -> bool:
                 place.unlink(missing_ok=True)
                 with CONTENTS.open("a") as contents:
                     contents.write(f"{file}\n")
-                say(f".venv is damaged: {file}: run ./reproduce again to mend it")
+                print_error(f".venv is damaged: {file}: run ./reproduce again to mend it")
                 return True
     return False
 
@@ -92,13 +92,13 @@ def set_up(wanted: str, arguments: list[str]) -> None:
             part.write_text(wanted)
             part.rename(STAMP)
     except KeyboardInterrupt:
-        say("interrupted: run it again to go on")
+        print_error("interrupted: run it again to go on")
         sys.exit(130)
     except UsageError as error:
-        say(str(error))
+        print_error(str(error))
         sys.exit(1)
     except OSError as error:
-        say(f"cannot make .venv: {error.strerror}: {error.filename}")
+        print_error(f"cannot make .venv: {error.strerror}: {error.filename}")
         sys.exit(1)
     python = str(VENV / "bin" / "python")
     os.execv(python, [python, "-P", "-m", "pipeline", *arguments])
@@ -118,7 +118,7 @@ def _only_one(arguments):
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            say("waiting for another ./reproduce in this folder to end")
+            print_error("waiting for another ./reproduce in this folder to end")
             fcntl.flock(lock, fcntl.LOCK_EX)
             lock.close()
             os.execv(ROOT / "reproduce", [str(ROOT / "reproduce"), *arguments])
@@ -313,7 +313,7 @@ def _told(text, names):
     total = sum(len(_pins(name)) for name in names)
     live = sys.stderr.isatty()
     if not live:
-        say(text)
+        print_error(text)
 
     def tell():
         unpacked = len(list(VENV.glob("cache/uv/archive-v0/*")))  # by uv

@@ -12,15 +12,15 @@ from pathlib import Path
 
 import yaml
 
-from ...checks.currency import DAMAGED, MISSING, Currency
-from ...config.expected import needed
+from ...checks.freshness import DAMAGED, MISSING, Freshness
+from ...config.build_specs import with_dependencies
 from ...jobs import server
 from ...records.files import obstacle
 from ...records.record import log_path, record_path
 from ...records.sources import ROOT
 from ..arguments import explained
-from ..folder import MisuseError, UsageError, interruptible, say
-from ..telling.plan import plan
+from ..progress.plan import plan
+from ..session import CommandLineError, UsageError, interruptible, print_error
 from .space import require_space
 
 INTERRUPTED = 130
@@ -48,7 +48,7 @@ def _parser():
     parser = get_argument_parser()
 
     def refuse(message):
-        raise MisuseError(explained(parser, message))
+        raise CommandLineError(explained(parser, message))
 
     parser.error = refuse
     return parser
@@ -66,14 +66,14 @@ def options_of(arguments):
     try:
         options = parser.parse_args(arguments)
     except (CliException, WorkflowError, ValueError) as error:  # of a value, as in --cores x
-        raise MisuseError(" ".join(str(error).split())) from None
+        raise CommandLineError(" ".join(str(error).split())) from None
     for name, what in _ELSEWHERE.items():
         if getattr(options, name):
-            raise MisuseError(f"--{name} is not used here: {what}")
+            raise CommandLineError(f"--{name} is not used here: {what}")
     return options
 
 
-def only_says(arguments) -> bool:
+def is_dry_run(arguments) -> bool:
     """Whether these options of snakemake make nothing."""
     options = options_of(arguments)
     return any(getattr(options, name, None) for name in _SAY)
@@ -92,22 +92,24 @@ def asked(arguments) -> set[str]:
     return different - {"cores", "jobs", "targets"}
 
 
-def make(checked, currency, wanted, arguments) -> int:
+def make(checked, freshness, wanted, arguments) -> int:
     """Have snakemake make the results `wanted` where they are not current; its exit status.
 
     Parameters
     ----------
     checked : dict
         The checked config.
-    currency : checks.currency.Currency
+    freshness : checks.freshness.Freshness
         Of every result of it.
     wanted : iterable of str
         Results, from the root. Those that cannot be made are left out.
     arguments : list of str
         Options for snakemake; `-n` alone is answered here.
     """
-    paths = needed(currency.expected, [path for path in wanted if not currency.refusal(path)])
-    outdated = currency.outdated(paths)
+    paths = with_dependencies(
+        freshness.build_specs, [path for path in wanted if not freshness.refusal(path)]
+    )
+    outdated = freshness.outdated(paths)
     for path, why in outdated.items():
         if obstacle(ROOT / path):
             raise UsageError(f"{path}: {why}")
@@ -116,7 +118,7 @@ def make(checked, currency, wanted, arguments) -> int:
             if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
                 raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
         if why.startswith(_CAUSES):
-            say(f"{path}: {why}: made again")
+            print_error(f"{path}: {why}: made again")
     own = ROOT / ".snakemake"
     for place in (own, *(own.iterdir() if own.is_dir() else ())):
         if place.exists() and not place.is_dir():
@@ -124,18 +126,18 @@ def make(checked, currency, wanted, arguments) -> int:
             raise UsageError(f"{where}: a file stands in a folder's place, move it away")
     options = asked(arguments)
     if options == {"dryrun"}:
-        print(*plan(currency, paths), sep="\n")
+        print(*plan(freshness, paths), sep="\n")
         return 0
     if not outdated and not options:
         return 0
-    require_space(currency.expected[path] for path in outdated)
+    require_space(freshness.build_specs[path] for path in outdated)
 
     # An input that is made again with the same bytes leaves what was made from it current: this is
     # decided when its job begins. With options, snakemake decides.
     def current(path):
-        return not options and Currency(ROOT, currency.expected).own_reason(path) is None
+        return not options and Freshness(ROOT, freshness.build_specs).own_reason(path) is None
 
-    run = server.Plan(checked, currency.expected, set(outdated))
+    run = server.Plan(checked, freshness.build_specs, set(outdated))
     targets = paths if options else [*outdated]
     return _run(run, targets, outdated, arguments, current)
 
@@ -150,7 +152,7 @@ def _run(run, targets, outdated, arguments, current) -> int:
     given = options_of(arguments)
     if given.cores is None and getattr(given, "jobs", None) is None:
         command += ["--cores", "all"]
-    if only_says(arguments):
+    if is_dry_run(arguments):
         said = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
         sys.stdout.write(said.stdout.decode(errors="replace"))
         return said.returncode
@@ -161,16 +163,18 @@ def _run(run, targets, outdated, arguments, current) -> int:
     remote = bool(getattr(given, "profile", None)) or executor not in (None, "local")
     with interruptible(end=not remote) as caught:
         try:
-            with nullcontext({}) if remote else server.serving(run, current) as variables:
+            with nullcontext({}) if remote else server.job_server(run, current) as variables:
                 status = _wait([*command, *arguments], os.environ | variables, remote)
         except KeyboardInterrupt:
             if not caught:
                 raise
     if caught:
-        say("interrupted: run it again to go on")
+        print_error("interrupted: run it again to go on")
         return INTERRUPTED
     if status and (logs := sorted(ROOT.glob(".snakemake/log/*.log"))):
-        say(f"snakemake's log: {logs[-1].relative_to(ROOT)}")  # their names begin with the time
+        print_error(
+            f"snakemake's log: {logs[-1].relative_to(ROOT)}"
+        )  # their names begin with the time
     return status
 
 

@@ -4,7 +4,7 @@ import shutil
 
 from pseudorigid.sweep import grid
 
-from ..folder import UsageError
+from ..session import UsageError
 
 # Bytes of disk, rounded up from what was measured: a cell in its block and in the dataset, a block
 # and snakemake's records of it, and what snakemake writes for any run.

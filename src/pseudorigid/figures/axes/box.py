@@ -3,12 +3,12 @@
 import numpy as np
 
 from ..canvas import style
-from ..canvas.ragged import pieces
+from ..canvas.ragged_rows import pieces
 from ..canvas.sheet import POINT, Sheet
 from .limits import inside
+from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
 from .projection import Projection
-from .surface import Surface
 
 _WIDE = 1500  # pixels: drawn at five inches, read at a column's width
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
@@ -46,7 +46,7 @@ class Box:
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
         self.seen_from = scene["view"]
         self.view = Projection(self.spans, self.seen_from)
-        self.surface = Surface(**scene["ball"], energy=scene["energy"])
+        self.surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
         cells = [None, None, *entries, ("grazing rim", style.RIM, "", False)]
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
         self.figure = self.sheet.figure

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..canvas import style
-from ..canvas.ragged import pieces
+from ..canvas.ragged_rows import pieces
 from ..canvas.sheet import POINT, width
 
 _SIZE, _BESIDE = 8.0, 7.0  # points: text in a chart, and beside its lines

@@ -14,7 +14,7 @@ from matplotlib.textpath import text_to_path
 from matplotlib.transforms import Bbox, TransformedBbox
 
 from . import style
-from .straight import bends
+from .line_simplification import bends
 
 POINT = style.DPI / 72  # pixels
 _GRID = 256  # of a pixel: the rasteriser's own resolution
@@ -55,7 +55,7 @@ class Sheet:
             Of matplotlib's Line2D.
         """
         inches = self.figure.dpi_scale_trans
-        across, up = settle(across), settle(up)
+        across, up = snap_to_pixels(across), snap_to_pixels(up)
         if how.get("ls") != "none" and len(across) > 2:
             keep = bends(np.floor(across * _GRID), np.floor(up * _GRID), _GRID // 64)
             across, up = across[keep], up[keep]
@@ -67,7 +67,7 @@ class Sheet:
 
     def text(self, across, up, text, *, ha, va, size):
         """Write `text`, never rotated; `ha` and `va` say which side of it the coordinates are."""
-        across, up = (float(settle(value)) / style.DPI for value in (across, up))
+        across, up = (float(snap_to_pixels(value)) / style.DPI for value in (across, up))
         inches = self.figure.dpi_scale_trans
         self.figure.text(across, up, text, ha=ha, va=va, size=size, transform=inches)
 
@@ -78,7 +78,7 @@ def width(text, size):
     return float(text_to_path.get_text_width_height_descent(text, *how)[0]) * POINT
 
 
-def settle(pixels):
+def snap_to_pixels(pixels):
     """Round to the rasteriser's grid, a quarter step off every place where a last bit matters.
 
     Those are the grid's own halves and wholes, the whole pixels to which text and marks are moved,

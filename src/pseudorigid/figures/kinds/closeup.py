@@ -5,7 +5,7 @@ import numpy as np
 from ..axes.limits import complete, of_window, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
-from ..canvas.ragged import rows
+from ..canvas.ragged_rows import rows
 
 _DOT = 3.4  # points
 

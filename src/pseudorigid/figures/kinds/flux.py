@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ...analyses.flux import SIDES
 from ...dynamics.ball import Ball
-from ...evidence.flux import SIDES
 from ..axes.panel import Panel, corner, key, vacant
 from ..axes.raster import linear, wider
 from ..axes.section import NAME, Section

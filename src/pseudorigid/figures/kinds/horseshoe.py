@@ -6,7 +6,7 @@ from ...dynamics.variables import chart, states_of
 from ..axes.limits import complete, inside, of_data, refuse_empty
 from ..axes.panel import Axis, Window, corner, key
 from ..canvas import style
-from ..canvas.ragged import rows
+from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
 
 _HIGH = 1500

@@ -6,7 +6,7 @@ from ...dynamics.variables import chart, states_of
 from ..axes.panel import corner, key, vacant
 from ..axes.section import NAME, Section
 from ..canvas import style
-from ..canvas.ragged import rows
+from ..canvas.ragged_rows import rows
 from ..canvas.sheet import POINT, Sheet
 
 _WIDE = 825  # pixels of the large panel

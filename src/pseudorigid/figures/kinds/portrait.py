@@ -3,7 +3,7 @@
 from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
-from ..canvas.ragged import rows
+from ..canvas.ragged_rows import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
 

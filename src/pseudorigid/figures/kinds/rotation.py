@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...evidence.rotation import island, plateaus, regular
+from ...analyses.rotation import island, plateaus, regular
 from ..axes.panel import Axis, Panel, corner, key, vacant
 from ..axes.raster import linear, ticks, wider
 from ..canvas import style

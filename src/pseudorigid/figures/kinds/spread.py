@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ...analyses.spread import stretches
 from ...dynamics.variables import final_exponents
-from ...evidence.spread import stretches
 from ..axes.limits import of_data
 from ..axes.panel import Axis, Panel, corner, decades, log10
 from ..canvas import style

@@ -6,7 +6,7 @@ from ...dynamics.variables import of_type, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
-from ..canvas.ragged import rows
+from ..canvas.ragged_rows import rows
 from ..canvas.sheet import POINT
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points

@@ -13,8 +13,8 @@ from numba.core.caching import _CacheLocator
 
 import pseudorigid
 
-from .closure import closure
-from .meaning import facts
+from .import_closure import import_closure
+from .syntax_hash import facts
 
 SRC = Path(__file__).parents[3]
 _SEEN = set()  # modules and names of functions
@@ -72,7 +72,7 @@ def subfolder(src, module):
     -------
     str, dict of pathlib.Path to str
     """
-    texts = {file: file.read_bytes() for file in closure(src, module)}
+    texts = {file: file.read_bytes() for file in import_closure(src, module)}
     meanings = [facts(file.name, data)[0] for file, data in texts.items()]
     digest = hashlib.sha256(" ".join(meanings).encode()).hexdigest()[:16]
     return f"{module}-{digest}", {f: hashlib.sha256(d).hexdigest() for f, d in texts.items()}

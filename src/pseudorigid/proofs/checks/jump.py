@@ -39,7 +39,7 @@ from ..enclosure.surface import Impact, ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
 
 BITS = 192  # twice what points to 1e-28 need
-SHY = 1 - arb(2) ** -20  # of a bound's root: far enough for its value there to be below zero
+BELOW_ROOT = 1 - arb(2) ** -20  # of a bound's root: far enough for its value there to be below zero
 SHORT = 0.95  # of the largest xdot: from there on flights from the rim are short
 
 
@@ -180,7 +180,7 @@ def _flight(surface, x, xdot):
     k, g, _ = surface.constants()
     after = None
     if xdot < 0:  # f/t^2 <= (g + x)/2 + xdot t/6 + A t^2/24 with g + x <= 0
-        after = (SHY * -4 * xdot / (x * x + xdot * xdot).sqrt()).lower()
+        after = (BELOW_ROOT * -4 * xdot / (x * x + xdot * xdot).sqrt()).lower()
     tau = first_root(x, -xdot, arb(0), g, after)
     sine, cosine = tau.sin_cos()
     v, w = xdot + g * tau, x * sine - xdot * cosine

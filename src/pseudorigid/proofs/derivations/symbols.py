@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ...kernel import law
+from ...kernel import impact_law
 
 # dimensional: radius, mass, inertia, stiffness EV0, gravity, time
 R, M, E0, EV0, GRAVITY, T = sp.symbols("R m E_0 E_V gamma t", positive=True)
@@ -62,7 +62,7 @@ def zeros(expressions):
 
 def rebound(v, w):
     """(b, c) after an impact: the code's own law, on symbols."""
-    return law.rebound(v, w, k, 2 / (1 + k), 0)[:2]
+    return impact_law.rebound(v, w, k, (2 / (1 + k), 0))[:2]
 
 
 def flight(x, b, c, t):

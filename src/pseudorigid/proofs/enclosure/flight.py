@@ -17,7 +17,7 @@ from .jets import Jet
 MARCH_BITS = 64  # one word of the processor: a march needs no more unless it nearly touches
 # Of a parabola's root, which is rounded to nearest: the rest is far more than its rounding, so that
 # the check in balls succeeds that the parabola is below zero there.
-_SHY = 1.0 - 1e-6
+_BELOW_ROOT = 1.0 - 1e-6
 # Steps that know f'', then steps that know f''' too: near grazing the first kind crawls. It comes
 # first because certificates state margins of what it encloses.
 _PLAIN_STEPS, _MOST_STEPS = 400, 800
@@ -59,7 +59,7 @@ class Gap:
         height = t * (gt / 2 - self.s) + c * (sine - t) + x * versine
         return height, gt - self.s - c * versine + x * sine, self.g + x * cosine - c * sine
 
-    def jolt(self, t):
+    def third_derivative(self, t):
         """f'''(t)."""
         sine, cosine = t.sin_cos()
         return -self.x * sine - self.c * cosine
@@ -203,15 +203,15 @@ def _march(gap, after):
             high = (t - 2 * height.lower() / slope.lower()).mid()
             if gap.slope(t.union(high)) > 0 and gap.height(high) > 0:
                 return t, high
-        jolt = None if count < _PLAIN_STEPS else gap.jolt(t).upper()
-        step = _step(height, slope, curve, bend, jerk, jolt)
+        third_derivative = None if count < _PLAIN_STEPS else gap.third_derivative(t).upper()
+        step = _step(height, slope, curve, bend, jerk, third_derivative)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
         t = (t + step).lower()  # at most as far as the parabola is known to be below zero
     raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
-def _step(height, slope, curve, bend, jerk, jolt=None):
+def _step(height, slope, curve, bend, jerk, third_derivative=None):
     """A time within which f stays below zero, from f, f', f'' and perhaps f''' here."""
     # f(t + h) <= f + f' h + m h^2/2 for h <= reach, m = min(grown(reach), g + A), or 0
     f, d, m = (float(a) for a in (height.upper(), slope.upper(), bend))
@@ -219,18 +219,18 @@ def _step(height, slope, curve, bend, jerk, jolt=None):
         return 0
 
     def grown(reach):
-        if jolt is None:
+        if third_derivative is None:
             return (curve + jerk * reach / 3).upper()
-        return (curve + (max(jolt, arb(0)) + jerk * reach / 4) * reach / 3).upper()
+        return (curve + (max(third_derivative, arb(0)) + jerk * reach / 4) * reach / 3).upper()
 
     reach = arb(2.0 * _parabola_root(f, d, m))
-    if jolt is not None:
+    if third_derivative is not None:
         while _parabola_root(f, d, min(m, max(0.0, float(grown(2 * reach))))) > 2 * reach:
             reach *= 2
     flat = grown(reach)
     if flat < bend:
         bend = flat if flat > 0 else arb(0)
-    step = arb(min(_SHY * _parabola_root(f, d, float(bend)), float(reach)))
+    step = arb(min(_BELOW_ROOT * _parabola_root(f, d, float(bend)), float(reach)))
     return step if height + step * (slope + step * bend / 2) < 0 else 0
 
 
@@ -249,7 +249,7 @@ def _first_step(x, c, s, g, jerk):
     """
     bend = g + x
     if s == 0 and bend == 0:
-        t = arb(_SHY) * (4 * c / jerk).lower()
+        t = arb(_BELOW_ROOT) * (4 * c / jerk).lower()
         if not (c > 0 and t > 0):
             raise UndecidedError("the ball may rest on the floor")
         return t.lower()
@@ -258,7 +258,7 @@ def _first_step(x, c, s, g, jerk):
     half, third = bend.upper() / 2, jerk / 6
     root = (half * half + 4 * third * s.lower()).sqrt()
     t = 2 * s.lower() / (half + root) if half > 0 else (root - half) / (2 * third)
-    t = (arb(_SHY) * t).mid()
+    t = (arb(_BELOW_ROOT) * t).mid()
     if not -s + t * (half + t * third) < 0:
         raise UndecidedError("the impact may be grazing: xdot + udot may be zero")
     return t
@@ -273,7 +273,7 @@ def _long_flight(gap, amplitude):
         return None
     root = square.sqrt()
     low = ((root - b).lower() * arb(2) ** -40 + (-b - root)) / gap.g
-    high = (root - b) * arb(_SHY) / gap.g
+    high = (root - b) * arb(_BELOW_ROOT) / gap.g
     low, high = low.mid(), high.mid()
     if not (low < high and all(rest + t * (b + gap.g * t / 2) < 0 for t in (low, high))):
         return None

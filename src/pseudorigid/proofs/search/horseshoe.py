@@ -14,8 +14,8 @@ import numpy as np
 from flint import arb, ctx
 
 from ..checks.certificate import NotProvedError
+from .certificate_text import decimal, decimals, header, rows
 from .periodic import polished
-from .writing import decimal, decimals, header, rows
 
 BITS = 320  # for an orbit that starts DEEP rounds nearer to its saddle than a double can tell
 DEEP = 100  # rounds about the saddles before the float's start of the connection
@@ -308,7 +308,7 @@ def _text(found, plan):
             f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "
             f"{float(start):.2g} from its saddle, beyond the saddle's set"
         )
-    # the last set's image is to be `room` times as wide as the saddle's set
+    # the last set's image is to be `allocate_buffers` times as wide as the saddle's set
     last = _times(surface.jacobian(*points[end])[0], directions[end])
     reach = _along(last, (0, 0), expanding[enters], contracting[enters])
     stretch = _length(tangents[end]) / _length(tangents[begin])

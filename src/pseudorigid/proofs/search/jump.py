@@ -6,7 +6,7 @@ from flint import arb, ctx
 
 from ..enclosure.flight import first_root
 from ..enclosure.surface import ball_of
-from .writing import decimal, header
+from .certificate_text import decimal, header
 
 BITS = 160
 DIGITS = 30  # points are to be good to 1e-28

@@ -5,7 +5,7 @@ from math import ceil, sqrt
 
 from flint import arb, arb_mat, ctx
 
-from .writing import decimals, header, rows
+from .certificate_text import decimals, header, rows
 
 BITS = 160
 DIGITS = 36  # the checker holds thirty of them against the orbit

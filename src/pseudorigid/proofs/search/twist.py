@@ -9,8 +9,8 @@ from flint import acb, arb, arb_mat, ctx
 
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface
+from .certificate_text import decimal, decimals, header, rows
 from .periodic import BITS, DIGITS, largest, polished
-from .writing import decimal, decimals, header, rows
 
 TWIST_DIGITS = 13  # the checker holds nine of them against the twist
 ENERGY_DIGITS = 13  # decimals of the energy

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...dynamics.starts import start_state
 from ...dynamics.variables import states_of
-from ..judge import impact_errors
+from ..reference_solver import impact_errors
 from .statements import Result
 
 LIMIT = 1e-6  # an error beyond this is no rounding: another impact was taken
@@ -20,9 +20,9 @@ def prove_impacts(k, g, before, after, tau, name="impacts"):
     k, g : int, Fraction, Decimal or str
         The ball, exact.
     before, after : ndarray, shape (3, n)
-        As for `judge.impact_errors`.
+        As for `reference_solver.impact_errors`.
     tau : ndarray, shape (n,)
-        As for `judge.impact_errors`.
+        As for `reference_solver.impact_errors`.
     name : str
         Of the result.
 

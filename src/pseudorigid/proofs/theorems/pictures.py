@@ -95,13 +95,13 @@ def twist_data(k, g, energies):
     ValueError
         An energy at which the fixed point, its type or its twist is not proved, with the reason.
     """
-    from ..search import known
+    from ..search import approximate_orbits
 
     surfaces = [Surface(k, g, energy) for energy in energies]
     values, centres = [], []
     for surface in surfaces:
         try:
-            centres.append(known.points(surface, 1, "elliptic"))
+            centres.append(approximate_orbits.points(surface, 1, "elliptic"))
             centre = [tuple(map(Fraction, z)) for z in centres[-1]]
             with ctx.workprec(periodic.BITS):
                 orbit = periodic.prove(surface, centre, RADIUS)

@@ -6,8 +6,8 @@ from ...dynamics.variables import states_of
 from ..checks import horseshoe, periodic
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
+from ..search import approximate_orbits
 from ..search import horseshoe as horseshoes
-from ..search import known
 from ..search import periodic as orbits
 from .statements import Theorem
 
@@ -93,7 +93,9 @@ def prove_horseshoe(ball, orbit, *, side, energy=None):
     theorem = Theorem(what, what, horseshoe.check, bounds | {"window": None, "crossing": None})
     sign = 1 if side == "outer" else -1
     try:
-        text = horseshoes.search(surface, known.ball(surface), points, theorem.prove, sign)
+        text = horseshoes.search(
+            surface, approximate_orbits.ball(surface), points, theorem.prove, sign
+        )
         return text, theorem.prove(text)
     except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{what} cannot be proved: {error}") from None
@@ -108,8 +110,8 @@ def _request(ball, orbit, energy):
     else:
         energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
         surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
-    near = known.ball(surface)
+    near = approximate_orbits.ball(surface)
     own, given = float(near.energy(*states_of(orbit))[0]), float(surface.energy)
     if not abs(own - given) <= 1e-6 * (abs(given) + near.g**2 / near.k):
         raise ValueError(f"the orbit's energy is {own:.6g}, not that of {surface}")
-    return surface, known.chart(near, orbit), str(orbit["type"].item())
+    return surface, approximate_orbits.chart(near, orbit), str(orbit["type"].item())

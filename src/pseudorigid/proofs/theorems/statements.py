@@ -178,7 +178,7 @@ def search_certificate(name):
     >>> THEOREMS["one-fixed-point"].check(text).verdict
     'proved'
     """
-    from .searching import SEARCHES
+    from .searches import SEARCHES
 
     theorem = THEOREMS[name]
     return SEARCHES[theorem.checker](theorem)

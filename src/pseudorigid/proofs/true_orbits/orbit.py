@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ...dynamics.reading import whole_number
+from ...dynamics.inputs import whole_number
 from ...dynamics.variables import attributes_of, variables
 from ..enclosure.surface import Surface
-from . import keeping
-from .follow import Run, ShortOfBitsError
+from . import checkpoints
+from .enclosed_run import Run, ShortOfBitsError
 from .start import Start, bits_needed
 
 
@@ -61,13 +61,13 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     run = _resumed(checkpoint, surface, place, impacts)
     if run is None:
         run = Run(surface, place, impacts, bits_needed(surface, place, impacts))
-    clock = keeping.Clock(run, progress, checkpoint)
+    clock = checkpoints.Clock(run, progress, checkpoint)
     while run.count < impacts:
         try:
             run.step()
         except ShortOfBitsError:
             run = Run(surface, place, impacts, run.bits + run.bits // 4 + 100)
-            clock = keeping.Clock(run, progress, checkpoint)
+            clock = checkpoints.Clock(run, progress, checkpoint)
         clock.tick(run)
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
@@ -86,5 +86,5 @@ def _memory(impacts):
 
 def _resumed(checkpoint, surface, place, impacts):
     """The run of a checkpoint of this very orbit, or None."""
-    saved = checkpoint and keeping.load(checkpoint, place.identity(impacts))
+    saved = checkpoint and checkpoints.load(checkpoint, place.identity(impacts))
     return saved and Run.restored(surface, place, impacts, str(saved["state"]), saved["values"])

@@ -9,7 +9,7 @@ from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
 from ...dynamics.starts import start_state
 from ..enclosure.surface import Surface
-from . import keeping
+from . import checkpoints
 from .orbit import true_orbit
 from .start import Start
 
@@ -70,11 +70,11 @@ def _kept(folder, index, place, start, count, progress):
     Path(folder).mkdir(parents=True, exist_ok=True)
     file = Path(folder) / f"orbit_{index}.npz"
     identity = place.identity(count)
-    if saved := keeping.load(file, identity):
+    if saved := checkpoints.load(file, identity):
         return saved["values"]
     part = Path(folder) / f"orbit_{index}.part.npz"
     values = _columns(true_orbit(*exact, count, start=start, progress=report, checkpoint=part))
-    keeping.save(file, identity=identity, values=values)
+    checkpoints.save(file, identity=identity, values=values)
     return values
 
 

@@ -10,7 +10,7 @@ from ...dynamics.ball import Ball
 from ...dynamics.lyapunov import lyapunov_spectrum
 from ...kernel.arithmetic import log
 from ..enclosure.surface import ball_of, exact
-from .follow import FRAME_BITS, GUARD, RESULT_BITS
+from .enclosed_run import FRAME_BITS, GUARD, RESULT_BITS
 
 
 class Start:

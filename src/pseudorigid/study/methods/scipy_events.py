@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from .rival import AFTER, Rival, just_after
+from .external_solver import AFTER, ExternalSolver, just_after
 
 # The first steps tried. LSODA does not look into its first one closely enough to see a flight that
 # ends in it; a tiny one costs it nothing.
@@ -34,13 +34,15 @@ def brentq_method(step, tolerance):
                 low = high - step if first or start else min(AFTER, 0.5 * high)
                 if gap(low) >= 0.0:
                     return low, count + 1
-                root, how = brentq(gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True)
-                return root, count + how.function_calls
+                root, root_finder = brentq(
+                    gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True
+                )
+                return root, count + root_finder.function_calls
             count += t.size
             start = float(t[-1])
         return math.nan, count
 
-    return Rival(f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq", flight)
+    return ExternalSolver(f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq", flight)
 
 
 def ivp_method(solver, rtol, max_step=math.inf):
@@ -77,7 +79,7 @@ def ivp_method(solver, rtol, max_step=math.inf):
         return (float(found[0]) if found.size else math.nan), calls
 
     family = solver if max_step == math.inf else f"{solver}, steps <= {max_step:g}"
-    return Rival(f"{family}, {rtol:.0e}", family, flight)
+    return ExternalSolver(f"{family}, {rtol:.0e}", family, flight)
 
 
 SOLVERS = {

@@ -5,7 +5,7 @@ from functools import cache
 
 import heyoka as hy
 
-from .rival import AFTER, Rival, just_after
+from .external_solver import AFTER, ExternalSolver, just_after
 
 DIRECTIONS = {"any": hy.event_direction.any, "positive": hy.event_direction.positive}
 
@@ -39,7 +39,7 @@ def taylor_method(tolerance, direction):
         return (ta.time if hit else math.nan), steps * ta.order
 
     name, family = f"heyoka {direction}, {tolerance:.0e}", f"heyoka, {direction} direction"
-    return Rival(name, family, flight)
+    return ExternalSolver(name, family, flight)
 
 
 METHODS = tuple(

@@ -1,0 +1,43 @@
+"""./reproduce claims: every statement of the paper, checked."""
+
+from collections import Counter
+
+from ...checks.freshness import Freshness
+from ...config import build_specs, paths
+from ...records.artifacts import ArtifactError
+from ...records.files import identity
+from ...records.sources import ROOT
+from .. import figures, running
+from ..session import CommandLineError, interruptible, locked, one_line
+
+
+def run(args) -> int:
+    """Make what is missing, draw the pictures, and write CLAIMS.md; or check one claim."""
+    if (args.check is None) != (args.data is None):
+        raise CommandLineError("claims: --check ID and --data FILE go together")
+    from .. import claim_verdicts
+
+    checked = args.checked
+
+    if args.check is not None:
+        name, mark, file = args.data.rpartition("=")
+        with one_line(kind=ArtifactError):
+            print(claim_verdicts.check(checked, args.check, f"{name}{mark}{args.start / file}"))
+        return 0
+    with locked():
+        targets = [*claim_verdicts.dataset_paths(checked).values()]
+        drawings = paths.figures(checked["variants"], "claims").values()
+        # They are made together with the data, before `figures.make` looks at them.
+        before = {behind[-1]: identity(behind[-1]) for _, behind in drawings}
+        targets += before
+        freshness = Freshness(ROOT, build_specs.of_all(checked))
+        status = running.make(checked, freshness, targets, args.options)
+        if status or running.is_dry_run(args.options):
+            return status
+        if status := figures.make(checked, "claims", args.options, before=before):
+            return status
+        with interruptible():
+            verdicts = claim_verdicts.write(checked)
+    counts = Counter(verdict.verdict for verdict in verdicts.values())
+    print(f"\n{paths.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    return 0

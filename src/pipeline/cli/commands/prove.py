@@ -1,0 +1,45 @@
+"""./reproduce prove: the theorems, each checked from its certificate."""
+
+import os
+
+from ...records.files import write_whole
+from ...records.sources import ROOT
+from .. import figures
+from ..arguments import CERTIFICATES, hint
+from ..session import CommandLineError, interruptible, locked, one_line, print_error
+
+
+def run(args) -> int:
+    """Check the certificates, a line a theorem; 1 where one is not proved."""
+    if args.search + args.impacts + args.pictures > 1:
+        raise CommandLineError("prove: --search, --impacts and --pictures are one at a time")
+    if args.theorem and (args.impacts or args.pictures):
+        raise CommandLineError("prove: --impacts and --pictures take no theorems")
+    if args.pictures:
+        with locked():
+            return figures.make(args.checked, "proofs", [])
+    if args.impacts:
+        from ...checks.proved_impacts import impacts
+
+        with locked(), interruptible(), one_line():
+            return impacts(args.checked)
+    from pseudorigid.proofs import THEOREMS, search_certificate
+
+    for name in args.theorem:
+        if name not in THEOREMS:
+            there = f"there are {', '.join(THEOREMS)}"
+            raise CommandLineError(f"no theorem {name}{hint(name, THEOREMS) or f': {there}'}")
+    names = args.theorem or list(THEOREMS)
+    if args.search:
+        for name in names:
+            print_error(f"searching a certificate of {name}")
+            path = ROOT / CERTIFICATES / THEOREMS[name].certificate
+            write_whole(path, search_certificate(name))
+    status = 0
+    for name in names:
+        result = THEOREMS[name].check()
+        print(result.line(), flush=True)
+        status |= result.verdict != "proved"
+    files = dict.fromkeys(ROOT / CERTIFICATES / THEOREMS[name].certificate for name in names)
+    print("", *(os.path.relpath(file, ROOT) for file in files), sep="\n", flush=True)
+    return status

@@ -1,0 +1,48 @@
+"""A periodic motion in time: Figures 3 and 4 of the paper."""
+
+from ..fields import axes_of, real
+from ..scene import OfPeriodicOrbit
+
+
+class Motion(OfPeriodicOrbit):
+    """a periodic motion in time
+
+    The {{ s.type }} orbit of period {{ s.period }} in time, at energy {{ s.energy }} for k = {{
+    s.ball.k }}, g = {{ s.ball.g }}: height -x of the centre above where it is when the undeformed
+    ball touches the floor, and strain u.
+
+    What to see: the two lines touch at the impacts (dots) and never cross, since there the ball
+    would be below the floor. After {{ s.period }} impact{{ "s" if s.period > 1 }} the motion
+    repeats itself.
+    """
+
+    stages = ("motion",)
+    axes_depend_on = ("period", "type", "duration")
+    along = {"t": "duration"}
+    headline = "orbit"
+    studied = "motion"
+    example = """
+    ball: {k: 0.3333333333333333, g: 0.02}
+    energy: 0.01
+    period: 5
+    type: hyperbolic
+    duration: 40
+    """
+
+    duration: real("a number with 0 < duration <= 10000", gt=0, le=10_000)
+    """how much time is drawn"""
+    axes: axes_of("t", "displacement") = None
+
+    @staticmethod
+    def numbers(block, periodic, motion):
+        """The orbit, the times drawn and its period in time."""
+        from pseudorigid.dynamics.variables import of_type
+
+        t = motion["t"].values
+        orbit = of_type(periodic, block["type"])
+        return Motion.about_orbit(periodic, block) | {
+            "time": f"{t[0]:g} to {t[-1]:g}",
+            "time of one period": f"{float(orbit['total_time']):.6f}",
+            "impacts drawn": f"{motion.sizes['impact']:,}",
+            "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
+        }

@@ -1,0 +1,40 @@
+"""Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
+
+from ..scene import OfBranches, OfOrbits, OnSurface
+
+
+class Tangle(OfBranches, OfOrbits, OnSurface):
+    """manifolds on the energy surface
+
+    Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period
+    }} (dots), at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. In grey some
+    orbits as a backdrop. The surface, which ends at the rim where impacts graze, is opaque: what
+    lies on its far side is not drawn. An open dot marks the end of a line that was not followed
+    further, an open square a line that a jump of the map interrupts. At a small full dot a line
+    does not end: it turns back on itself in a sharp fold.
+
+    What to see: lines of the two colours leave each dot and meet those of its neighbours, but do
+    not coincide with them: they cross, fold and fill the chaotic sea.
+    """
+
+    stages = ("orbits", "manifolds", "periodic")
+    headline = "orbit"
+    studied = "tangle"
+    example = """
+    ball: {k: 0.3, g: 0.02}
+    energy: 0.002
+    period: 5
+    type: hyperbolic
+    branches: {outer: {length: 0.8}, inner: {length: 0.4}}
+    resolution: {distance: 0.02, bend: 20}
+    starts: [-0.3, 0.1]
+    impacts: 300
+    """
+
+    @staticmethod
+    def numbers(block, orbits, periodic, manifolds):
+        """The orbit, and how much there is of its branches."""
+        return Tangle.about_orbit(periodic, block) | {
+            "branches": f"{manifolds.sizes['branch']:,}",
+            "points of the lines": f"{manifolds.sizes['vertex']:,}",
+        }

@@ -1,0 +1,221 @@
+"""Where the map jumps: the states whose next flight just touches the floor.
+
+A touch in flight, f = f' = 0, is a state on the section's rim, s = xdot + udot = 0, with x < -g:
+to the right of x = -g the floor does not let the ball go. So the map jumps on the image of that arc
+of the rim under the inverse, and the inverse on its image under the map; the reversor exchanges the
+two curves. There is an arc where the rim reaches beyond -g, that is for E > g^2 (1 + k/2).
+"""
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from ..dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
+from ..kernel.arithmetic import sincos_each
+from ..kernel.impact_law import impact_coefficients, rebound
+
+# The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
+_LEFT_OUT = 2.0**-46
+_HALVINGS = 40  # of a side: a continuous image is then as good as one point
+_LEFT = 0.01  # of a side's image: more than this that is left is a jump
+_LEAST = 1e-9  # of the whole image: less is rounding
+_PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
+_DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve, of the derivatives
+_LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
+_HALVED = "by how much it differs from what half as many sides give"
+
+
+def jumps(ball, energy, energies, sides):
+    """The curves where the map jumps, at several energies, and the symmetry lines at the first.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        The first of the energies (m omega^2 R^2).
+    energies : sequence of float
+        The others.
+    sides : int
+        Into how many sides a curve is divided, a multiple of four.
+
+    Returns
+    -------
+    xarray.Dataset
+        On energy: radius, of the section along y = 0, and length, of the curve in the plane
+        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
+        much it differs from what half as many sides give, and what the ends left out make. On
+        (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
+        under the map, where the inverse jumps, NaN next to a jump of the map. The map jumps on the
+        mirror image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the
+        other near the image of that,
+        the point with the same index counted from the end. flight_x, flight_y (half_time, branch):
+        the symmetry line Fix RP of flights symmetric in time, NaN where a flight is not the first
+        to end. On distance, from the middle of the curve at the first energy along its normal:
+        derivative_touched, derivative_missed, the largest singular value of the map's Jacobian in
+        (x, y), on the side where the flight meets the floor that it all but misses on the other;
+        NaN where there is no curve, and outside the section. Attribute first_energy: from where on
+        there are such curves, g^2 (1 + k/2).
+
+    Raises
+    ------
+    ValueError
+        A number of sides that four does not divide, or an energy below the lowest.
+
+    References
+    ----------
+    The paper's section 3 calls the map (28) a diffeomorphism; that holds up to E = g^2 (1 + k/2).
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> jumps(Ball(k=0.2, g=0.04), 0.01, [0.001], 40).sizes["energy"]
+    2
+    """
+    if sides % 4:
+        raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
+    levels = [float(energy), *map(float, energies)]
+    arcs, gaps = zip(*(_arc(ball, level, sides + 1) for level in levels), strict=True)
+    curves, gaps = np.stack(arcs, axis=1), np.array(gaps)
+    fine, middle, coarse = (_lengths(curves[2:], gaps, step) for step in (1, 2, 4))
+    length = fine + (fine - middle) / 3.0
+    error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
+    radii = [ball.section(level)[1] for level in levels]
+    flight_x, flight_y = _symmetric_flights(ball, energy, sides)
+    touched, missed = _derivatives(ball, energy, curves[2:, 0])
+    curves[2:, :, 1:][:, gaps] = np.nan
+    curve, line = ("energy", "point"), ("half_time", "branch")
+    data = {
+        "rim_x": (curve, curves[0], "x of grazing states that leave the floor", LENGTH),
+        "rim_y": (curve, curves[1], "y of these states", SPEED),
+        "x": (curve, curves[2], "x of their next impact, where the inverse jumps", LENGTH),
+        "y": (curve, curves[3], "y of their next impact", SPEED),
+        "energy": ("energy", levels, "energy", ENERGY),
+        "radius": ("energy", radii, "the section's radius along y = 0", LENGTH),
+        "length": ("energy", length, "length of the curve in (x, y)", _PLANE),
+        "length_error": ("energy", error, _HALVED, _PLANE),
+        "flight_x": (line, flight_x, "x on the symmetry line Fix RP", LENGTH),
+        "flight_y": (line, flight_y, "y on that line", SPEED),
+        "distance": ("distance", _DISTANCES, "distance from the curve in (x, y)", _PLANE),
+        "derivative_touched": ("distance", touched, f"{_LARGEST} meets the floor"),
+        "derivative_missed": ("distance", missed, f"{_LARGEST} just misses the floor"),
+    }
+    first = ball.g * ball.g * (1.0 + 0.5 * ball.k)
+    return xr.Dataset(described(data), attrs={"first_energy": first})
+
+
+def _lengths(curves, gaps, every):
+    """Lengths (n,) of polylines (2, n, vertices) without their gaps, 0 for those of NaN.
+
+    Of the vertices only each `every`th counts.
+    """
+    steps = np.diff(curves[:, :, ::every], axis=2)
+    gaps = gaps.reshape(gaps.shape[0], -1, every).any(axis=2)
+    return np.nansum(np.where(gaps, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
+
+
+def _arc(ball, energy, points):
+    """x, y of the arc of the rim with x < -g and of its image, (4, points); the image's gaps."""
+    centre, radius = ball.section(energy)
+    k, g = ball.k, ball.g
+    if not centre - radius < -g:
+        return np.full((4, points), math.nan), np.zeros(points - 1, bool)
+    # x = centre - radius (1 - t^2)/(1 + t^2), y = high 2 t/(1 + t^2), |t| < the t of x = -g
+    high = math.sqrt(k * (1.0 + k)) * radius
+    depth = (centre + g) / radius
+    end = math.sqrt((1.0 - depth) / (1.0 + depth))
+    t = end * (1.0 - _LEFT_OUT) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
+
+    def rim(t):
+        return (
+            centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t)),
+            high * (2.0 * t / (1.0 + t * t)),
+        )
+
+    def image(t):
+        x, y = rim(t)
+        return np.stack(chart(k, *ball.impact(x, y / (1.0 + k), -y / (1.0 + k))[:3]))
+
+    return np.stack([*rim(t), *image(t)]), _parted(image, t)
+
+
+def _parted(image, at):
+    """Which sides of a curve's image are no part of it, since the map jumps between their ends.
+
+    The curve's parameters (n,) are taken to points (2, n) by `image`; its vertices are `at`.
+    """
+    low, high = at[:-1], at[1:]
+    start, end = image(low), image(high)
+    sides = _apart(start, end)
+    extent = np.max(np.ptp(start, axis=1))
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        point = image(middle)
+        first = _apart(start, point) > _apart(point, end)
+        low, high = np.where(first, low, middle), np.where(first, middle, high)
+        start, end = np.where(first, start, point), np.where(first, point, end)
+    return _apart(start, end) > np.maximum(_LEFT * sides, _LEAST * extent)
+
+
+def _apart(one, other):
+    return np.max(np.abs(one - other), axis=0)
+
+
+def _derivatives(ball, energy, curve):
+    """Largest derivatives beside the middle of the curve (2, n) where the inverse jumps: (2, m).
+
+    In rows: where the flight meets the floor, and where it just misses it.
+    """
+    middle = curve.shape[1] // 2
+    if math.isnan(curve[0, middle]):
+        return np.full((2, len(_DISTANCES)), math.nan)
+    # the map itself jumps on the mirror image
+    place, (dx, dy) = curve[:, middle], curve[:, middle + 1] - curve[:, middle - 1]
+    x, y = float(place[0]), -float(place[1])
+    length = math.sqrt(dx * dx + dy * dy)
+    across = dy / length, dx / length
+    found = []
+    for sign in (1.0, -1.0):
+        norms, tau = [], math.inf
+        for h in _DISTANCES:
+            try:
+                state = ball.state_xy(x + sign * h * across[0], y + sign * h * across[1], energy)
+            except ValueError:  # outside the section
+                norms.append(math.nan)
+                continue
+            norms.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            tau = ball.time_to_impact(*state)
+        found.append((tau, norms))
+    return np.array([norms for _, norms in sorted(found)])
+
+
+def _largest_singular_value(matrix):
+    (a, b), (c, d) = matrix
+    square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
+    return math.sqrt(square + math.sqrt(max(square * square - det * det, 0.0)))
+
+
+def _symmetric_flights(ball, energy, points):
+    """(x, y) of the states whose flight is symmetric in time, (2, points, 2).
+
+    A flight of length 2 theta has b = -g theta, x = a cos theta, c = -a sin theta, where a solves
+    E = g^2 theta^2/2 + k a^2/2 - g a cos theta; NaN where it has no solution, where the state is
+    off the section or where the floor ends the flight before.
+    """
+    _, radius = ball.section(energy)
+    k, g = ball.k, ball.g
+    theta = radius * math.sqrt(k) / g * (np.arange(points) + 0.5) / points
+    sine, cosine = sincos_each(theta)
+    square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
+    root = np.sqrt(np.where(square >= 0.0, square, math.nan))
+    found = []
+    for sign in (1.0, -1.0):
+        a = (g * cosine + sign * root) / k
+        v, w, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
+        good = v + w >= 0.0
+        state = [np.where(good, column, math.nan) for column in (a * cosine, v, w)]
+        tau = ball.time_to_impact(*state)
+        # no earlier impact has ended the flight; where it grazes tau is good to 1e-8
+        first = np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta)
+        found.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
+    return np.array(found).transpose(1, 2, 0)

@@ -1,0 +1,220 @@
+"""Many orbits of one ball: how fast neighbours part, and how often an orbit winds round a centre.
+
+The one place where a sweep calls the compiled map. Lengths are in units of g R, so that g = 1.
+"""
+
+import math
+
+import numpy as np
+
+from ..kernel.arithmetic import log, narrow_log
+from ..kernel.compiled import jit
+from ..kernel.impact import impact_coefficients
+from ..kernel.tangents import CHUNK, GROUP, V, W, X, advance_chunk, allocate_buffers, push_tangent
+
+_EIGHTH = math.sqrt(2.0) - 1.0  # tan(pi/8)
+# (atan t - t)/t^3 in z = t^2, Chebyshev on |t| <= tan(pi/8), error below 1e-14
+_A0 = float.fromhex("-0x1.55555555553a3p-2")
+_A1 = float.fromhex("0x1.99999998d12f0p-3")
+_A2 = float.fromhex("-0x1.249248aa52bc5p-3")
+_A3 = float.fromhex("0x1.c71c381ab56c6p-4")
+_A4 = float.fromhex("-0x1.74563c795c0ffp-4")
+_A5 = float.fromhex("0x1.3a9d83feefaedp-4")
+_A6 = float.fromhex("-0x1.0c52a4b5af878p-4")
+_A7 = float.fromhex("0x1.a769bd3353c1cp-5")
+_A8 = float.fromhex("-0x1.be20c62f176ddp-6")
+
+# What is kept of an orbit between calls of `propagate_with_tangent`: its state x, v, w; a tangent
+# vector and the logarithm of what it was divided by to stay small; the logarithm of its whole
+# length; the place of the centre, at y = 0 of the chart, and the turn around it that is expected of
+# an impact.
+VECTOR, GROWN, SIZE, CENTRE, EXPECTED, KEPT = 3, 6, 7, 8, 9, 10
+# Rows of GROUP numbers while orbits are followed, the first ones as above: the last place around
+# the centre and the last turn.
+_DX, _DV, _DW = ((VECTOR + i) * GROUP for i in range(3))
+_GROWN, _SIZE, _CENTRE, _EXPECTED = (i * GROUP for i in (GROWN, SIZE, CENTRE, EXPECTED))
+_P, _Q, _TURN = ((KEPT + i) * GROUP for i in range(3))
+_ROWS = (KEPT + 3) * GROUP
+# A tangent vector's length beyond these is made 1: the impact after neither over- nor underflows.
+_LEAST, _MOST = 1e-50, 1e50
+
+
+@jit
+def angle(across, up):
+    """The angle of a vector in the plane.
+
+    Choices instead of branches, for vector instructions.
+
+    Parameters
+    ----------
+    across, up : float
+
+    Returns
+    -------
+    float
+        Radians in (-pi, pi], to 1e-14; 0 for the vector 0.
+    """
+    a, b = abs(across), abs(up)
+    large = max(a, b)
+    t = min(a, b) / large
+    wide = t > _EIGHTH
+    t = (t - 1.0) / (t + 1.0) if wide else t
+    base = 0.25 * math.pi if wide else 0.0
+    z = t * t
+    z2 = z * z
+    low = (_A0 + z * _A1) + z2 * (_A2 + z * _A3)
+    high = (_A4 + z * _A5) + z2 * (_A6 + z * _A7) + (z2 * z2) * _A8
+    turn = base + (t + t * z * (low + (z2 * z2) * high))
+    turn = 0.5 * math.pi - turn if b > a else turn
+    turn = math.pi - turn if across < 0.0 else turn
+    turn = -turn if up < 0.0 else turn
+    return turn if large > 0.0 else 0.0
+
+
+def begin(k, states, centre, expected):
+    """Orbits for `propagate_with_tangent`, each with a tangent vector along the energy surface.
+
+    Parameters
+    ----------
+    k : float
+        Euler inertia, eq. (5).
+    states : (x, v, w), each of shape (n,)
+        Just before an impact, lengths in g R.
+    centre, expected : float or ndarray, shape (n,)
+        The x around which turns are counted, at y = 0, and the turn of an impact that is expected:
+        half a turn where that is NaN, since the centre is no elliptic point.
+
+    Returns
+    -------
+    ndarray, shape (KEPT, n)
+    """
+    x, v, w = states
+    orbits = np.zeros((KEPT, x.size))
+    orbits[:VECTOR], orbits[VECTOR + 1], orbits[VECTOR + 2] = (x, v, w), k * w, -v
+    orbits[CENTRE], orbits[EXPECTED] = centre, np.where(np.isnan(expected), 0.5, expected)
+    return orbits
+
+
+def weight(length):
+    """The sum of the weights of turns over a window of so many impacts."""
+    time = (np.arange(length) + 0.5) / length
+    bump = time * (1.0 - time)
+    return np.sum(bump * bump * bump)
+
+
+@jit
+def _observe(rows, n, k, round_y, coefficients, states, flights, row):
+    """Carry the tangent vectors over an impact, and see how far the orbits turned.
+
+    Returns whether a vector has to be made shorter or longer.
+    """
+    far = 0
+    row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
+    for i in range(n):
+        dx, dv, dw = rows[_DX + i], rows[_DV + i], rows[_DW + i]
+        dx, dv, dw = push_tangent(dx, dv, dw, k, 1.0, coefficients, states, flights, row + i)
+        size = (abs(dx) + abs(dv)) + abs(dw)
+        grown = rows[_GROWN + i] + narrow_log(size)
+        rows[_DX + i], rows[_DV + i], rows[_DW + i], rows[_SIZE + i] = dx, dv, dw, grown
+        far += 0 if (size > _LEAST) & (size < _MOST) else 1
+    for i in range(n):
+        at = GROUP + row + i
+        expected, p, q = rows[_EXPECTED + i], rows[_P + i], rows[_Q + i]
+        r = states[X + at] - rows[_CENTRE + i]
+        s = round_y * (states[V + at] - k * states[W + at])
+        turn = angle(p * r + q * s, q * r - p * s) / (2.0 * math.pi)
+        shift = 1.0 if turn < expected - 0.5 else 0.0
+        shift = -1.0 if turn > expected + 0.5 else shift
+        rows[_TURN + i], rows[_P + i], rows[_Q + i] = turn + shift, r, s
+    return far > 0
+
+
+@jit
+def _rescale(rows, n):
+    """Make tangent vectors as long as 1 that are near the end of what a double holds."""
+    for i in range(n):
+        dx, dv, dw = rows[_DX + i], rows[_DV + i], rows[_DW + i]
+        size = (abs(dx) + abs(dv)) + abs(dw)
+        if not _LEAST < size < _MOST:
+            rows[_GROWN + i] += log(size)
+            rows[_SIZE + i] = rows[_GROWN + i]
+            rows[_DX + i], rows[_DV + i], rows[_DW + i] = dx / size, dv / size, dw / size
+
+
+@jit
+def _add(sums, weight, rows, row):
+    for i in range(sums.size):
+        sums[i] += weight * rows[row + i]
+
+
+@jit
+def _group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, growth):
+    """Propagate the orbits from `low_end` to before `high_end`, at most GROUP of them."""
+    n = high_end - low_end
+    coefficients = impact_coefficients(k)
+    round_y = 1.0 / math.sqrt(k * (1.0 + k))  # the section is a disk in x, round_y * y
+    states, flights = allocate_buffers()
+    rows = np.zeros(_ROWS)
+    for i in range(n):
+        for m in range(KEPT):
+            rows[m * GROUP + i] = orbits[m, low_end + i]
+        rows[_P + i] = rows[i] - rows[_CENTRE + i]
+        rows[_Q + i] = round_y * (rows[GROUP + i] - k * rows[2 * GROUP + i])
+    x, v, w = orbits[0, low_end:high_end], orbits[1, low_end:high_end], orbits[2, low_end:high_end]
+    done = start
+    while done < stop:
+        impacts = min(CHUNK, stop - done)
+        advance_chunk(x, v, w, k, 1.0, impacts, states, flights, None)
+        for row in range(0, impacts * GROUP, GROUP):
+            if _observe(rows, n, k, round_y, coefficients, states, flights, row):
+                _rescale(rows, n)
+            for m in range(len(turning)):
+                first, length = turning[m]
+                if first <= done < first + length:
+                    time = (done - first + 0.5) / length
+                    bump = time * (1.0 - time)
+                    _add(turned[m, low_end:high_end], bump * bump * bump, rows, _TURN)
+            for m in range(len(growing)):
+                first, length = growing[m]
+                if first <= done < first + length:
+                    _add(growth[m, low_end:high_end], 1.0, rows, _SIZE)
+            done += 1
+    for m in range(VECTOR, CENTRE):
+        for i in range(n):
+            orbits[m, low_end + i] = rows[m * GROUP + i]
+
+
+@jit
+def propagate_with_tangent(orbits, k, start, stop, turning, growing, turned, growth):
+    """Follow orbits, in units where g = 1: lengths in g R.
+
+    A tangent vector along the energy surface is carried along; NaN from an exactly grazing impact
+    on, where the map has no derivative.
+
+    Parameters
+    ----------
+    orbits : ndarray, shape (KEPT, n)
+        A row for each quantity named above, a column an orbit; advanced in place.
+    k : float
+        Euler inertia, eq. (5).
+    start, stop : int
+        The impacts to be done, counted from the orbits' beginning.
+    turning, growing : ndarray of int, shape (m, 2)
+        Windows: first impact and length.
+    turned : ndarray, shape (m, n)
+        Added to: the turns around the centre, summed over each window of `turning` with the weights
+        (t (1 - t))^3, t from 0 to 1 over the window. A turn is taken within half a turn of the one
+        expected.
+    growth : ndarray, shape (m, n)
+        Added to: the logarithm of the tangent vector's length, summed over each window of
+        `growing`.
+
+    References
+    ----------
+    The weights are those of a weighted Birkhoff average: Das, Saiki, Sander and Yorke, Quantitative
+    quasiperiodicity, Nonlinearity 30 (2017), whose bump is exp(-1/(t (1 - t))).
+    """
+    count = orbits.shape[1]
+    for first in range(0, count, GROUP):
+        last = min(first + GROUP, count)
+        _group(orbits, first, last, k, start, stop, turning, growing, turned, growth)

@@ -1,0 +1,76 @@
+"""Which files stand behind a module, read from import statements without running them."""
+
+from functools import cache
+from importlib.util import resolve_name
+from pathlib import Path
+
+from . import syntax_hash
+
+PACKAGES = ("pseudorigid", "pipeline")
+
+
+def import_closure(src, *starts, leave_out=()):
+    """The files of packages in a folder that are behind some modules.
+
+    What they import, what that imports, and so on; imports inside functions count, and so does the
+    `__init__` of every package on the way.
+
+    Parameters
+    ----------
+    src : pathlib.Path
+        The folder.
+    *starts : str
+        Dotted names ("pseudorigid.dynamics.orbits"); their own files are part of the answer.
+    leave_out : iterable of str
+        Names of modules that are left out, with what only they import.
+
+    Returns
+    -------
+    list of pathlib.Path
+        Sorted.
+
+    Raises
+    ------
+    ValueError
+        A module that is not there, or a name from the package `pseudorigid`, which does not tell
+        where such a name comes from.
+    """
+    found, seen, pending = set(), set(leave_out), [*starts]
+    while pending:
+        name = pending.pop()
+        parent = name.rpartition(".")[0]
+        pending += [parent] if parent and parent not in seen else []
+        if name in seen:
+            continue
+        seen.add(name)
+        file = _file(src, name)
+        if file is None:
+            raise ValueError(f"no module {name} in {src}")
+        if file not in found:
+            found.add(file)
+            pending += _read(src, file, name if file.name == "__init__.py" else parent)
+    syntax_hash.keep()
+    return sorted(found)
+
+
+def _read(src, file, package):
+    """The packages' modules that `file`, a member of `package`, imports anywhere."""
+    modules = []
+    for level, module, names in syntax_hash.facts(file.name, file.read_bytes())[1]:
+        if not (level or module.split(".")[0] in PACKAGES):
+            continue
+        base = resolve_name("." * level + module, package)
+        modules += [] if names else [base]
+        for name in (f"{base}.{name}" for name in names):
+            if base == PACKAGES[0] and not _file(src, name):
+                raise ValueError(f"{file.name}: import {name.split('.')[1]} from its module")
+            modules.append(name if _file(src, name) else base)
+    return modules
+
+
+@cache
+def _file(src: Path, name: str) -> Path | None:
+    """The file of a module, None where there is none."""
+    path = src.joinpath(*name.split("."))
+    files = (path / "__init__.py", path.with_suffix(".py"))
+    return next((file for file in files if file.is_file()), None)

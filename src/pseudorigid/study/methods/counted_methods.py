@@ -1,0 +1,126 @@
+"""Methods in this package's arithmetic: their results are part of the byte contract.
+
+Each finds the flight that follows an impact at x with velocities b, c (and s = -(b + c), its exact
+sum) and returns (tau, x', xdot', udot', evaluations of the gap). Three kinds:
+
+    MARCH   the certified march of pseudorigid.kernel.flight
+    SCAN    the paper's: steps of constant length until the gap changes sign, then bisection
+            until the bracket is no longer than the tolerance
+    ENGINE  a physics engine's: semi-implicit Euler until the ball overlaps the floor; the impact
+            happens at the end of that time step
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...kernel import impact as kernel
+from ...kernel.arithmetic import sincos
+from ...kernel.compiled import jit
+from ...kernel.scan import MOST, scan
+
+MARCH, SCAN, ENGINE = 0, 1, 2
+
+
+@jit
+def engine(x, b, c, g, step):
+    """(tau, x', xdot', udot', steps): positions and velocities as an engine has them."""
+    position, strain, v, w = x, -x, b, c
+    count = 0
+    while True:
+        count += 1
+        v += step * g
+        w -= step * strain
+        position += step * v
+        strain += step * w
+        if position + strain >= 0.0 and v + w >= 0.0:
+            return count * step, position, v, w, count
+        if not count < MOST:
+            return math.nan, position, v, w, count
+
+
+@jit
+def flight(kind, step, tolerance, x, v, w, k, g, coefficients):
+    """One impact and the flight that follows, by any kind: (tau, x', xdot', udot', evaluations)."""
+    if kind == MARCH:
+        p, v, q, tau, count, _ = kernel.step(x, v, w, k, g, coefficients, None)
+        return tau, p, v, q, count
+    b, c, _ = kernel.rebound(v, w, k, coefficients)
+    if kind == ENGINE:
+        return engine(x, b, c, g, step)
+    tau, count = scan(x, b, c, g, step, tolerance)
+    sine, cosine = sincos(tau)
+    return tau, x * cosine - c * sine, b + g * tau, x * sine + c * cosine, count
+
+
+@jit
+def _flights(kind, step, tolerance, x, v, w, k, g, tau, count):
+    coefficients = kernel.impact_coefficients(k)
+    for i in range(x.size):
+        tau[i], _, _, _, count[i] = flight(
+            kind, step, tolerance, x[i], v[i], w[i], k, g, coefficients
+        )
+
+
+@jit
+def _orbit(kind, step, tolerance, x, v, w, k, g, out):
+    coefficients = kernel.impact_coefficients(k)
+    total = 0
+    for i in range(out.shape[1]):
+        tau, x, v, w, count = flight(kind, step, tolerance, x, v, w, k, g, coefficients)
+        out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
+        total += count
+    return total
+
+
+@dataclass(frozen=True)
+class Counted:
+    """One of the kinds above with its step and tolerance, in time units."""
+
+    name: str
+    family: str
+    kind: int
+    step: float = 0.0
+    tolerance: float = 0.0
+
+    def solve(self, ball, x, xdot, udot):
+        """(tau, evaluations) for arrays (n,) of states; NaN where none is found."""
+        tau = np.empty(x.size)
+        count = np.empty(x.size, np.int64)
+        _flights(self.kind, self.step, self.tolerance, x, xdot, udot, ball.k, ball.g, tau, count)
+        return tau, count
+
+    def orbit(self, ball, state, impacts):
+        """Its own orbit from `state`, the start excluded.
+
+        Returns
+        -------
+        track : ndarray, shape (4, impacts)
+            x, xdot, udot just before each impact, and the flight tau that ends there.
+        evaluations : int
+            Of all flights.
+        """
+        track = np.empty((4, impacts))
+        root_finder = self.kind, self.step, self.tolerance
+        return track, _orbit(*root_finder, *(float(a) for a in state), ball.k, ball.g, track)
+
+
+OURS = Counted("certified march", "certified march", MARCH)
+
+
+def scan_method(step, tolerance):
+    """The paper's method with this step and tolerance."""
+    name, family = f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection"
+    return Counted(name, family, SCAN, step, tolerance)
+
+
+def engine_method(step):
+    """A physics engine with this time step."""
+    return Counted(f"engine {step:.0e}", "time stepping", ENGINE, step)
+
+
+TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)
+SCANS = tuple(scan_method(step, tol) for step in (0.5, 0.1, 0.01) for tol in TOLERANCES)
+ENGINES = tuple(engine_method(step) for step in (1e-1, 1e-2, 1e-3, 1e-4))
+METHODS = (OURS, *SCANS, *ENGINES)

@@ -1,0 +1,102 @@
+"""Flux through the broken separatrices: by action, by polygon, by counting, by angles."""
+
+import math
+
+import independent_solver as judge
+import numpy as np
+import pytest
+from flint import arb, ctx
+from mpmath import mp, mpf
+
+from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid.analyses import actions, polygon
+from pseudorigid.analyses.flux import flux
+
+BALL, ENERGY = Ball(0.2, 0.04), 0.01
+SEA = (0.55, 0.68)
+
+
+def test_flights_in_balls_are_those_of_the_judge():
+    with ctx.workprec(400):
+        flights = actions.Law(BALL, ENERGY)
+        state, tangent = flights.lift(arb("0.3"), arb("0.02"), arb(1), arb(0))
+        _, other = flights.lift(arb("0.3"), arb("0.02"), arb(0), arb(1))
+        after, carried, action = flights.flight(state, tangent)
+        _, carried_other, _ = flights.flight(state, other)
+        one, two = flights.chart(carried), flights.chart(carried_other)
+        area = one[0] * two[1] - one[1] * two[0]
+        assert area.contains(1) and float(area.rad()) < 1e-80
+        numbers = [mpf(a.mid().str(60, radius=False)) for a in state]
+        exact = judge.exact_map(mpf("0.2"), mpf("0.04"), *numbers)
+        for found, wanted in zip(after, exact[:3], strict=True):
+            assert abs(mpf(found.mid().str(60, radius=False)) - wanted) < mpf(10) ** -45
+        x, v, w = numbers
+        jump = 2 * (v + w) / mpf("1.2")
+        b, c = v - mpf("0.2") * jump, w - jump
+
+        def squares(t):
+            rate = x * mp.sin(t) + c * mp.cos(t)
+            return (b + mpf("0.04") * t) ** 2 + mpf("0.2") * rate**2
+
+        expected = mp.quad(squares, mp.linspace(0, exact[3], 8))
+        assert abs(mpf(action.mid().str(50, radius=False)) - expected) < mpf(10) ** -40
+
+
+@pytest.fixture(scope="module")
+def flowing():
+    return flux(BALL, ENERGY, 6, 3e-4, 700, SEA, 24, 6000)
+
+
+def test_lobes_by_action_by_polygon_and_by_counting(flowing):
+    area, polygons = flowing["area"].values, flowing["lobe_polygon"].values
+    assert area[0] == pytest.approx(8.789483773e-10, rel=1e-9)  # of a trial without this code
+    assert polygons[1] == pytest.approx(area[1], rel=1e-4)
+    assert polygons[0] == pytest.approx(area[0], rel=0.2)  # doubles hardly show it
+    assert np.all(flowing["area_error"].values < 1e-15 * area)
+    assert flowing["carried_out"].values[1] == pytest.approx(area[1], rel=0.05)
+    assert flowing["carried_in"].values[1] == pytest.approx(area[1], rel=0.05)
+    assert flowing["carried_out"].values[0] < 1e-5
+    assert float(flowing["digits"].values[1]) == pytest.approx(area[1], rel=1e-15)
+
+
+def test_what_leaves_the_region_tells_how_large_the_sea_is(flowing):
+    sea = float(flowing["area"].values[1] / flowing["sea_out"].values[1])
+    share = sea / flowing.attrs["section"]
+    assert share == pytest.approx(0.83, abs=0.05)  # the atlas: 0.169 of it is regular
+    assert float(flowing["sea_inside"].values[0]) == 0.0
+
+
+def test_angles_at_the_crossings_of_the_traced_lines(flowing):
+    """The slope of the polyline where it crosses y = 0; the stable branch is its mirror image."""
+    saddle = symmetric_orbits(BALL, ENERGY, 6).isel(orbit=1)
+    for row, side in ((0, "inner"), (1, "outer")):
+        line = trace_manifold(
+            BALL, ENERGY, saddle, int(flowing["saddle"].values[row]),
+            side=side, length=1.2, distance=1e-4, bend=2.0,
+        )  # fmt: skip
+        x, y = line["x"].values, line["xdot"].values - 0.2 * line["udot"].values
+        at = int(np.flatnonzero(y[1:] * y[:-1] < 0.0)[0])
+        near = slice(at - 20, at + 21)
+        slope = np.polynomial.Polynomial.fit(y[near], x[near], 3).deriv()(0.0)
+        sine = 2.0 * abs(slope) / (1.0 + slope * slope)
+        assert sine == pytest.approx(abs(float(flowing["sine"].values[row, 0])), rel=1e-3)
+        assert x[at] == pytest.approx(float(flowing["crossing_x"].values[row, 0]), abs=1e-4)
+
+
+def test_flux_wants_an_even_period():
+    with pytest.raises(ValueError, match="period = 5 is not allowed"):
+        flux(BALL, ENERGY, 5, 1e-3, 10, SEA, 2, 10)
+
+
+def test_polygon_of_a_star():
+    angle = 2.0 * np.pi * np.arange(10) / 10
+    radius = np.where(np.arange(10) % 2, 0.4, 1.0)
+    star = polygon.Polygon(np.stack([radius * np.cos(angle), radius * np.sin(angle)]))
+    assert star.area() == pytest.approx(5.0 * 0.4 * math.sin(math.pi / 5.0), rel=1e-12)
+    bits = np.random.default_rng(1)
+    x, y = bits.uniform(-1.1, 1.1, (2, 200_000))
+    share = star.holds(x, y).mean() * 2.2 * 2.2
+    assert share == pytest.approx(star.area(), abs=0.02)
+    assert star.holds(np.array([0.0, 0.6, 0.9, 2.0]), np.array([0.0, 0.43, 0.0, 0.0])).tolist() == [
+        True, False, True, False,
+    ]  # fmt: skip

@@ -1,0 +1,99 @@
+"""The last invariant curve: convergents, residues on either side of breakup, a residue in balls."""
+
+import math
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+
+from pseudorigid import Ball
+from pseudorigid.analyses import actions, last_curve
+
+BALL, ENERGY = Ball(0.2, 0.04), 0.01
+
+
+def test_convergents_of_noble_numbers():
+    assert last_curve.fractions([0, 1], 5) == [(1, 1), (1, 2), (2, 3), (3, 5), (5, 8)]
+    assert last_curve.value([0, 1]) == pytest.approx(0.5 * (math.sqrt(5.0) - 1.0), rel=1e-15)
+    for noble in ([0, 5, 1, 15], [0, 5, 1, 17]):
+        p, q = last_curve.fractions(noble, 8)[-1]
+        assert abs(p / q - last_curve.value(noble)) < 1.0 / (q * q)
+
+
+@pytest.fixture(scope="module")
+def edge():
+    nobles = [[0, 5, 1, 15], [0, 5, 1, 17]]
+    return last_curve.last_curve(BALL, ENERGY, 6, (-0.2, -0.0325639), 60_000, 100, nobles)
+
+
+def test_residues_on_either_side_of_breakup(edge):
+    size = np.abs(edge["residue"].values)
+    assert edge["period"].values.min() >= 50
+    assert size[0, -1] < 0.01 < 0.1 * size[0, 1]
+    assert np.all(np.diff(size[1, 1:]) > 0.0) and size[1, -1] > 10.0
+    assert np.all(edge["closure"].values < 1e-7)
+    assert float(edge["orbit_rotation"].values[0]) == pytest.approx(
+        float(edge["rotation"].values[0]), abs=2e-6
+    )
+
+
+@pytest.mark.parametrize("noble, place", [(0, 0), (1, 1)])
+def test_a_residue_in_balls(edge, noble, place):
+    """The orbit refined, and its trace, to 300 bits."""
+    start = float(edge["place"].values[noble, place])
+    period = int(edge["period"].values[noble, place])
+    turns = int(edge["turns"].values[noble, place])
+    state = BALL.start(start, ENERGY)
+    with ctx.workprec(1500):
+        flights = actions.Law(BALL, ENERGY)
+        x, y = arb(state[0]), arb(state[1]) - flights.k * arb(state[2])
+        for _ in range(8):
+            columns = []
+            for direction in ((arb(1), arb(0)), (arb(0), arb(1))):
+                at, tangent = flights.lift(x, y, *direction)
+                for _ in range(period):
+                    at, tangent, _ = flights.flight(
+                        tuple(a.mid() for a in at), tuple(a.mid() for a in tangent)
+                    )
+                columns.append(flights.chart(tangent))
+            (a, c), (b, d) = columns
+            end = flights.chart(at)
+            fx, fy = end[0] - x, end[1] - y
+            determinant = (a - 1) * (d - 1) - b * c
+            x = (x + (b * fy - (d - 1) * fx) / determinant).mid()
+            y = (y + (c * fx - (a - 1) * fy) / determinant).mid()
+        residue = float((2 - a - d) / 4)
+    assert abs(float(y)) < 1e-10 and abs(float(x) - state[0]) < 1e-9
+    assert math.gcd(turns, period) == 1
+    assert float(edge["residue"].values[noble, place]) == pytest.approx(residue, rel=1e-3)
+
+
+def test_rotation_numbers_outside_are_refused():
+    with pytest.raises(ValueError, match=r"no symmetric orbit of rotation number 1/5 = 0.2"):
+        last_curve.last_curve(BALL, ENERGY, 2, (-0.2, -0.1), 100, 10, [[0, 4, 1]])
+
+
+@pytest.mark.parametrize(
+    ("ball", "energy", "between"),
+    [(BALL, 0.005, (-0.2, 0.3)), (BALL, 0.011, (-0.2, 0.1)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2)),
+     (Ball(0.1, 0.02), 0.002, (0.1, 0.9))],
+)  # fmt: skip
+def test_nobles_are_chosen_on_either_side_of_the_last_curve(ball, energy, between):
+    """Inside residues fall, outside they do not; the numbers are those of orbits there."""
+    found = last_curve.last_curve(ball, energy, 4, between, 4000, 10)
+    inside, outside = np.abs(found["residue"].values[:, -1])
+    assert inside < 0.25 < outside
+    assert np.all(found["closure"].values < 1e-9)
+
+
+def test_numbers_between_are_noble_and_simple():
+    for one, other in ((0.16, 0.17), (0.2346, 0.2345), (0.3, 0.3 + 1e-9), (1 / 3, 0.333)):
+        noble = last_curve.noble_between(one, other)
+        assert min(one, other) < last_curve.value(noble) < max(one, other)
+
+
+def test_a_part_without_the_last_curve_is_refused():
+    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
+        last_curve.last_curve(BALL, ENERGY, 2, (0.55, 0.65), 100, 10)
+    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
+        last_curve.last_curve(BALL, ENERGY, 2, (-0.4, -0.3), 100, 10)

@@ -1,0 +1,64 @@
+"""The datasets of the evidence have the same bits again, and on another machine."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from pipeline.records.artifacts import content_hash
+from pseudorigid import Ball
+from pseudorigid.analyses.clusters import clusters
+
+BALL, ENERGY = Ball(0.2, 0.04), 0.01
+SEA = (0.55, 0.68)
+
+
+SMALL = """
+from pipeline.records.artifacts import content_hash
+from pseudorigid import Ball
+from pseudorigid.analyses import clusters, flux, jumps, last_curve, rotation, spread
+ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
+for found in (
+    spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),
+    clusters.clusters(ball, 0.01, sea, 13, 400, [4.0, 6.0], 2, 20, 1),
+    rotation.rotation(ball, 0.01, [0.026], 15, 600, (-0.8344, -0.8341), 600),
+    jumps.jumps(ball, 0.01, [0.0018], 60),
+    flux.flux(ball, 0.01, 6, 5e-3, 60, sea, 13, 300),
+    last_curve.last_curve(ball, 0.01, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
+):
+    print(content_hash(found))
+"""
+
+
+def hashes(**environment):
+    found = subprocess.run(
+        [sys.executable, "-c", SMALL],
+        env=os.environ | environment, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return found.stdout.split()
+
+
+@pytest.mark.slow
+def test_same_bits_on_another_machine(tmp_path):
+    here = hashes()
+    assert len(set(here)) == 6
+    there = hashes(
+        OMP_NUM_THREADS="1",
+        NUMBA_CPU_NAME="generic",
+        NUMBA_CACHE_DIR=str(tmp_path),
+        NPY_DISABLE_CPU_FEATURES="X86_V3 X86_V4 AVX512_ICL",
+        GLIBC_TUNABLES="glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4",
+        OPENBLAS_CORETYPE="Prescott",
+        LC_ALL="C",
+        TZ="Asia/Kathmandu",
+        PYTHONHASHSEED="7",
+    )
+    assert here == there
+
+
+def test_same_bits_again():
+    one = clusters(BALL, ENERGY, SEA, 13, 300, [4.0], 1, 20, 1)
+    assert content_hash(one) == content_hash(clusters(BALL, ENERGY, SEA, 13, 300, [4.0], 1, 20, 1))
+    other = clusters(BALL, ENERGY, SEA, 13, 300, [4.0], 1, 20, 2)
+    assert content_hash(one) != content_hash(other)  # another seed

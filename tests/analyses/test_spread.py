@@ -1,0 +1,89 @@
+"""The spread of exponents: blocks add up, regular orbits fall like ln n / n, cells entered."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid.analyses.sea import section_points
+from pseudorigid.analyses.spread import in_sea, spread, stretches
+
+BALL, ENERGY = Ball(0.2, 0.04), 0.01
+
+
+@pytest.fixture(scope="module")
+def spreading():
+    return spread(BALL, ENERGY, 20, 40_000, 8, [-0.44, 0.142183], 1 << 14, 12, 1 << 13)
+
+
+def starts(found):
+    """The states in which the orbits of a spread start."""
+    return BALL.state_xy(found["start_x"].values, found["start_y"].values, ENERGY)
+
+
+def test_orbits_start_uniformly_over_the_whole_section():
+    """Each of eight sectors and rings of equal area of the disk has an eighth of them."""
+    x, v, w = BALL.state_xy(*section_points(BALL, ENERGY, 4000), ENERGY)
+    assert np.all(v + w > 0.0)
+    assert np.max(np.abs(BALL.energy(x, v, w) - ENERGY)) < 1e-15
+    centre, radius = BALL.section(ENERGY)
+    across, up = (x - centre) / radius, (v - 0.2 * w) / (radius * math.sqrt(0.24))
+    eighth = np.floor(4.0 * np.arctan2(up, across) / np.pi).astype(int) % 8
+    ring = np.minimum((8.0 * (across**2 + up**2)).astype(int), 7)
+    for parts in (eighth, ring):
+        assert np.bincount(parts, minlength=8) == pytest.approx(500, abs=15)
+
+
+def test_islands_and_sea_are_told_apart_by_the_exponents(spreading):
+    states = starts(spreading)
+    judged = lyapunov_spectrum(BALL, states, 100_000, 1)["exponent"].values[0, :, 0] > 1e-3
+    assert np.array_equal(in_sea(spreading), judged)
+    assert 0 < judged.sum() < judged.size
+
+
+def test_a_section_without_chaotic_orbits_is_one_line():
+    with pytest.raises(ValueError, match="orbits = 1 of 200 impacts is not allowed: none is chao"):
+        spread(BALL, -0.003, 1, 200, 4, [0.1], 4, 4, 4)
+
+
+def test_blocks_add_up_to_the_exponents_of_the_whole(spreading):
+    whole = lyapunov_spectrum(BALL, starts(spreading), 40_000, 1)["exponent"].values[0]
+    np.testing.assert_allclose(spreading["exponent"].values.mean(axis=0), whole, atol=1e-13)
+    sea = in_sea(spreading)
+    assert stretches(spreading, 40_000) == pytest.approx(whole[sea, 0], abs=1e-13)
+    assert stretches(spreading, 10_000).size == 4 * sea.sum()
+
+
+def test_exponents_of_regular_orbits_fall_like_ln_n_over_n(spreading):
+    n = spreading["length"].values[6:]
+    largest = spreading["regular_exponent"].values[6:, :, 0]
+    bound = 1.5 * np.log(n) / n
+    assert np.all(np.abs(largest) < bound[:, None])
+    assert np.all(stretches(spreading, 40_000) > 0.2)
+
+
+def test_cells_that_orbits_enter(spreading):
+    any_, all_, least = (spreading[f"entered_{name}"].values for name in ("any", "all", "least"))
+    assert np.all(all_ <= least) and np.all(least <= any_)
+    assert np.all(np.diff(any_) >= 0) and np.all(np.diff(least) >= 0)
+    assert 0.5 * 144 < any_[-1] <= 144
+    # the orbits counted one by one
+    sea = in_sea(spreading)
+    paths = [orbit(BALL, state, 1 << 13) for state in np.transpose(starts(spreading))[sea]]
+    entered = [cells_of(path) for path in paths]
+    counts = [len(set.union(*entered)), len(set.intersection(*entered)), min(map(len, entered))]
+    assert counts == [any_[-1], all_[-1], least[-1]]
+
+
+def cells_of(path):
+    """The cells of a 12 x 12 grid over the section that an orbit enters after its start."""
+    centre, radius = BALL.section(ENERGY)
+    x = (path["x"].values[1:] - centre) / radius
+    y = (path["xdot"].values - 0.2 * path["udot"].values)[1:] / (radius * math.sqrt(0.24))
+    return {(int(6 * (a + 1)), int(6 * (b + 1))) for a, b in zip(x, y, strict=True)}
+
+
+def test_blocks_must_divide_an_orbit():
+    with pytest.raises(ValueError, match="length = 10 is no multiple"):
+        spread(BALL, ENERGY, 2, 10, 4, [0.1], 4, 4, 4)

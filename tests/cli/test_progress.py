@@ -1,0 +1,197 @@
+"""What a user is told: what would be made and why, steps, and the state of files."""
+
+import hashlib
+import json
+import logging
+import os
+
+import pytest
+from project import SHIPPED
+from snakemake_interface_logger_plugins.common import LogEvent
+
+import snakemake_logger_plugin_reproduce as steps
+from pipeline.checks.freshness import Freshness
+from pipeline.cli.progress import plan, states
+from pipeline.cli.session import UsageError, one_line
+from pipeline.config import build_specs, load
+from pipeline.jobs import server
+from pipeline.records.build_spec import BuildSpec
+from pipeline.records.record import record_path, recorded
+
+ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
+
+
+def test_a_result_has_the_name_of_its_scene_and_step():
+    checked = load(SHIPPED)
+    checked["variants"]["thin"] = {"fig4": checked["scenes"]["fig4"] | {"energy": 0.011}}
+    names = {path: (each.scene, each.step) for path, each in build_specs.of_all(checked).items()}
+    assert names[ORBITS] == ("fig2", "orbits")
+    assert names[DRAWING] == ("fig2", "drawing png")
+    assert names["results/thin/figures/fig4.png"] == ("thin/fig4", "drawing png")
+    assert names["results/claims/last_curve_last_curve.nc"] == ("last_curve", "last_curve")
+    assert names["results/claims/derivations.nc"] == ("claims", "derivations")
+    assert names["results/sweep/plane_0012.nc"] == ("plane", "block 12")
+    assert names["results/sweep/plane.nc"] == ("plane", "data")
+    assert names["results/study/work.nc"] == ("work", "data")
+
+
+def spec(path, step, config, sources, inputs=()):
+    """A result of fig2, made from few sources."""
+    config |= {"energy": 0.01}
+    return BuildSpec(path, "fig2", step, config, "stage", None, sources, [*inputs])
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """A folder with orbits and a drawing of them, made by two sources; what is expected there."""
+    monkeypatch.chdir(tmp_path)
+    build_specs = {
+        ORBITS: spec(ORBITS, "orbits", {"ball": {"g": 0.04}}, ["a.py", "b.py"]),
+        DRAWING: spec(DRAWING, "drawing png", {"view": {"elevation": 40}}, ["b.py"], [ORBITS]),
+    }
+    for source in ("a.py", "b.py"):
+        (tmp_path / source).write_text(source)
+    for path, made in build_specs.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        with recorded(made):
+            (tmp_path / path).write_text(path)
+    return tmp_path, build_specs
+
+
+def planned(made):
+    return plan.plan(Freshness(*made), [ORBITS, DRAWING])
+
+
+def test_a_plan_names_what_changed_by_scene(made):
+    root, build_specs = made
+    assert planned(made) == ["nothing to make"]
+    view = {"view": {"elevation": 30}}
+    now = dict(build_specs)
+    now[DRAWING] = build_specs[DRAWING]._replace(config=build_specs[DRAWING].config | view)
+    assert planned((root, now)) == ["fig2: view.elevation 40 -> 30: drawing"]
+    for path in now:
+        now[path] = build_specs[path]._replace(config=build_specs[path].config | {"energy": 0.008})
+    assert planned((root, now)) == ["fig2: energy 0.01 -> 0.008: orbits, drawing"]
+    (root / "b.py").write_text("other")
+    assert planned(made) == ["fig2: its source changed: b.py: orbits, drawing"]
+    (root / "a.py").write_text("other")
+    assert planned(made) == [
+        "fig2: its source changed: a.py and 1 more; its source changed: b.py: orbits, drawing"
+    ]
+
+
+def test_a_plan_names_damage_and_what_is_not_there(made):
+    root, _ = made
+    (root / DRAWING).unlink()
+    assert planned(made) == ["fig2: not made yet: drawing"]
+    (root / ORBITS).write_text("other")
+    changed = f"{ORBITS} was changed after it was made"
+    assert planned(made) == [f"fig2: {changed}: orbits, drawing"]
+    record = root / record_path(ORBITS)
+    record.write_text("{")
+    assert planned(made)[0].startswith(f"fig2: {ORBITS}: its record ")
+    for path in (record, root / ORBITS):
+        path.unlink()
+    assert planned(made) == ["fig2: not made yet: orbits, drawing"]
+
+
+def test_a_package_of_another_version_is_named(made):
+    root, _ = made
+    path = root / record_path(DRAWING)
+    record = json.loads(path.read_text())
+    here, record["environment"]["numpy"] = record["environment"]["numpy"], "1.0"
+    path.write_text(json.dumps(record))
+    assert planned(made) == [f"fig2: made with numpy 1.0 then, {here} here: drawing"]
+
+
+def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
+    monkeypatch.setattr(states, "ROOT", tmp_path)
+    folder = tmp_path / "figures"
+    folder.mkdir()
+    for name in ("same.png", "other.png", "new.png"):
+        (folder / name).write_text(name)
+    sums = {name: hashlib.sha256(b"same.png").hexdigest() for name in ("same.png", "other.png")}
+    sums["gone.png"] = sums["same.png"]
+    (folder / "SHA256SUMS").write_text("".join(f"{d}  {name}\n" for name, d in sums.items()))
+    paths = [f"figures/{name}.png" for name in ("same", "other", "new", "gone")]
+    found = states.committed("figures", [*paths, "results/x.pdf"])
+    words = ("identical", "differs", "not committed", "missing")
+    assert found == dict(zip(paths, words, strict=True))
+
+
+def event(kind, created, **about):
+    record = logging.makeLogRecord({"msg": about.pop("msg", ""), "created": created})
+    vars(record).update(about, event=kind)
+    return record
+
+
+@pytest.fixture
+def handler(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    specs = {
+        path: spec(path, step, {}, [])
+        for path, step in ((ORBITS, "orbits"), (DRAWING, "drawing png"))
+    }
+    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, specs, set()))
+    return steps.LogHandler(None, None)
+
+
+def test_a_step_is_a_line_with_its_seconds_and_what_is_left(handler, capsys):
+    for job, path in enumerate((ORBITS, DRAWING)):
+        handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
+    handler.emit(event(LogEvent.JOB_STARTED, 10.0, jobs=[0, 1]))
+    handler.emit(event(None, 10.5, msg="Select jobs to execute..."))
+    handler.emit(event(LogEvent.JOB_FINISHED, 11.06, job_id=0))
+    handler.emit(event(LogEvent.PROGRESS, 11.2, done=3, total=22))
+    handler.emit(event(LogEvent.JOB_FINISHED, 75.0, job_id=1))
+    handler.emit(event(LogEvent.PROGRESS, 75.0, done=4, total=22))
+    err = capsys.readouterr().err.splitlines()
+    assert [line.split() for line in err] == [
+        ["fig2", "orbits", "1.1", "s", "3", "of", "22"],
+        ["fig2", "drawing", "png", "65.0", "s", "4", "of", "22"],
+    ]
+
+
+def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
+    log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
+    log.parent.mkdir(parents=True)
+    log.write_text("Traceback\n  ...\npseudorigid: fig2: the disk is full: 0.1 MB\n")
+    for job, path in enumerate((ORBITS, DRAWING)):
+        handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
+        handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[job]))
+        handler.emit(
+            event(LogEvent.ERROR, 9.0, msg="In file x:\nCommand died with SIGKILL.\n  File y")
+        )
+        handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=job))
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.split(maxsplit=2)[2] == "not made: the disk is full: 0.1 MB"
+    assert second.endswith("not made: Command died with SIGKILL.")
+    assert handler.failed
+
+
+def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys, monkeypatch):
+    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[ORBITS]))
+    block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10}, [])
+    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
+    handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
+    handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
+    handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
+    assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
+
+
+def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
+    (tmp_path / DRAWING).parent.mkdir(parents=True)
+    (tmp_path / DRAWING).touch()
+    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[f"{DRAWING} (update)"]))
+    handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
+    os.utime(tmp_path / DRAWING)
+    handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
+    handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
+    assert "as it was" in capsys.readouterr().err
+
+
+def test_only_what_is_written_for_the_user_is_one_line():
+    with pytest.raises(UsageError, match=r"^archive: no archive$"), one_line("archive: ", OSError):
+        raise OSError("no archive")
+    with pytest.raises(KeyError), one_line("archive: ", OSError):
+        raise KeyError("a bug")

@@ -1,0 +1,176 @@
+"""What a source file means, and that only what decides a result is a source of it."""
+
+import ast
+import os
+import re
+
+import pytest
+from project import ROOT, SHIPPED
+
+from pipeline.config import build_specs, load
+from pipeline.records import sources
+from pseudorigid import proofs
+from pseudorigid.kernel.compiled import syntax_hash as meanings
+from pseudorigid.kernel.compiled.syntax_hash import facts
+
+TEXT = '''"""A module."""
+
+from dataclasses import dataclass
+
+SCALE = 0.5  # of lengths
+
+
+@dataclass
+class Point:
+    """A point."""
+
+    x: float
+    y: float = 1.0
+
+
+def far(point, *, more=None):
+    """Whether it is far."""
+    size: float = abs(point.x) + SCALE * 1e3
+    match point:
+        case Point(x=0):
+            return {**more, "é\\U0001fae8": b"\\xff"}
+    return f"{size:.{3}f} and" f" {point.y!r:}" "!", -1, 1j, ...
+'''
+RULES = 'rule a:\n    input:\n        f"{x}b",  # why\n        "c",\n'
+
+
+def meaning(text, name="x.py"):
+    return facts(name, text.encode())[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("# of lengths", "# what lengths are multiplied by"),
+        ('"""A module."""', '"""What a module is.\n\nAt length."""'),
+        ('"""A point."""', '"""A point of the plane."""'),
+        ('"""Whether it is far."""\n', "\n"),
+        ("size: float = ", "size = "),
+        ("size: float = ", "size: int = "),
+        ("SCALE * 1e3", "(\n        SCALE * 1000.0\n    )"),
+        ('"{size:.{3}f} and" f" {point.y!r:}" "!"', '"{size:.{3}f} and {point.y!r}!"'),
+        ("point, *, more=None", "point,\n    *,\n    more=None,\n"),
+    ],
+)
+def test_what_changes_nothing_has_the_same_hash(old, new):
+    assert TEXT.count(old) == 1
+    assert meaning(TEXT.replace(old, new)) == meaning(TEXT)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("SCALE = 0.5", "SCALE = 0.25"),
+        ("SCALE = 0.5", "SCALE: float = 0.5"),
+        ("    x: float\n", "    x: int\n"),
+        ("    x: float\n", ""),
+        ("y: float = 1.0", "y = 1.0"),
+        ("y: float = 1.0", "y: float = 1"),
+        ("@dataclass\n", ""),
+        ("more=None", "more: dict = None"),
+        ("point.y!r:", "point.y!s:"),
+        ("f} and", "f} And"),
+        (", -1,", ", +1,"),
+        ("1j", "2j"),
+        ("...", "None"),
+        ("**more, ", ""),
+        ("Point(x=0)", "Point(x=False)"),
+        ("abs(point.x)", "abs(point.y)"),
+    ],
+)
+def test_what_may_change_something_has_another_hash(old, new):
+    assert TEXT.count(old) == 1
+    assert meaning(TEXT.replace(old, new)) != meaning(TEXT)
+
+
+def test_hashes_do_not_depend_on_pythons_version():
+    """These were computed under Python 3.11, 3.12 and 3.13."""
+    assert meaning(TEXT)[:16] == "5fdb88b11fb526e4"
+    assert meaning(RULES, "x.smk")[:16] == "a79f62164fd30f15"
+    assert meaning("a: 1\n", "x.toml")[:16] == "9b7acdf56d4776c2"
+
+
+def test_of_rules_the_tokens_count():
+    for same in (RULES.replace("  # why", ""), RULES.replace(" f", "\n\n        f", 1)):
+        assert meaning(same, "x.smk") == meaning(RULES, "x.smk") == meaning(RULES, "Snakefile")
+    for other in (RULES.replace("}b", "}d"), RULES.replace('"c"', '"e"')):
+        assert meaning(other, "x.smk") != meaning(RULES, "x.smk")
+
+
+def test_what_is_no_python_counts_by_its_text():
+    assert meaning("def f(:\n") != meaning("def f(:\n\n")
+    assert meaning("a = 1", "x.toml") != meaning("a  = 1", "x.toml")
+
+
+def of_all():
+    """Result -> what makes it, for every result of the shipped config."""
+    return build_specs.of_all(load(SHIPPED))
+
+
+def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():
+    files = {file for made in of_all().values() for file in made.sources}
+    files |= set(sources.source_files("pseudorigid.proofs.derivations"))
+    lazy = set(proofs._HOMES)
+    dynamic = {f"src/pipeline/jobs/{name}.py" for name in ("draw", "stage", "study")}
+    dynamic.add("src/pseudorigid/proofs/__init__.py")
+    words = r"__doc__|getdoc|inspect|get_type_hints|__annotations__"
+    for file in sorted(files):
+        text = (ROOT / file).read_text(encoding="utf-8")
+        if file.endswith(".py"):
+            assert not re.search(words, text), file
+            found = re.search(r"import_module|__import__|importlib\.i|exec\(|eval\(", text)
+            assert not found or file in dynamic, file
+            for _, module, names in facts(file, text.encode())[1]:
+                assert not (module.endswith("proofs") and lazy & set(names)), file
+    assert len(files) > 100
+
+
+def test_bookkeeping_is_no_source_of_any_result():
+    modules = {f"src/{name.replace('.', '/')}" for name in sources.BOOKKEEPING}
+    left_out = {f"{name}.py" for name in modules} | {f"{name}/__init__.py" for name in modules}
+    for path, made in of_all().items():
+        assert not left_out & set(made.sources), path
+    # All of them are there, and no other file of the records' is left out of a drawing.
+    for name in modules:
+        assert (ROOT / f"{name}.py").is_file() or (ROOT / name).is_dir()
+    drawing = of_all()["results/paper/figures/fig3.png"].sources
+    assert {"src/pipeline/records/artifacts.py", "src/pipeline/records/drawings.py"} <= set(drawing)
+
+
+def test_every_file_of_the_tree_can_be_read():
+    for file in ROOT.glob("src/**/*.py"):
+        assert ast.parse(file.read_text(encoding="utf-8"))
+        assert facts(file.name, file.read_bytes()) != facts("x.toml", file.read_bytes())
+
+
+def test_a_fifo_has_no_meaning(tmp_path):
+    os.mkfifo(tmp_path / "module.py")
+    assert meanings.syntax_hash(tmp_path / "module.py") is None
+
+
+@pytest.mark.parametrize("damage", ["value", "import", "cut", "folder", "FIFO"])
+def test_a_damaged_cache_of_meanings_is_not_used(tmp_path, monkeypatch, damage):
+    kept = tmp_path / "meanings.json"
+    monkeypatch.setattr(meanings, "_KEPT", kept)
+    fresh, data = meanings._known.__wrapped__, b"import os\n\nVALUE = 1\n"
+    known = fresh()
+    monkeypatch.setattr(meanings, "_known", lambda: known)
+    found = facts("module.py", data)
+    meanings.keep()
+    assert list(fresh().values()) == [found]
+    text = kept.read_text()
+    if damage in ("folder", "FIFO"):
+        kept.unlink()
+        (os.mkdir if damage == "folder" else os.mkfifo)(kept)
+    elif damage == "cut":
+        kept.write_text(text[:-1])
+    else:
+        edits = {"value": (found[0], "0" * 64), "import": ('"os"', '"re"')}
+        kept.write_text(text.replace(*edits[damage]))
+        assert kept.read_text() != text
+    assert fresh() == {}

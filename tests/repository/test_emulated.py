@@ -1,0 +1,135 @@
+"""Other processors, emulated: the matrix's probe and all published figures. Minutes, so on request:
+
+    ./reproduce test -m emulated
+
+Needs Debian's qemu-user; for aarch64 also apt with its packages (dpkg --add-architecture arm64,
+apt-get update), from which a Python 3.11 is unpacked, and the package index, for wheels of the
+versions and hashes in requirements/lock.txt. Nothing is installed. ZLIB_NG names a libz.so.1 of
+zlib-ng, built with --zlib-compat (Debian has no package of it), which takes the system's place.
+What is missing is skipped and named.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+
+import pytest
+from project import ROOT
+from test_matrix import SWITCHES, probe
+
+from pipeline.checks.checksums import read_sums
+
+pytestmark = pytest.mark.emulated
+
+DEBIAN = """
+    libbz2-1.0 libc6 libcrypt1 libdb5.3 libexpat1 libffi8 libgcc-s1 liblzma5 libncursesw6 libnsl2
+    libpython3.11-minimal libpython3.11-stdlib libreadline8 libsqlite3-0 libssl3 libstdc++6
+    libtinfo6 libtirpc3 libuuid1 python3.11 python3.11-minimal zlib1g
+"""
+WHEELS = """
+    annotated-types attrs certifi cftime contourpy cycler deflate fonttools jsonschema
+    jsonschema-specifications kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging
+    pandas pillow pydantic
+    pydantic-core pyparsing python-dateutil pyyaml referencing rpds-py six typing-extensions
+    typing-inspection tzdata xarray
+"""
+PLATFORMS = [f"manylinux_2_{minor}_aarch64" for minor in (28, 27, 26, 24, 17)]
+PLATFORMS += ["manylinux2014_aarch64"]
+
+
+def need(*tools):
+    for tool in tools:
+        if shutil.which(tool) is None:
+            pytest.skip(f"no {tool} here")
+
+
+def quietly(*command, cwd):
+    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    if result.returncode:
+        last = (result.stderr.strip().splitlines() or ["?"])[-1]
+        pytest.skip(f"{command[0]} {command[1]}: {last}")
+
+
+@pytest.fixture(scope="module")
+def nehalem():
+    """An x86-64 processor without AVX and FMA."""
+    need("qemu-x86_64")
+    return ["qemu-x86_64", "-cpu", "Nehalem", sys.executable], {}
+
+
+@pytest.fixture(scope="module")
+def aarch64(tmp_path_factory):
+    """An aarch64 processor with a Python and packages of its own."""
+    need("qemu-aarch64", "apt-get", "dpkg")
+    folder = tmp_path_factory.mktemp("aarch64")
+    debs = folder / "debs"
+    debs.mkdir()
+    quietly("apt-get", "download", *(f"{name}:arm64" for name in DEBIAN.split()), cwd=debs)
+    for package in debs.iterdir():
+        quietly("dpkg", "-x", package, folder / "root", cwd=folder)
+    locked = (ROOT / "requirements" / "lock.txt").read_text()
+    wanted = {
+        entry
+        for entry in re.split(r"^(?=[a-z0-9])", locked, flags=re.MULTILINE)
+        if entry.partition("==")[0] in WHEELS.split()
+    }
+    (folder / "lock.txt").write_text("".join(sorted(wanted)))
+    pip = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes", "-q"]
+    pip += ["--only-binary", ":all:", "--python-version", "3.11", "--implementation", "cp"]
+    pip += [f"--abi={abi}" for abi in ("cp311", "abi3", "none")]
+    pip += [f"--platform={platform}" for platform in PLATFORMS]
+    quietly(*pip, "-r", "lock.txt", "-d", "wheels", cwd=folder)
+    for wheel in (folder / "wheels").iterdir():
+        zipfile.ZipFile(wheel).extractall(folder / "site")
+    python = folder / "root" / "usr" / "bin" / "python3.11"
+    command = ["qemu-aarch64", "-L", str(folder / "root"), str(python), "-s"]
+    return command, {"PYTHONPATH": f"{ROOT / 'src'}{os.pathsep}{folder / 'site'}"}
+
+
+@pytest.fixture(scope="module")
+def zlib_ng():
+    """This processor, with zlib-ng in the place of the system's zlib."""
+    library = os.environ.get("ZLIB_NG")
+    if not library:
+        pytest.skip("ZLIB_NG does not name a libz.so.1 of zlib-ng")
+    command = [sys.executable, "-c", "import zlib; print(zlib.ZLIB_RUNTIME_VERSION)"]
+    preloaded = {"LD_PRELOAD": library}
+    version = subprocess.check_output(command, env=os.environ | preloaded, text=True)
+    assert "zlib-ng" in version
+    return [sys.executable], preloaded
+
+
+@pytest.fixture(scope="module", params=["nehalem", "aarch64", "zlib_ng"])
+def machine(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_the_same_bytes(machine, tmp_path):
+    command, environment = machine
+    caches = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    found = probe(tmp_path / "there", "everything", caches | environment, python=command)
+    expected = probe(tmp_path / "here", "everything", {})
+    assert [
+        name for name in expected if found[name] != expected[name] and name not in SWITCHES
+    ] == []
+    if "Nehalem" in command:
+        assert not {"AVX", "FMA3", "X86_V3"} & set(found["simd"])
+        assert found["library"] != expected["library"]
+
+
+def test_the_published_figures(machine, tmp_path):
+    command, environment = machine
+    caches = {"NUMBA_CACHE_DIR": str(tmp_path), "MPLCONFIGDIR": str(tmp_path)}
+    result = subprocess.run(
+        [*command, str(ROOT / "tests" / "paper_probe.py")],
+        env=os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
+    assert json.loads(result.stdout) == read_sums(ROOT, "paper_figures")
