@@ -1,1 +1,1 @@
-"""One impact and many, compiled, with the same bits on every machine."""
+"""Compiled impact map, with the same bits on every machine."""

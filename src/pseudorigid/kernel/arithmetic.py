@@ -1,8 +1,8 @@
-"""sincos and log from + - * / alone, so that their bits are the same on every machine.
+"""Sine, cosine and logarithm from + - * / alone, with the same bits on every machine.
 
-The C library's sin, cos and log differ in the last bit between processors and versions; a chaotic
-orbit turns one bit into a difference of order one within about 130 impacts. Both functions here
-are within 0.8 ulp of the exact value for every finite argument.
+The C library's sin, cos and log differ in the last bit between processors and versions, and a
+chaotic orbit turns one bit into a difference of order one within about 130 impacts. The functions
+here are within 0.8 ulp of the exact value for every finite argument.
 """
 
 import math
@@ -11,19 +11,18 @@ import numpy as np
 
 from .compiled import jit
 
-# pi/2 in four parts; the first three have 33 bits, so n * part is exact for |n| < 2**20.
+# pi/2 in four parts. The first three have 33 bits, so that n * part is exact for |n| < 2**20.
 _HALF_PI_1 = float.fromhex("0x1.921fb54400000p+0")
 _HALF_PI_2 = float.fromhex("0x1.0b4611a600000p-34")
 _HALF_PI_3 = float.fromhex("0x1.3198a2e000000p-69")
 _HALF_PI_4 = float.fromhex("0x1.b839a252049c1p-104")
 _TWO_OVER_PI = float.fromhex("0x1.45f306dc9c883p-1")
-_ROUND = 1.5 * 2.0**52  # adding and subtracting it rounds to the nearest integer
-_HALVE = 1.5 * 2.0**26  # adding and subtracting it keeps 26 bits of a number below 1
-WIDE = 2.0**20  # larger arguments go through the integer reduction
+_ROUND = 1.5 * 2.0**52  # adding and subtracting this rounds to the nearest integer
+_HALVE = 1.5 * 2.0**26  # adding and subtracting this keeps 26 bits of a number below 1
+WIDE = 2.0**20  # larger angles, in radians, are reduced with integers
 
-# Minimax polynomials on |r| <= pi/4, z = r^2: (sin r - r)/r^3 and (cos r - 1 + z/2)/z^2, each with
-# a first coefficient that is -1/6 and 1/24 rounded: small flights live on the tails, not on the
-# sums.
+# Minimax polynomials for (sin r - r)/r^3 and (cos r - 1 + z/2)/z^2 in z = r^2 on |r| <= pi/4. The
+# first coefficients are -1/6 and 1/24 rounded, which keeps the tails accurate for short flights.
 _S0 = float.fromhex("-0x1.5555555555555p-3")
 _S1 = float.fromhex("0x1.1111111110a05p-7")
 _S2 = float.fromhex("-0x1.a01a019e1ec1ep-13")
@@ -37,8 +36,8 @@ _C3 = float.fromhex("-0x1.27e4fa04fd240p-22")
 _C4 = float.fromhex("0x1.1eeb59bb136b0p-29")
 _C5 = float.fromhex("-0x1.9074bbdd55b66p-37")
 
-# (2 atanh(s) - 2 s) / s^3 on the reduced range of log, and ln 2 in two parts (the first has 32
-# bits).
+# Polynomial for (2 atanh(s) - 2 s)/s^3 on the reduced range of log, and ln 2 in two parts, of which
+# the first has 32 bits.
 _L0 = float.fromhex("0x1.5555555555558p-1")
 _L1 = float.fromhex("0x1.9999999995273p-2")
 _L2 = float.fromhex("0x1.2492492dfd86cp-2")
@@ -50,7 +49,7 @@ _LN2_HI = float.fromhex("0x1.62e42fee00000p-1")
 _LN2_LO = float.fromhex("0x1.a39ef35793c76p-33")
 _SQRT_HALF = float.fromhex("0x1.6a09e667f3bcdp-1")
 
-# The binary digits of 2/pi, 24 to an entry, after 48 zeros.
+# Binary digits of 2/pi, 24 in each entry, after 48 zeros.
 _DIGITS = np.array(
     [
         0x000000, 0x000000, 0xA2F983, 0x6E4E44, 0x1529FC, 0x2757D1, 0xF534DD, 0xC0DB62, 0x95993C,
@@ -66,7 +65,7 @@ _DIGITS = np.array(
 
 @jit
 def _reduce(t):
-    """t - n pi/2 as (r, low), n the nearest integer as a float; |t| < 2**20."""
+    """Return t - n pi/2 as a sum (r, low), and the nearest integer n as a float; |t| < 2**20."""
     n = (t * _TWO_OVER_PI + _ROUND) - _ROUND
     a = t - n * _HALF_PI_1
     w2 = n * _HALF_PI_2
@@ -80,9 +79,9 @@ def _reduce(t):
 
 @jit
 def _reduce_wide(t):
-    """t - n pi/2 for any finite t > 0, n modulo 4.
+    """Return (r, low, n) as from `_reduce` for any finite t > 0, with n modulo 4.
 
-    By an exact product with those digits of 2/pi that matter.
+    The product of t with the relevant digits of 2/pi is exact.
     """
     bits = np.float64(t).view(np.int64)
     mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000
@@ -90,7 +89,7 @@ def _reduce_wide(t):
     m0 = mantissa & 0xFFFFFF
     m1 = (mantissa >> 24) & 0xFFFFFF
     m2 = mantissa >> 48
-    # Eight entries from the first digit whose product with t is not a multiple of 4.
+    # Use eight entries, from the first digit whose product with t is not a multiple of 4.
     first = exponent + 46
     entry = first // 24
     shift = 24 - first % 24
@@ -110,7 +109,7 @@ def _reduce_wide(t):
         d1 = d2
     n = product[0] >> 22
     product[0] &= 0x3FFFFF
-    if product[0] & 0x200000:  # past a half: count from the next quadrant down
+    if product[0] & 0x200000:  # beyond one half: count down from the next quadrant
         n += 1
         product[0] -= 0x400000
     scale = 2.0**-22
@@ -124,7 +123,7 @@ def _reduce_wide(t):
     s = hi + lo
     lo = (hi - s) + lo
     hi = s
-    # (hi + lo) pi/2; hi is cut into halves so that the products with the 33-bit parts are exact
+    # Multiply hi + lo by pi/2. hi is split in two so that its products with 33-bit parts are exact.
     c = 134217729.0 * hi
     top = c - (c - hi)
     rest = hi - top
@@ -136,12 +135,12 @@ def _reduce_wide(t):
     low += hi * _HALF_PI_2 + lo * _HALF_PI_1
     s = r + low
     low = (r - s) + low
-    return s, low, float(n + 4)  # never 0: the tails are not those of t
+    return s, low, float(n + 4)  # not 0, because the tails are not those of t
 
 
 @jit
 def _kernel(r, low):
-    """sin and cos of r + low, |r| <= pi/4, and the tails sin r - r and cos r - 1 + r^2/2."""
+    """Return sin and cos of r + low, |r| <= pi/4, and the tails sin r - r and cos r - 1 + r^2/2."""
     z = r * r
     z2 = z * z
     z4 = z2 * z2
@@ -156,14 +155,17 @@ def _kernel(r, low):
 
 @jit
 def narrow_quadrant(t):
-    """`quadrant` for |t| < WIDE, without a branch."""
+    """Compute `quadrant` for |t| < WIDE without a branch."""
     r, low, n = _reduce(t)
     return *_kernel(r, low), n
 
 
 @jit
 def quadrant(t):
-    """sin r, cos r, sin r - r, cos r - 1 + r^2/2 and n, a float: t = r + n pi/2, |r| <= pi/4."""
+    """Return sin r, cos r, sin r - r, cos r - 1 + r^2/2 and n, for t = r + n pi/2, |r| <= pi/4.
+
+    n is a float. All but n are NaN where t is not finite.
+    """
     if abs(t) < WIDE:
         return narrow_quadrant(t)
     if not abs(t) < math.inf:
@@ -176,9 +178,9 @@ def quadrant(t):
 
 @jit
 def quarter_turns(a, b, n):
-    """(a, b) turned by n right angles: n = 1 gives (-b, a).
+    """Turn the vector (a, b) by n right angles; n = 1 gives (-b, a).
 
-    Choices by comparison, where a branch on n would be guessed wrong.
+    It selects by comparison, because a processor would often mispredict a branch on n.
     """
     turns = n - 4.0 * ((0.25 * n + _ROUND) - _ROUND)  # 0, 1, -2 or 2, -1
     first = b if abs(turns) == 1.0 else a
@@ -191,21 +193,11 @@ def quarter_turns(a, b, n):
 
 @jit
 def sincos(t):
-    """Sine and cosine of a double, with the same bits on every machine.
-
-    Parameters
-    ----------
-    t : float
-        Angle in radians.
-
-    Returns
-    -------
-    sine, cosine : float
-        Each within 0.8 ulp; NaN where t is not finite.
+    """Return sine and cosine of an angle in radians, each within 0.8 ulp; NaN if it is not finite.
 
     References
     ----------
-    The argument is reduced below WIDE as in Cody and Waite, Software Manual for the Elementary
+    Below WIDE the argument is reduced as in Cody and Waite, Software Manual for the Elementary
     Functions (1980), above it as in Payne and Hanek, SIGNUM Newsletter 18 (1983).
     """
     sine, cosine, _, _, n = quadrant(t)
@@ -215,17 +207,7 @@ def sincos(t):
 
 @jit
 def sincos_each(t):
-    """`sincos` of each element of an array.
-
-    Parameters
-    ----------
-    t : ndarray, shape (n,)
-        Angles in radians.
-
-    Returns
-    -------
-    sine, cosine : ndarray, shape (n,)
-    """
+    """Return sines and cosines of an array of angles (n,) in radians."""
     sine = np.empty(t.size)
     cosine = np.empty(t.size)
     for i in range(t.size):
@@ -235,7 +217,7 @@ def sincos_each(t):
 
 @jit
 def _log(a, exponent):
-    """log of a 2**exponent for a normal number a, without a branch; exponent a float."""
+    """Compute log(a 2**exponent) for a normal number a and a float exponent, without a branch."""
     bits = np.float64(a).view(np.int64)
     m = np.int64((bits & 0xFFFFFFFFFFFFF) | 0x3FE0000000000000).view(np.float64)
     n = np.int64((bits >> 52) | 0x4330000000000000).view(np.float64) - (2.0**52 + 1023.0)
@@ -247,7 +229,7 @@ def _log(a, exponent):
     z = s * s
     z2 = z * z
     odd = z * ((_L0 + z * _L1) + z2 * ((_L2 + z * _L3) + z2 * ((_L4 + z * _L5) + z2 * _L6)))
-    head = (f + _HALVE) - _HALVE  # f^2/2 = half + rest, half exact
+    head = (f + _HALVE) - _HALVE  # f^2/2 = half + rest, where half is exact
     half = 0.5 * head * head
     rest = 0.5 * (f - head) * (f + head)
     odd = s * ((half + rest) + odd) - rest
@@ -256,33 +238,13 @@ def _log(a, exponent):
 
 @jit
 def narrow_log(a):
-    """`log` for a normal number above 0, without a branch.
-
-    Parameters
-    ----------
-    a : float
-        From 2**-1022 up, finite: others are not looked for.
-
-    Returns
-    -------
-    float
-    """
+    """Compute `log` without a branch for a finite number from 2**-1022 up."""
     return _log(a, 0.0)
 
 
 @jit
 def log(a):
-    """Natural logarithm of a double, with the same bits on every machine.
-
-    Parameters
-    ----------
-    a : float
-
-    Returns
-    -------
-    float
-        Within 0.8 ulp; -inf at 0, NaN below, inf at inf.
-    """
+    """Return the natural logarithm within 0.8 ulp: -inf at 0, NaN below 0, inf at inf."""
     if not a > 0.0:
         return -math.inf if a == 0.0 else math.nan
     if a == math.inf:

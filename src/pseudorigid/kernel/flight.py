@@ -1,4 +1,4 @@
-"""The time to the next impact: the smallest root of the gap, with a certificate.
+"""Time to the next impact: the smallest root of the gap, found by steps that cannot pass it.
 
 After an impact at x with velocities b, c the gap is f(t) = X(t) + U(t), eq. (21) with (26):
 
@@ -6,15 +6,13 @@ After an impact at x with velocities b, c the gap is f(t) = X(t) + U(t), eq. (21
     f'  = b + g t + Q                  Q = x sin t + c cos t
     f'' = g + P,  f''' = -Q,  f'''' = -P,  |P|, |Q| <= A, A >= sqrt(x^2 + c^2)
 
-While the ball flies f < 0. From a point t before the first root, f lies below
+While the ball flies, f < 0. From a point t before the first root, f lies below the parabola
 
-    f + f' h + M h^2/2,  0 < h <= S,  M = min(g + A, f'' + max(-Q, 0) S/3 + A S^2/12),
+    f + f' h + M h^2/2,  0 < h <= S,  M = min(g + A, f'' + max(-Q, 0) S/3 + A S^2/12).
 
-so a step to the root of that parabola, or to S where that is nearer, cannot pass the first root of
-f. The march ends where f' > 0 and f'^2 >= 2 |f| max(0, A - g), or the sharper bound of f'' over
-the step, shows that f rises all the way to its root: that root is then the next one and the only
-one in reach. A is the octagon's bound max + (sqrt(2) - 1) min of |x|, |c|: it needs no square
-root, and any bound will do.
+A step to the root of the parabola, or to S if that is nearer, cannot pass the first root of f. The
+march ends where f' > 0 and a bound of f'' shows that f rises until its root, which is then the
+first root and the only one within reach. docs/method.md has the proofs.
 """
 
 import math
@@ -22,32 +20,31 @@ import math
 from .arithmetic import quadrant, quarter_turns
 from .compiled import jit
 
-# A flight takes 2 or 3 evaluations, a hard one some tens; past this cap something is wrong, and it
-# raises.
+# Evaluations of the gap in one flight beyond which something is wrong; 2 or 3 are usual.
 MOST_EVALUATIONS = 10_000
-# What a last step may leave of tau: a tenth of a rounding.
+# Relative error of tau that the last step may leave: a tenth of a rounding.
 _SLACK = 1e-17
-# A contact speed below this share of A counts as 0: its square would underflow.
+# Ratio of contact speed to A below which the speed counts as 0, because its square would underflow.
 _NO_SPEED = 1e-140
-# Sizes from 1/HUGE to HUGE have fourth powers that neither over- nor underflow.
+# Fourth powers of numbers between 1/HUGE and HUGE neither overflow nor underflow.
 HUGE = 2.0**200
-# 1/3!, 1/4!, ...: a product costs a third of a division
+# 1/3!, 1/4!, ..., because a multiplication costs a third of a division.
 _R3, _R4, _R5, _R6, _R7 = (1.0 / n for n in (6.0, 24.0, 120.0, 720.0, 5040.0))
-# sqrt(2) - 1 rounded up: the octagon around the circle, sqrt(a^2 + b^2) <= max + (sqrt(2) - 1) min.
+# sqrt(2) - 1 rounded up: sqrt(a^2 + b^2) <= max(a, b) + (sqrt(2) - 1) min(a, b) for a, b >= 0.
 _OCTAGON = 0.4142135623730952
 
 
 @jit
 def amplitude_bound(x, c):
-    """A >= sqrt(x^2 + c^2)."""
+    """Return the bound A >= sqrt(x^2 + c^2) of an octagon, which needs no square root."""
     return max(abs(x), abs(c)) + _OCTAGON * min(abs(x), abs(c))
 
 
 @jit
 def first_step(x, c, s, g, amplitude):
-    """A first time at or before the root.
+    """Return a first time at or before the root.
 
-    That of -s + (g + x) t/2 + A t^2/6, which lies above f/t.
+    It is the root of -s + (g + x) t/2 + A t^2/6, which lies above f/t.
     """
     h = 0.5 * (g + x)
     root = math.sqrt(h * h + (2.0 / 3.0) * s * amplitude)
@@ -60,12 +57,9 @@ def first_step(x, c, s, g, amplitude):
 
 @jit
 def impact_free_time(x, b, g, amplitude):
-    """A time up to which no impact happens, for long flights.
+    """Return (rise, rate, free): no impact happens at t < free where t rate >= rise.
 
-    Returns
-    -------
-    rise, rate, free : float
-        No impact at t < free where t rate >= rise, as there f < b t + g t^2/2 + x + A < 0.
+    There f < b t + g t^2/2 + x + A < 0. The three are 0 if there is no such time.
     """
     square = b * b - 2.0 * g * (x + amplitude)
     if not (b < 0.0 and square > 0.0):
@@ -76,26 +70,12 @@ def impact_free_time(x, b, g, amplitude):
 
 @jit
 def gap(t, x, b, c, s, g, trigonometry):
-    """The gap and its derivatives at a time after an impact.
+    """Return f, f', f'', P and Q at time t after an impact; `trigonometry` is `quadrant` of t.
 
-    Up to t = pi/4 the terms of f that cancel at 0 are left out by hand.
-
-    Parameters
-    ----------
-    t : float
-        Time since the impact (1/omega).
-    x, b, c, s, g : float
-        The flight, as for `first_impact`.
-    trigonometry : tuple
-        `quadrant` of t.
-
-    Returns
-    -------
-    f, df, ddf, p, q : float
-        f, f', f'', P and Q.
+    Up to t = pi/4 the terms of f that cancel at t = 0 are left out analytically.
     """
     sine, cosine, sine_tail, cosine_tail, n = trigonometry
-    a, d = quarter_turns(x, c, n)  # while sine and cosine are under way
+    a, d = quarter_turns(x, c, n)  # the processor does this while it computes sine and cosine
     p = a * cosine - d * sine
     q = a * sine + d * cosine
     near = n == 0.0
@@ -112,7 +92,7 @@ def gap(t, x, b, c, s, g, trigonometry):
 
 @jit
 def rises_to_its_root(depth, df, ddf, q, g, amplitude):
-    """Whether f' > 0 from here to the root, depth = -f > 0 below it."""
+    """Return whether f' > 0 from a point depth = -f > 0 below the root up to the root."""
     if not df > 0.0:
         return False
     square = df * df
@@ -128,7 +108,7 @@ def rises_to_its_root(depth, df, ddf, q, g, amplitude):
 
 @jit
 def sure_stride(depth, df, g, amplitude):
-    """A step from a point depth = -f > 0 below the root that cannot pass it, as f'' <= g + A."""
+    """Return a step that cannot pass the root from depth = -f > 0 below it, as f'' <= g + A."""
     most = g + amplitude
     root = math.sqrt(df * df + 2.0 * most * depth)
     top = 2.0 * depth if df > 0.0 else root - df
@@ -138,7 +118,7 @@ def sure_stride(depth, df, g, amplitude):
 
 @jit
 def stride(depth, df, ddf, q, g, amplitude, reach):
-    """The same from a bound of f'' over the next `reach`, which the step does not exceed."""
+    """Return a step up to `reach` that cannot pass the root, by a bound of f'' over `reach`."""
     bend = min(
         g + amplitude, ddf + reach * (max(-q, 0.0) * (1.0 / 3.0) + amplitude * reach * (1.0 / 12.0))
     )
@@ -152,27 +132,21 @@ def stride(depth, df, ddf, q, g, amplitude, reach):
 
 @jit
 def longest_stride(depth, df, ddf, q, g, amplitude):
-    """The longest of these steps."""
+    """Return the longest of the steps that `sure_stride` and `stride` find admissible."""
     sure = sure_stride(depth, df, g, amplitude)
     reach = 2.0 * sure
     step = stride(depth, df, ddf, q, g, amplitude, reach)
     while step == reach and 0.0 < reach < math.inf:
-        reach *= 8.0  # near x = -g the gap bends far less than g + A: do not crawl
+        reach *= 8.0  # near x = -g, f'' is far below g + A, which alone would give tiny steps
         step = stride(depth, df, ddf, q, g, amplitude, reach)
     return max(sure, step)
 
 
 @jit
 def series(f, df, ddf, p, q, t, amplitude):
-    """The step to the root nearby, by the inverse series of f to fourth order.
+    """Return the step to a nearby root by the inverse series of f to fourth order.
 
-    Returns
-    -------
-    h : float
-    holds : bool
-        Whether the series holds.
-    last : bool
-        Whether what it leaves is below the rounding of tau.
+    It comes with whether the series applies, and whether its remainder is below a rounding of tau.
     """
     inverse = 1.0 / df
     u = -f * inverse
@@ -188,9 +162,9 @@ def series(f, df, ddf, p, q, t, amplitude):
 
 @jit
 def newton(f, df, ddf, p, q):
-    """The step to the root where `series` does not hold.
+    """Return the step to the root where `series` does not apply.
 
-    The parabola's root, and one Newton step on the sixth-order Taylor polynomial.
+    It is the parabola's root and one Newton step on the sixth-order Taylor polynomial.
     """
     root = math.sqrt(max(0.0, df * df - 2.0 * ddf * f))
     inverse = 1.0 / root if root > 0.0 else 0.0  # of the parabola's slope at h
@@ -205,7 +179,7 @@ def newton(f, df, ddf, p, q):
 
 @jit
 def rotated(p, q, h):
-    """P and Q a small step h later."""
+    """Return P and Q after a small further time h."""
     h2 = h * h
     h4 = h2 * h2
     versine = h2 * ((_R4 * h2 - 0.5) - _R6 * h4)
@@ -217,10 +191,10 @@ def rotated(p, q, h):
 def _first_impact(x, b, c, s, g):
     amplitude = amplitude_bound(x, c)
     t = first_step(x, c, s, g, amplitude)
-    if g + x > 0.0 and amplitude * t <= _SLACK * (g + x):  # t to a rounding; maybe 0
+    if g + x > 0.0 and amplitude * t <= _SLACK * (g + x):  # t is tau to a rounding, or 0
         p, q = rotated(x, c, t)
         return t, p, q, 0
-    if s < _NO_SPEED * amplitude:  # its square would underflow; it moves no tau by 1e-70
+    if s < _NO_SPEED * amplitude:  # it changes tau by less than 1e-70
         s = 0.0
         t = first_step(x, c, s, g, amplitude)
     if t == 0.0:
@@ -265,7 +239,7 @@ def _first_impact(x, b, c, s, g):
             low = t
         else:
             high = t
-    # a double root, to rounding: at the top f' = 0, the impact is grazing
+    # The root is double to rounding: the impact grazes at the maximum of f, where f' = 0.
     if df < 0.0 and ddf < 0.0:
         h = -df / ddf
         p, q = rotated(p, q, h)
@@ -275,45 +249,28 @@ def _first_impact(x, b, c, s, g):
 
 @jit
 def first_impact(x, b, c, s, g):
-    """The time of the next impact, certified to be the first.
+    """Find the first impact after the one at x with velocities b = xdot and c = udot just after it.
 
-    Parameters
-    ----------
-    x : float
-        Position at the impact before (R).
-    b, c : float
-        xdot (R omega) and udot (omega) just after it, eq. (25).
-    s : float
-        -(b + c) >= 0, the contact speed before it; 0 where rounding makes it negative.
-    g : float
-        Gravity, eq. (20).
-
-    Returns
-    -------
-    tau : float
-        The smallest t > 0 with f(t) = 0, in 1/omega; 0 where the ball does not leave the floor, NaN
-        for input that is not finite.
-    p, q : float
-        P(tau), the position there, and Q(tau), udot there.
-    evaluations : int
-        How often the gap was evaluated.
+    s = -(b + c) is the contact speed before the impact; rounding may make it negative, which counts
+    as 0. Returns tau (1/omega), the position P(tau), udot Q(tau) and the number of evaluations of
+    the gap. tau is 0 where the ball does not leave the floor, and NaN for input that is not finite.
 
     Raises
     ------
     ArithmeticError
-        At MOST_EVALUATIONS.
+        The flight takes more than MOST_EVALUATIONS evaluations.
 
     References
     ----------
-    Eq. (21) with (26); the paper has "a variant of the bisection method" for its smallest root.
+    Eq. (21) with (26). The paper uses "a variant of the bisection method" for its smallest root.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
-    s = max(s, 0.0)  # it may be 0 to rounding, of either sign
+    s = max(s, 0.0)
     if 1.0 / HUGE < size < HUGE:
         return _first_impact(x, b, c, s, g)
     if not size < math.inf:
         return math.nan, math.nan, math.nan, 0
-    # tau does not depend on the unit of length; fourth powers must neither over- nor underflow
+    # tau does not depend on the unit of length, so choose one for which no fourth power overflows.
     d = 1.0
     while 0.0 < size * d <= 1.0 / HUGE:
         d *= HUGE

@@ -1,20 +1,10 @@
-"""The impact law, eq. (25), on numbers or arrays; `impact` has it compiled."""
+"""Impact law, eq. (25), for numbers and arrays; `impact` compiles it."""
 
 
 def impact_coefficients(k):
-    """2/(1 + k) as a sum of a 26-bit number and a double.
+    """Return 2/(1 + k) as the sum of its first 26 bits and a double.
 
-    With one rounded constant every impact would add the same relative error of 1e-16 to the energy.
-
-    Parameters
-    ----------
-    k : float
-        Euler inertia, eq. (5).
-
-    Returns
-    -------
-    coefficients : float
-        The first 26 bits, and the rest rounded to a double.
+    With one rounded constant every impact would add the same relative error, 1e-16, to the energy.
     """
     total = 1.0 + k
     missing = k - (total - 1.0)
@@ -28,23 +18,11 @@ def impact_coefficients(k):
 
 
 def rebound(v, w, k, coefficients):
-    """Velocities just after an impact, eq. (25).
+    """Return the velocities b = xdot and c = udot just after an impact, eq. (25), and s = v + w.
 
-    Parameters
-    ----------
-    v, w : float, ndarray or sympy.Expr
-        xdot (R omega) and udot (omega) just before the impact.
-    k : float or sympy.Symbol
-        Euler inertia, eq. (5).
-    coefficients : float or sympy.Expr
-        2/(1 + k) in two parts, as from `impact_coefficients`.
-
-    Returns
-    -------
-    b, c : same as v, w
-        xdot and udot just after the impact.
-    s : same
-        v + w, the contact point's speed, which the impact reverses: b + c = -s, without rounding.
+    v (R omega) and w (omega) are xdot and udot just before the impact, `coefficients` those from
+    `impact_coefficients`; all may be arrays or sympy expressions. The impact reverses the contact
+    speed s: b + c = -s without rounding.
     """
     high, low = coefficients
     s = v + w

@@ -1,11 +1,11 @@
-"""Many orbits at once: the steps of `impact`, in SIMD lanes.
+"""Many orbits at once in SIMD lanes, with the bits of `impact.steps`.
 
-Each of LANES orbits is a lane. A round evaluates the gap once for every lane, whatever its
-flight has come to, with the functions and so the bits of `flight.first_impact`. What that function
-decides by a branch is here a choice between two values, in loops that the compiler turns into
-vector instructions: no `if`, every choice before the first store, and each loop short enough for
-the processor to work on several of its turns at once. A lane that meets anything but the common
-case has its flight done by `impact.step`.
+Each of LANES orbits has a lane. A round evaluates the gap once in every lane, at whatever stage its
+flight is, with the functions that `flight.first_impact` calls. LLVM vectorises a loop over lanes
+only if the loop has no branch and makes every selection before its first store, so a branch of
+`first_impact` is a selection between two values here. The loops are short so that the processor
+overlaps several iterations. A lane that leaves the common case has its flight done by
+`impact.step`.
 """
 
 import math
@@ -30,31 +30,33 @@ from .flight import (
 )
 from .impact import impact_coefficients, rebound, step
 
-LANES = 32  # four turns of a loop with vectors of eight doubles, eight with vectors of four
-MIN_ORBITS_FOR_LANES = 12  # fewer orbits than this are faster one after the other
-# The state of a lane, the flight that led there, and how many impacts are left; of the flight under
-# way the time to evaluate at, 1 once it is close to its root, the bracket then, what
-# `impact_free_time` gave, and how many evaluations it took.
+LANES = 32  # orbits; four iterations of a loop over vectors of eight doubles
+MIN_ORBITS_FOR_LANES = 12  # fewer orbits are faster one after the other
+# Offsets of the rows of a lane's state: the state, the time of the flight before it, the impacts
+# left, the time of the next evaluation, 1 in LANDING once a bracket (LOW, HIGH) of the root is
+# known, the results of `impact_free_time`, and the evaluations of this flight.
 X, V, W, TAU, LEFT, T, LANDING, LOW, HIGH, RISE, RATE, FREE, EVALUATIONS = (
     i * LANES for i in range(13)
 )
-# What an evaluation gives; the next time by the march and 1 if that is a plain step of it; the step
-# to the root and 1 if it is the last; then the next time, 1 for an impact there, and whether the
-# lane is left to the functions for one orbit.
+# Rows of results of an evaluation.
 F, DF, DDF, P, Q, B, C, S, A = (i * LANES for i in range(13, 22))
+# Rows of decisions: the next time of the march and 1 if `_march` is enough to find it; the step to
+# the root and 1 if it is the last; the time chosen, 1 if the impact is there, and one of three
+# cases.
 AHEAD, MARCHES, STEP, LAST, NEXT, DONE, ODD = (i * LANES for i in range(22, 29))
 SIZE = 29 * LANES
-# What is left to `impact.step`: flights of more evaluations, where 2 or 3 are usual, and of times
-# or speeds near the rounding of numbers of order one.
+# `impact.step` does flights with more evaluations than this (2 or 3 are usual), and flights whose
+# time or contact speed is below _TINY, near the rounding of numbers of order one.
 _MOST_EVALUATIONS = 50.0
 _TINY = 1e-15
-# The values of ODD: a lane in the common case, one that is left to `_step_alone`, and one whose
-# next step of the march is longer than `_march` can tell.
+# Values of ODD: the common case, a lane for `_step_alone`, and a lane whose next step of the march
+# is longer than `_march` finds.
 _PLAIN, _ALONE, _LONG = 0.0, 1.0, 2.0
 
 
 @jit
 def _gaps(lanes, k, g, coefficients):
+    """Evaluate the gap in every lane."""
     for i in range(LANES):
         x, v, w, t = lanes[X + i], lanes[V + i], lanes[W + i], lanes[T + i]
         b, c, s = rebound(v, w, k, coefficients)
@@ -66,6 +68,7 @@ def _gaps(lanes, k, g, coefficients):
 
 @jit
 def _march(lanes, g):
+    """Compute the next time of the march in every lane."""
     for i in range(LANES):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
         t, amplitude = lanes[T + i], lanes[A + i]
@@ -81,6 +84,7 @@ def _march(lanes, g):
 
 @jit
 def _land(lanes):
+    """Compute the step to the root in every lane."""
     for i in range(LANES):
         f, df, ddf, p, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i]
         h, near, last = series(f, df, ddf, p, q, lanes[T + i], lanes[A + i])
@@ -91,7 +95,7 @@ def _land(lanes):
 
 @jit
 def _follow(lanes, g):
-    """Where each lane goes from here, as in `flight.first_impact`."""
+    """Choose the next time of every lane, as `flight.first_impact` does."""
     for i in range(LANES):
         f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
         t, amplitude = lanes[T + i], lanes[A + i]
@@ -120,11 +124,11 @@ def _follow(lanes, g):
 
 @jit
 def _end_flights(lanes, k, g, coefficients):
-    """The next state where a flight has ended, and the flight from there.
+    """Advance lanes whose flight has ended to the next state, and begin their next flight.
 
-    Returns 0 where every lane goes on in the common case and no orbit has ended.
+    Return 0 if every lane goes on in the common case and no orbit has ended.
     """
-    wanting = 0
+    exceptions = 0
     for i in range(LANES):
         x, v, w, tau, t = (lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i], lanes[T + i])
         rise, rate, free = lanes[RISE + i], lanes[RATE + i], lanes[FREE + i]
@@ -150,8 +154,8 @@ def _end_flights(lanes, k, g, coefficients):
         lanes[RISE + i], lanes[RATE + i], lanes[FREE + i], lanes[T + i] = rise, rate, free, t
         lanes[LANDING + i], lanes[EVALUATIONS + i], lanes[LEFT + i] = landing, evaluations, left
         lanes[ODD + i] = odd
-        wanting += int(odd)
-    return wanting
+        exceptions += int(odd)
+    return exceptions
 
 
 @jit
@@ -166,14 +170,14 @@ def _begin_flight(lanes, i, k, g, coefficients):
         t = free
     lanes[T + i], lanes[RISE + i], lanes[RATE + i], lanes[FREE + i] = t, rise, rate, free
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
-    usual = 1.0 / HUGE < size < HUGE  # or the unit of length has to be changed
-    lanes[EVALUATIONS + i] = 0.0 if usual else math.inf
+    usual = 1.0 / HUGE < size < HUGE
+    lanes[EVALUATIONS + i] = 0.0 if usual else math.inf  # `impact.step` changes the unit of length
     lanes[LANDING + i] = 0.0
 
 
 @jit
 def _stride_alone(lanes, i, g):
-    """Do the next step of the march of lane i on its own; whether that moves it."""
+    """Do the next step of the march of lane i, and return whether it moves the lane."""
     t = lanes[T + i]
     f, df, ddf, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[Q + i]
     ahead = t + longest_stride(-f, df, ddf, q, g, lanes[A + i])
@@ -185,7 +189,7 @@ def _stride_alone(lanes, i, g):
 
 @jit
 def _step_alone(lanes, i, k, g, coefficients):
-    """Do the whole flight of lane i on its own, and begin the next."""
+    """Do the whole flight of lane i, and begin the next one."""
     x, v, w, tau, _, _ = step(lanes[X + i], lanes[V + i], lanes[W + i], k, g, coefficients, None)
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, tau
     lanes[LEFT + i] -= 1.0
@@ -194,7 +198,7 @@ def _step_alone(lanes, i, k, g, coefficients):
 
 @jit
 def _begin_orbit(lanes, i, x, v, w, impacts, k, g, coefficients):
-    """Give lane i a new orbit."""
+    """Start a new orbit in lane i."""
     lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i] = x, v, w, math.nan
     lanes[LEFT + i] = impacts
     _begin_flight(lanes, i, k, g, coefficients)
@@ -202,7 +206,7 @@ def _begin_orbit(lanes, i, x, v, w, impacts, k, g, coefficients):
 
 @jit
 def _store(lanes, orbit, impacts, out):
-    """The newest state of every lane; before the first impact it is overwritten later."""
+    """Write the newest state of every lane; before the first impact it is overwritten later."""
     for i in range(orbit.size):
         j, m = orbit[i], max(int(impacts - lanes[LEFT + i]) - 1, 0)
         out[j, m, 0], out[j, m, 1] = lanes[X + i], lanes[V + i]
@@ -211,27 +215,17 @@ def _store(lanes, orbit, impacts, out):
 
 @jit
 def steps(x, v, w, k, g, impacts, tau, out):
-    """Advance states by a number of impacts in place, with the bits of `impact.steps`.
+    """Advance states x, v, w (n,) in place, with the bits of `impact.steps`; n, impacts >= 1.
 
-    Parameters
-    ----------
-    x, v, w : ndarray, shape (n,)
-        States just before an impact, n >= 1; overwritten.
-    k, g : float
-        The ball.
-    impacts : int
-        At least 1.
-    tau : ndarray, shape (n,)
-        The last flights' times are written here.
-    out : ndarray, shape (n, impacts, 4)
-        x, v, w and tau of every impact are written here, unless it is empty.
+    `tau` (n,) receives the times of the last flights, and `out` (n, impacts, 4), unless it is
+    empty, x, v, w and tau of every impact.
     """
     coefficients = impact_coefficients(k)
     lanes = np.zeros(SIZE)
     begun = min(x.size, LANES)
     orbit = np.arange(begun)
     for i in range(LANES):
-        j = min(i, x.size - 1)  # a lane without an orbit repeats the last one, with nothing left
+        j = min(i, x.size - 1)  # a lane without an orbit gets the last state and no impacts
         _begin_orbit(lanes, i, x[j], v[j], w[j], impacts if i < x.size else 0, k, g, coefficients)
     flying = begun
     while flying > 0:
@@ -239,8 +233,8 @@ def steps(x, v, w, k, g, impacts, tau, out):
         _march(lanes, g)
         _land(lanes)
         _follow(lanes, g)
-        wanting = _end_flights(lanes, k, g, coefficients)
-        if wanting > 0:
+        exceptions = _end_flights(lanes, k, g, coefficients)
+        if exceptions > 0:
             for i in range(LANES):
                 if lanes[ODD + i] == 0.0 or lanes[LEFT + i] == 0.0:
                     continue
@@ -248,7 +242,7 @@ def steps(x, v, w, k, g, impacts, tau, out):
                     _step_alone(lanes, i, k, g, coefficients)
         if out.size > 0:
             _store(lanes, orbit, impacts, out)
-        if wanting > 0:
+        if exceptions > 0:
             for i in range(LANES):
                 if lanes[ODD + i] != 0.0 and lanes[LEFT + i] == 0.0:
                     j = orbit[i]

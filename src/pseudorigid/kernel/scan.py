@@ -1,11 +1,9 @@
-"""A reading of the paper's way to the next impact, for comparison.
+"""Scan for the next impact: constant steps until the gap changes sign, then bisection.
 
-Steps of constant length until the gap changes sign, then bisection (the paper, which gives no step:
-"a variant of the bisection method").
-
-A scan can step over an impact. The ball then passes through the floor, and its energy does not
-show it; so every flight is also computed by the certified march, and those that came too late are
-counted.
+This reads the paper's "variant of the bisection method", for which it gives no step, and serves
+only for comparison. A scan can step over an impact; the ball then passes through the floor, and its
+energy does not show it. Every flight is therefore also computed by `flight.first_impact`, and late
+impacts are counted.
 """
 
 import math
@@ -14,41 +12,28 @@ from .arithmetic import sincos
 from .compiled import jit
 from .flight import first_impact
 
-# A scan that needs more steps than this gives up: a flight takes some 3 time units, so that steps
-# of 1e-7 are still within it.
+# Steps after which a scan gives up. A flight takes about 3 time units, or 3e7 steps of 1e-7.
 MOST = 50_000_000
-# An impact later than the certified one by more than the tolerance and this was missed. Where the
-# ball all but touches the floor, the first impact is known to the root of a rounding, 1e-8.
+# Time beyond the tolerance by which a scan's impact is late if an earlier one was missed. Where the
+# ball almost touches the floor, the first impact is only known to the root of a rounding, 1e-8.
 TOUCH = 1e-6
 
 
 @jit
 def gap(t, x, b, c, g):
-    """f(t) of eq. (21) as it stands in the paper."""
+    """Return f(t), eq. (21), with its terms as in the paper."""
     sine, cosine = sincos(t)
     return (x + t * (b + 0.5 * g * t)) + (c * sine - x * cosine)
 
 
 @jit
 def scan(x, b, c, g, step, tolerance):
-    """The time of the next impact by steps and bisection, not certified.
+    """Find the next impact by steps and bisection, without a guarantee that it is the first.
 
-    Parameters
-    ----------
-    x, b, c, g : float
-        Position at the impact before (R), velocities just after it, and gravity.
-    step : float
-        Length of a step in time (1/omega).
-    tolerance : float
-        The bisection ends with a bracket no longer than this, or of neighbouring doubles.
-
-    Returns
-    -------
-    tau : float
-        The bracket's middle (1/omega); NaN where the gap does not change sign within MOST steps,
-        and for input that is not finite.
-    evaluations : int
-        How often the gap was evaluated.
+    x is the position at the previous impact, b and c the velocities just after it. `step` and
+    `tolerance` are in 1/omega; bisection ends with a bracket no longer than the tolerance or of
+    neighbouring doubles. Returns the bracket's middle and the number of evaluations of the gap. The
+    time is NaN for input that is not finite, and if the gap keeps its sign over MOST steps.
     """
     if not abs(x) + abs(b) + abs(c) + g < math.inf:
         return math.nan, 0
@@ -77,26 +62,14 @@ def scan(x, b, c, g, step, tolerance):
 
 @jit
 def scanned_impact(x, b, c, s, g, root_finder):
-    """The flight after an impact by the scan, held against the certified one.
+    """Return the scan's tau, position and udot, and 1 if it missed an earlier impact, else 0.
 
-    Parameters
-    ----------
-    x, b, c, s, g : float
-        As for `flight.first_impact`.
-    root_finder : (float, float)
-        Step and tolerance (1/omega).
-
-    Returns
-    -------
-    tau, p, q : float
-        The scan's time of flight, position and udot at its end.
-    missed : int
-        1 where an earlier impact was flown past.
+    Arguments are those of `flight.first_impact` and (step, tolerance) in 1/omega.
 
     Raises
     ------
     ArithmeticError
-        Where the scan ends without an impact.
+        The scan ends without an impact.
     """
     step, tolerance = root_finder
     tau, count = scan(x, b, c, g, step, tolerance)

@@ -1,34 +1,24 @@
-"""The one way a function is compiled: strict arithmetic, one thread, machine code that is kept.
+"""Compilation with strict arithmetic, one thread, and machine code that is kept.
 
-Numba notices an edit of the file a function stands in, but not of the files it calls into, and
-takes a comment for an edit; so `locator` says where machine code is kept.
+Numba notices an edit of the file in which a function stands, but not of the files that it calls,
+and takes an edited comment for a change. `locator` therefore chooses where machine code is kept.
 """
 
 
 def jit(function):
-    """Compile a function on its first call, with strict arithmetic.
+    """Compile a function on its first call, with strict arithmetic and without the GIL.
 
-    No fastmath, no parallel: every + - * / and sqrt is rounded once, in the order written.
-    error_model="numpy" turns 1/0 into inf, as the processor does, instead of a Python exception.
-
-    Parameters
-    ----------
-    function : callable
-        Of numbers, tuples and arrays, in the part of Python that numba compiles.
-
-    Returns
-    -------
-    callable
-        The same, compiled for each set of argument types, without the interpreter's lock.
+    Without fastmath and parallel, every + - * / and sqrt is rounded once, in the order written.
+    error_model="numpy" makes 1/0 infinite instead of an exception.
     """
-    import numba  # takes long, and `meaning` is part of every start
+    import numba  # slow to import, and every start of the pipeline imports this package
 
     from .locator import Locator
 
-    others = numba.config.CACHE_LOCATOR_CLASSES
+    previous = numba.config.CACHE_LOCATOR_CLASSES
     numba.config.CACHE_LOCATOR_CLASSES = f"{Locator.__module__}.{Locator.__name__}"
-    kept = Locator.keeps(function)
+    keep = Locator.keeps(function)
     try:
-        return numba.njit(cache=kept, error_model="numpy", fastmath=False, nogil=True)(function)
+        return numba.njit(cache=keep, error_model="numpy", fastmath=False, nogil=True)(function)
     finally:
-        numba.config.CACHE_LOCATOR_CLASSES = others
+        numba.config.CACHE_LOCATOR_CLASSES = previous

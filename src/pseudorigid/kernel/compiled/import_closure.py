@@ -1,4 +1,4 @@
-"""Which files stand behind a module, read from import statements without running them."""
+"""Files that a module depends on, read from import statements without running them."""
 
 from functools import cache
 from importlib.util import resolve_name
@@ -10,32 +10,27 @@ PACKAGES = ("pseudorigid", "pipeline")
 
 
 def import_closure(src, *starts, leave_out=()):
-    """The files of packages in a folder that are behind some modules.
+    """Return the sorted files, in a folder of packages, that some modules depend on.
 
-    What they import, what that imports, and so on; imports inside functions count, and so does the
-    `__init__` of every package on the way.
+    The files are those of the modules, of everything that they import directly or indirectly, also
+    inside functions, and of every package on the way.
 
     Parameters
     ----------
     src : pathlib.Path
         The folder.
     *starts : str
-        Dotted names ("pseudorigid.dynamics.orbits"); their own files are part of the answer.
+        Dotted names ("pseudorigid.dynamics.orbits").
     leave_out : iterable of str
-        Names of modules that are left out, with what only they import.
-
-    Returns
-    -------
-    list of pathlib.Path
-        Sorted.
+        Names of modules to omit, together with what only they import.
 
     Raises
     ------
     ValueError
-        A module that is not there, or a name from the package `pseudorigid`, which does not tell
-        where such a name comes from.
+        A module does not exist, or a name is imported from the package `pseudorigid`, which does
+        not show which module defines it.
     """
-    found, seen, pending = set(), set(leave_out), [*starts]
+    files, seen, pending = set(), set(leave_out), [*starts]
     while pending:
         name = pending.pop()
         parent = name.rpartition(".")[0]
@@ -46,15 +41,15 @@ def import_closure(src, *starts, leave_out=()):
         file = _file(src, name)
         if file is None:
             raise ValueError(f"no module {name} in {src}")
-        if file not in found:
-            found.add(file)
-            pending += _read(src, file, name if file.name == "__init__.py" else parent)
+        if file not in files:
+            files.add(file)
+            pending += _imported_modules(src, file, name if file.name == "__init__.py" else parent)
     syntax_hash.keep()
-    return sorted(found)
+    return sorted(files)
 
 
-def _read(src, file, package):
-    """The packages' modules that `file`, a member of `package`, imports anywhere."""
+def _imported_modules(src, file, package):
+    """Return the modules of the packages that `file`, a member of `package`, imports anywhere."""
     modules = []
     for level, module, names in syntax_hash.facts(file.name, file.read_bytes())[1]:
         if not (level or module.split(".")[0] in PACKAGES):
@@ -70,7 +65,7 @@ def _read(src, file, package):
 
 @cache
 def _file(src: Path, name: str) -> Path | None:
-    """The file of a module, None where there is none."""
+    """Return the file of a module, or None if there is none."""
     path = src.joinpath(*name.split("."))
     files = (path / "__init__.py", path.with_suffix(".py"))
     return next((file for file in files if file.is_file()), None)

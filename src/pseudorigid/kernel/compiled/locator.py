@@ -1,7 +1,7 @@
-"""Where numba keeps the machine code of a function, by its setting CACHE_LOCATOR_CLASSES.
+"""Folder in which numba keeps the machine code of a function, set by CACHE_LOCATOR_CLASSES.
 
-The folder is named after what the files mean that the function's module reaches by imports, so that
-a changed constant compiles again and a comment does not.
+Its name is a hash of the meaning of all files that the function's module imports, so that a changed
+constant compiles again and a changed comment does not.
 """
 
 import hashlib
@@ -17,11 +17,11 @@ from .import_closure import import_closure
 from .syntax_hash import facts
 
 SRC = Path(__file__).parents[3]
-_SEEN = set()  # modules and names of functions
+_SEEN = set()  # (module, name) of each function that was compiled
 
 
 class Locator(_CacheLocator):
-    """Of one function of this package."""
+    """Locate the machine code of one function of this package."""
 
     def __init__(self, function, file):
         self._module, self._py_file = function.__module__, file
@@ -32,10 +32,10 @@ class Locator(_CacheLocator):
 
     @staticmethod
     def keeps(function):
-        """Whether the machine code of a function is kept; else every process compiles for itself.
+        """Return whether machine code of a function is kept; if not, each process compiles it.
 
-        It is not where the folder cannot be written, nor where this process loaded one of the files
-        behind the function when that had another text, nor for a second function of one name.
+        It is not kept if the folder cannot be written, if this process loaded a file behind the
+        function with another text, or for a second function with the same name.
         """
         module, name = function.__module__, function.__qualname__
         first = (module, name) not in _SEEN
@@ -53,24 +53,15 @@ class Locator(_CacheLocator):
 
 
 def folder():
-    """The folder of the folders of all functions."""
+    """Return the folder that holds the folders of all modules."""
     return os.environ.get("NUMBA_CACHE_DIR") or str(SRC / "pseudorigid/kernel/__pycache__")
 
 
 @cache
 def subfolder(src, module):
-    """The name of the folder of a module's functions, and the hash of each file's text behind it.
+    """Return the name of the folder for a module's functions, and {file: sha256} behind it.
 
-    Parameters
-    ----------
-    src : pathlib.Path
-        Where the package is.
-    module : str
-        Dotted name.
-
-    Returns
-    -------
-    str, dict of pathlib.Path to str
+    `src` is the folder of the package, `module` a dotted name.
     """
     texts = {file: file.read_bytes() for file in import_closure(src, module)}
     meanings = [facts(file.name, data)[0] for file, data in texts.items()]
@@ -80,7 +71,7 @@ def subfolder(src, module):
 
 @cache
 def _path(module):
-    """The folder of a module's functions, None where nothing is to be kept."""
+    """Return the folder for a module's functions, or None if nothing is to be kept."""
     name, texts = subfolder(SRC, module)
     path = os.path.join(folder(), name)
     try:
@@ -88,5 +79,5 @@ def _path(module):
     except OSError:
         return None
     loaded = [(pseudorigid.LOADED.get(os.path.realpath(f), {d}), {d}) for f, d in texts.items()]
-    edited = any(found != now for found, now in loaded)
+    edited = any(at_import != now for at_import, now in loaded)
     return None if edited or not os.access(path, os.W_OK) else path

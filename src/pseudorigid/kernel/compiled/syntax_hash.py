@@ -1,9 +1,9 @@
-"""What a source file means: a hash that comments, formatting and docstrings do not change.
+"""Hashes of source files that comments, formatting and docstrings do not change.
 
-The hash of a Python file is that of its syntax tree without positions, docstrings and the
-annotations of local variables that have a value. All other annotations count: fields of dataclasses
-and named tuples are annotations. It is the same under Python 3.11 to 3.14. Of a Snakefile the
-tokens count, of any other file the text.
+A Python file is hashed by its syntax tree without positions, docstrings and the annotations of
+local variables that have a value. Other annotations count, because they are the fields of
+dataclasses and named tuples. The hash is the same under Python 3.11 to 3.14. A Snakefile is hashed
+by its tokens, any other file by its bytes.
 """
 
 import ast
@@ -16,49 +16,28 @@ import tokenize
 from contextlib import suppress
 from pathlib import Path
 
-SCHEME = 1  # to be raised when the same text gets another hash
-# What other processes found, by this text of this module.
+SCHEME = 1  # increase it when the hash of an unchanged text changes
+# The file of stored results is named after the text of this module.
 _OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
 _KEPT = Path(__file__).parents[1] / "__pycache__" / f"meanings-{_OWN}.json"
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-# They follow from the place of a node, or are of no consequence.
+# Fields that follow from a node's position or have no effect.
 _LEFT_OUT = ("ctx", "kind", "type_comment", "type_ignores")
 _LAYOUT = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
 
 
 def syntax_hash(path):
-    """Hash of what a file means.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    str or None
-        In hex; None where there is no regular file.
-    """
+    """Return the hash of a file in hex, or None if there is no regular file."""
     path = Path(path)
-    # Reading a FIFO would wait for ever.
+    # Reading a FIFO would block.
     return facts(path.name, path.read_bytes())[0] if path.is_file() else None
 
 
 def facts(name, data):
-    """Hash of what a text means, and what it imports.
+    """Return the hash of a file's text and its imports, [number of dots, module, names] each.
 
-    Parameters
-    ----------
-    name : str
-        Of its file.
-    data : bytes
-        The text.
-
-    Returns
-    -------
-    str, list of [int, str, list of str]
-        The hash, and for each import the number of dots, the module and the names; names are empty
-        for `import module`.
+    `name` is that of the file, `data` its text. The names are empty for `import module`.
     """
     suffix = ".smk" if name == "Snakefile" else Path(name).suffix
     key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
@@ -70,7 +49,7 @@ def facts(name, data):
 
 
 def keep():
-    """Write down for other processes what `facts` found, if that is possible."""
+    """Store the results of `facts` for other processes, if possible."""
     known = _known()
     if known.pop("new", False):
         part = _KEPT.with_name(f".{_KEPT.name}.{os.getpid()}.part")
@@ -83,11 +62,11 @@ def keep():
 
 @functools.cache
 def _known():
-    """What `facts` found of texts, by this process and earlier ones."""
+    """Return the stored results of `facts`."""
     with suppress(OSError, ValueError):
-        if _KEPT.is_file():  # reading a FIFO would wait for ever
+        if _KEPT.is_file():  # reading a FIFO would block
             digest, text = _KEPT.read_text(encoding="utf-8").split("\n", 1)
-            if digest == _hash(text):  # else it is damaged
+            if digest == _hash(text):  # otherwise the file is damaged
                 return json.loads(text)
     return {}
 
@@ -107,7 +86,7 @@ def _facts(suffix, data):
             words += _tokens(data)
         else:
             words.append(data.hex())
-    except (SyntaxError, ValueError, RecursionError):  # what cannot be read has its text alone
+    except (SyntaxError, ValueError, RecursionError):  # hash the bytes of an unreadable file
         words = [f"{SCHEME}", "unreadable", data.hex()]
     return [_hash("\n".join(words)), imports]
 
@@ -122,7 +101,7 @@ def _imports(tree):
 
 
 def _describe(node, words, local):
-    """Append words that tell a node from every other; `local` is whether it is in a function."""
+    """Append words that identify a node; `local` is whether it is inside a function."""
     if isinstance(node, ast.Constant):
         words.append(_constant(node.value))
         return
@@ -162,7 +141,7 @@ def _describe_list(name, values, words, local):
 
 
 def _constant(value):
-    """A word for a constant, the same whatever Python finds printable."""
+    """Return a word for a constant that does not depend on what Python can print."""
     if isinstance(value, str):
         text = value.encode("utf-8", "surrogatepass").hex()
     elif isinstance(value, bytes):
@@ -175,16 +154,16 @@ def _constant(value):
 
 
 def _joined(values):
-    """The parts of an f-string, neighbouring texts as one: Python's versions split them in ways."""
-    found = []
+    """Merge adjacent texts of an f-string, which Python versions split differently."""
+    parts = []
     for value in values:
         if not _is_string(value):
-            found.append(value)
-        elif found and _is_string(found[-1]):
-            found[-1] = ast.Constant(found[-1].value + value.value)
+            parts.append(value)
+        elif parts and _is_string(parts[-1]):
+            parts[-1] = ast.Constant(parts[-1].value + value.value)
         elif value.value:
-            found.append(value)
-    return found
+            parts.append(value)
+    return parts
 
 
 def _is_string(node):
@@ -196,7 +175,7 @@ def _is_text(statement):
 
 
 def _tokens(data):
-    """The tokens of a text that count, f-strings as one token each, as before Python 3.12."""
+    """Yield the tokens that count; each f-string is one token, as before Python 3.12."""
     begins, ends = (getattr(tokenize, f"FSTRING_{name}", None) for name in ("START", "END"))
     text = data.decode("utf-8")
     lines, depth, start = text.splitlines(keepends=True), 0, None
