@@ -1,6 +1,5 @@
-"""The ball: its parameters, energy and section, and the impact map on numbers or arrays."""
+"""Ball: its parameters, energy and section, and the impact map on numbers or arrays."""
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,25 +13,26 @@ from .inputs import coordinates, not_allowed, number, whole_number
 class Ball:
     """A pseudo-rigid ball, dimensionless: lengths in R, times in 1/omega.
 
-    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points down. It is on
-    the section where xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast,
-    and return numbers for scalars and arrays of the broadcast shape otherwise; each element has
-    the bits of the scalar call, and is NaN where the input is not finite. `help(pseudorigid)` says
-    what counts as a number. Balls are equal if k, g and the way of `map` are.
+    A state (x, xdot, udot) is taken just before an impact, where u = -x; x points downwards. States
+    lie on the section xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast.
+    They return floats for scalars, and otherwise arrays of the broadcast shape. Each element has
+    the bits of the scalar call, and is NaN where an argument is not finite. `help(pseudorigid)`
+    says what counts as a number. Two balls are equal if they have equal k and g and their maps find
+    impacts in the same way.
 
     Parameters
     ----------
     k : float
-        Euler inertia, eq. (5), 0 < k <= 1 (a solid sphere has 1/5, a thin shell 1/3).
+        Euler inertia, eq. (5), 0 < k <= 1 (1/5 for a solid sphere, 1/3 for a thin shell).
     g : float
         Gravity, eq. (20), g > 0.
     map : ImpactMap, optional
-        How the next impact is found: by default the certified march.
+        How the next impact is found; by default the march that never misses one.
 
     Raises
     ------
     ValueError
-        k or g outside its range; from methods, a state with xdot + udot < 0.
+        k or g is out of range. Methods raise it for a state with xdot + udot < 0.
 
     Notes
     -----
@@ -56,88 +56,61 @@ class Ball:
     map: ImpactMap = field(default_factory=ImpactMap)
 
     def __post_init__(self):
-        for name, most, allowed in (("k", 1.0, "0 < k <= 1"), ("g", math.inf, "g > 0, finite")):
-            value = number(name, getattr(self, name), allowed, lambda v, most=most: 0.0 < v <= most)
-            object.__setattr__(self, name, value)
+        k = number("k", self.k, "0 < k <= 1", lambda v: 0.0 < v <= 1.0)
+        g = number("g", self.g, "g > 0, finite", lambda v: v > 0.0)
+        object.__setattr__(self, "k", k)
+        object.__setattr__(self, "g", g)
         if not isinstance(self.map, ImpactMap):
             raise not_allowed("map", self.map, "an ImpactMap")
 
     @np.errstate(over="ignore", invalid="ignore")
     def energy(self, x, xdot, udot):
-        """Total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2.
-
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-
-        Returns
-        -------
-        float or array
-            In m omega^2 R^2.
-        """
+        """Return the total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
-    def energy_bounds(self):
-        """The lowest energy there is, and the paper's highest.
+    def energy_bounds(self) -> tuple[float, float]:
+        """Return the lowest energy and the paper's upper bound.
 
-        Returns
-        -------
-        lowest, highest : float
-            -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1.
+        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which implies u > -1.
         """
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     @np.errstate(over="ignore")
     def section(self, energy):
-        """The section along y = 0: x from centre - radius to centre + radius.
+        """Return the section's centre and radius along y = 0.
 
-        The energy surface's half is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
-
-        Parameters
-        ----------
-        energy : float or array
-            In m omega^2 R^2.
-
-        Returns
-        -------
-        centre : float
-            In R.
-        radius : float or array
-            In R.
+        There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
+        the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
 
         Raises
         ------
         ValueError
-            An energy below the lowest.
+            The energy is below the lowest one.
         """
         (energy,) = coordinates(energy=energy)
         square = (2.0 * energy + self.g * self.g / self.k) / self.k
-        off = (square < 0.0) | np.isinf(square)
-        if np.any(off):
+        invalid = (square < 0.0) | np.isinf(square)
+        if np.any(invalid):
             lowest = self.energy_bounds()[0]
-            raise not_allowed("energy", float(energy[off][0]), f"finite, at least {lowest:.6g}")
+            raise not_allowed("energy", float(energy[invalid][0]), f"finite, at least {lowest:.6g}")
         return self.g / self.k, _plain(np.sqrt(square))
 
     @np.errstate(over="ignore", invalid="ignore")
     def state(self, x, xdot, energy, branch=1):
-        """The state with this energy, eq. (29).
+        """Return (x, xdot, udot) with this energy, eq. (29).
 
         Parameters
         ----------
         x, xdot, energy : float or array
         branch : {1, -1}
-            Of two states, that with the larger udot, or the other.
-
-        Returns
-        -------
-        x, xdot, udot : float or array
+            Two states may have this x, xdot and energy; 1 selects the one with the larger udot.
 
         Raises
         ------
         ValueError
-            The energy surface has no such point with xdot + udot >= 0, or another branch.
+            The energy surface has no such point with xdot + udot >= 0, or `branch` is not 1 or -1.
         """
         branch = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
         x, xdot, energy = coordinates(x=x, xdot=xdot, energy=energy)
@@ -151,21 +124,14 @@ class Ball:
 
     @np.errstate(over="ignore", invalid="ignore")
     def state_xy(self, x, y, energy):
-        """The state at a point of the canonical chart, in which the map keeps areas.
+        """Return (x, xdot, udot) at a point of the chart (x, y = xdot - k udot).
 
-        Parameters
-        ----------
-        x, y, energy : float or array
-            y = xdot - k udot.
-
-        Returns
-        -------
-        x, xdot, udot : float or array
+        The map keeps areas in this chart.
 
         Raises
         ------
         ValueError
-            A point outside the section's disk.
+            The point is outside the section's disk.
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
         k = self.k
@@ -177,111 +143,77 @@ class Ball:
         return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
 
     def start(self, fraction, energy):
-        """The state on y = 0 at a fraction of the section's radius.
-
-        Parameters
-        ----------
-        fraction : float or array
-            From -1 to 1.
-        energy : float or array
-            In m omega^2 R^2.
-
-        Returns
-        -------
-        x, xdot, udot : float or array
+        """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
 
         Raises
         ------
         ValueError
-            A fraction beyond the rim, or an energy below the lowest.
+            The fraction is beyond the rim, or the energy is below the lowest one.
         """
         f, energy = coordinates(fraction=fraction, energy=energy)
         centre, radius = self.section(energy)
         if not np.all((np.abs(f) <= 1.0) | np.isnan(f)):
             raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
-        # in the chart s^2 = (1 + k) (radius^2 - (x - centre)^2); so nothing cancels at the rim
+        # s^2 = (1 + k) (radius^2 - (x - centre)^2) in the chart; this form does not cancel at the
+        # rim.
         udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
         return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
     def reflect(self, x, xdot, udot):
-        """The reversor R, (x, y) -> (x, -y): velocities after the impact, eq. (25), reversed.
+        """Apply the reversor R, (x, y) -> (x, -y).
 
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-
-        Returns
-        -------
-        x, xdot, udot : float or array
-            R undoes itself, and R F R is the inverse of the impact map F.
+        It reverses the velocities after the impact, eq. (25). R is its own inverse, and R F R is
+        the inverse of the impact map F.
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
         b, c, _ = rebound(xdot, udot, self.k, impact_coefficients(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
     def time_to_impact(self, x, xdot, udot):
-        """Time to the next impact: the smallest positive root of eq. (21) with (26).
+        """Return the time to the next impact: the smallest positive root of eq. (21) with (26).
 
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-
-        Returns
-        -------
-        float or array
-            In 1/omega; 0 where the ball does not leave the floor (at rest on it, or on the rim
-            xdot + udot = 0 and pressed down).
+        It is 0 where the ball does not leave the floor: at rest on it, or pressed down on the rim
+        xdot + udot = 0.
         """
         return self.impact(x, xdot, udot)[3]
 
     def impact(self, x, xdot, udot):
-        """The impact map, eq. (28).
-
-        At a double root, where the ball just touches the floor, tau is only defined to the square
-        root of a rounding.
-
-        Parameters
-        ----------
-        x, xdot, udot : float or array
+        """Apply the impact map, eq. (28).
 
         Returns
         -------
         x, xdot, udot, tau : float or array
-            The state just before the next impact, and the flight time (1/omega), eq. (27).
+            The state just before the next impact, and the time of flight, eq. (27). Where the ball
+            only touches the floor, tau is defined to the square root of a rounding.
         """
-        return self._once(self.map.steps, x, xdot, udot)
+        return self._map_once(self.map.steps, x, xdot, udot)
 
     def inverse_impact(self, x, xdot, udot):
-        """The impact map's inverse, F^-1 = R F R.
-
-        Parameters
-        ----------
-        x, xdot, udot : float or array
+        """Apply the inverse of the impact map, F^-1 = R F R.
 
         Returns
         -------
         x, xdot, udot, tau : float or array
-            The state just before the previous impact, and the flight time since (1/omega).
+            The state just before the previous impact, and the time of flight since then.
         """
-        return self._once(self.map.steps_back, x, xdot, udot)
+        return self._map_once(self.map.steps_back, x, xdot, udot)
 
-    def jacobian(self, x, xdot, udot, impacts=1):
-        """The analytic Jacobian of the map with respect to (x, xdot, udot), eq. (33).
-
-        Not finite where the next impact is grazing, xdot + udot = 0 there: the map is not
-        differentiable.
+    def jacobian(self, x, xdot, udot, impacts=1) -> np.ndarray:
+        """Return the Jacobian of the map with respect to (x, xdot, udot), eq. (33).
 
         Parameters
         ----------
         x, xdot, udot : float or array
         impacts : int
-            Of the map's iterate, by the chain rule.
+            Number of times that the map is iterated.
 
         Returns
         -------
         ndarray, shape (..., 3, 3)
-            Row i, column j: the derivative of the i-th new variable by the j-th old one.
+            Row i, column j: the derivative of the i-th new variable by the j-th old one. It is not
+            finite where the next impact grazes, xdot + udot = 0, because the map has no derivative
+            there.
         """
         impacts = whole_number("impacts", impacts)
         columns, shape = self.columns(x, xdot, udot)
@@ -290,29 +222,18 @@ class Ball:
         return out.reshape(*shape, 3, 3)
 
     @np.errstate(all="ignore")
-    def chart_jacobian(self, x, xdot, udot, impacts=1):
-        """The Jacobian in the chart (x, y = xdot - k udot) at fixed energy.
+    def chart_jacobian(self, x, xdot, udot, impacts=1) -> tuple:
+        """Return the Jacobian in the chart (x, y = xdot - k udot) at one state and a fixed energy.
 
-        Not finite on the rim.
-
-        Parameters
-        ----------
-        x, xdot, udot : float
-            One state.
-        impacts : int
-            Of the map's iterate.
-
-        Returns
-        -------
-        tuple
-            Two rows of two numbers; the determinant is 1, eq. (42).
+        The map is iterated `impacts` times. The result is two rows of two floats with determinant
+        1, eq. (42); they are not finite on the rim.
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
         if x.shape:
             raise ValueError(f"one state is needed, not an array of shape {x.shape}")
         k, g = self.k, self.g
         s, y = float(xdot + udot), float(xdot - k * udot)
-        # the derivatives of s by x and y, and with them those of the state, a column each
+        # Derivatives of s by x and y, and the columns of derivatives of the state by x and y.
         unit = np.array([0.0, 1.0])
         slope = np.array([(1.0 + k) * (g - k * x), -y]) / (k * s)
         along = np.stack((1.0 - unit, (k * slope + unit) / (1.0 + k), (slope - unit) / (1.0 + k)))
@@ -321,44 +242,18 @@ class Ball:
         return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
     def on_section(self, x, xdot, udot):
-        """The state as arrays of one shape.
-
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-
-        Returns
-        -------
-        x, xdot, udot : ndarray
-
-        Raises
-        ------
-        ValueError
-            Where xdot + udot < 0, eq. (22).
-        """
+        """Read a state as arrays of one shape; raise ValueError if xdot + udot < 0, eq. (22)."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
-        if np.any(xdot < -udot):  # a sum could overflow
+        if np.any(xdot < -udot):  # the sum could overflow
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
     def columns(self, x, xdot, udot):
-        """States for a loop that advances them in place.
-
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-
-        Returns
-        -------
-        columns : list of ndarray, shape (n,)
-            Copies of the three.
-        shape : tuple
-            What they were before.
-        """
+        """Return copies of x, xdot and udot as arrays (n,), and the shape that they had before."""
         state = self.on_section(x, xdot, udot)
         return [a.flatten() for a in state], state[0].shape
 
-    def _once(self, loop, x, xdot, udot):
+    def _map_once(self, loop, x, xdot, udot):
         columns, shape = self.columns(x, xdot, udot)
         tau = np.empty(columns[0].size)
         loop(*columns, self.k, self.g, 1, tau)
@@ -366,5 +261,5 @@ class Ball:
 
 
 def _plain(array):
-    """A 0-dimensional result as a Python float."""
+    """Return a 0-dimensional result as a float."""
     return float(array) if np.ndim(array) == 0 else array

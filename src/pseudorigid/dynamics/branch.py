@@ -1,19 +1,20 @@
-"""One branch of the manifolds of a hyperbolic orbit's point, as a function of one parameter.
+"""One branch of the manifolds at a point of a hyperbolic orbit, as a function of one parameter.
 
 An unstable branch of a point z of period n starts as the segment z + sigma e, sigma_0 <= sigma <=
-lambda sigma_0, along the unstable direction e, and its images under P^n continue it: a branch has
-one parameter u, whose whole part counts the images and whose rest walks along the segment. The
-reversor makes the stable branches: they are unstable ones of the mirrored point, mirrored.
+lambda sigma_0, along the unstable direction e, and its images under P^n continue it. The whole part
+of the parameter u counts the images, and the fractional part runs along the segment. By the
+reversor, a stable branch is the mirror image of the unstable branch of the mirrored point.
 
-Where the multiplier is below WEAK, many images lie between the segment and the end of a branch.
-Roundings halfway to the next saddle grow after it like what tells the branch from that saddle's
-own, and points that come from the segment on their own go to and fro along the line. There each
-image is mapped from the one before: a vertex from the one at u - 1, which changes no bit; a point
-between vertices from the cubic through the four vertices around u - 1, unless a jump of the map
-parts them. How far roundings have come shows where two images join: two orbits lead there. The
-branch ends where these are apart by more than KNOWN times the image's extent. Of the paper's ball
-at E = 0.001 and 0.0012 (multipliers 1.34 and 1.46), over 0.5 section radii at the default distance
-and bend, vertices lie within 2e-6 section radii of a line drawn ten times as finely.
+If the multiplier is below WEAK, many images lie between the segment and the end of a branch.
+Rounding errors made halfway to the next saddle then grow, beyond that saddle, as fast as the
+distance from its own branch, and points mapped from the segment scatter along the line. Each image
+is therefore mapped from the previous one. A vertex is the image of the vertex at u - 1, with the
+bits that it would have from the segment. A point between vertices is the image of a point on the
+cubic through the four vertices around u - 1, unless a jump of the map separates them. Two orbits
+lead to the point where two images join. Their distance measures the rounding errors, and the branch
+ends where it exceeds LARGEST_SPLIT times the image's extent. For the paper's ball at E = 0.001 and
+0.0012 (multipliers 1.34 and 1.46), over 0.5 section radii at the default distance and bend,
+vertices lie within 2e-6 section radii of a line drawn ten times as finely.
 """
 
 import numpy as np
@@ -21,23 +22,23 @@ import numpy as np
 from ..kernel.arithmetic import log
 from .variables import chart
 
-# End of the first segment in section radii: it misses the branch by about its square.
-START = 1e-6
-FRESH = 16  # points of an image to begin with; where they are too few, more are inserted
-MOST_IMAGES = 400  # of a multiplier of at least WEAK; else so many that they grow as much
-WEAK = 1.5  # takes 35 images from START to the section's size; smaller multipliers take more
-KNOWN = 0.1  # more would be seen
+# Length of the first segment, in section radii; it misses the branch by about the square.
+SEGMENT = 1e-6
+POINTS_OF_IMAGE = 16  # initial number; tracing inserts more
+MOST_IMAGES = 400  # for a multiplier of WEAK; smaller ones may have more, for the same growth
+WEAK = 1.5  # multiplier at which a branch takes 35 images from SEGMENT to the section's size
+LARGEST_SPLIT = 0.1  # a larger one would be visible
 
 
 class Branch:
-    """An unstable branch as a function of u >= 0, mirrored where a stable one is wanted.
+    """Unstable branch as a function of u >= 0, or its mirror image, a stable branch.
 
-    Its side is the sign of the direction's product with that from the orbit's middle. At one point
-    of Figure 5's orbit, x = -0.08267, y = -0.04873, these are at 89.99 degrees: the product is
-    0.084485 - 0.084441 = 4.4e-5, and its sign is not that of the outer branches carried
-    there by the map, which takes the other five to one another. So inner and outer, and with them
-    the two lengths, are swapped there and at the mirrored point's stable branches. A rule that
-    carried one clear side along the orbit would not do that, but would change the figure's data.
+    The side is the sign of the direction's product with that from the orbit's middle. At one point
+    of Figure 5's orbit, x = -0.08267, y = -0.04873, the angle between them is 89.99 degrees: the
+    product is 0.084485 - 0.084441 = 4.4e-5, and its sign is not that of the outer branches that the
+    map carries there from the other five points. Inner and outer, and with them the two lengths,
+    are therefore swapped there and at the mirrored point's stable branches. A rule that carried one
+    clear side along the orbit would avoid that, but would change the figure's data.
 
     Parameters
     ----------
@@ -45,41 +46,42 @@ class Branch:
     energy : float
         In m omega^2 R^2.
     points : ndarray, shape (3, n)
-        The states of the orbit.
+        States of the orbit.
     saddle : int
-        The index of the point.
+        Index of the point.
     side : {"outer", "inner"}
     stable : bool
 
     Attributes
     ----------
     radius, multiplier : float
-        The section's radius, and by how much an image is longer than the one before.
+        The section's radius, and the ratio of the lengths of successive images.
     weak : bool
+        Whether images are mapped from one another.
     images : int
-        At most so many.
+        Largest number of images.
     ended : float or None
-        The length, in section radii, where the branch is no longer known to rounding.
+        Length, in section radii, where rounding errors end the branch.
 
     Raises
     ------
     ValueError
-        An elliptic orbit, or for a stable branch one that is not symmetric.
+        The orbit is elliptic, or it is not symmetric and the branch is stable.
     """
 
     def __init__(self, ball, energy, points, saddle, side, stable):
         self.ball, self.energy, self.mirrored = ball, energy, stable
         self.radius = ball.section(energy)[1]
-        places = chart(ball.k, *points)
-        if stable:  # the branch of the mirrored point, mirrored
-            mirrored = places[:, saddle] * np.array([1.0, -1.0])
-            gaps = np.max(np.abs(places - mirrored[:, None]), axis=0)
+        xy = chart(ball.k, *points)
+        if stable:
+            mirrored = xy[:, saddle] * np.array([1.0, -1.0])
+            gaps = np.max(np.abs(xy - mirrored[:, None]), axis=0)
             saddle = int(np.argmin(gaps))
             if gaps[saddle] > 1e-9 * self.radius:
                 raise ValueError(
                     "the orbit is not symmetric: its stable manifold is no mirror image"
                 )
-        self.point, self.origin = points[:, saddle], places[:, saddle]
+        self.point, self.origin = points[:, saddle], xy[:, saddle]
         self.period = points.shape[1]
         (a, b), (c, d) = ball.chart_jacobian(*self.point, impacts=self.period)
         trace = a + d
@@ -87,15 +89,15 @@ class Branch:
             raise ValueError("the orbit is elliptic: it has no stable and unstable manifolds")
         root = np.sqrt((abs(trace) - 2.0) * (abs(trace) + 2.0))
         multiplier = np.copysign(0.5 * (abs(trace) + root), trace)
-        # the larger of the two rows of J - lambda gives the direction
+        # The larger row of J - lambda gives the direction.
         e = np.array([b, multiplier - a]) if abs(b) > abs(c) else np.array([multiplier - d, c])
-        # outer: away from the middle of the orbit, in the disk's own proportions
+        # Outer is away from the middle of the orbit, in coordinates in which the section is round.
         scale = np.array([1.0, 1.0 / np.sqrt(ball.k * (1.0 + ball.k))])
-        outward = (self.origin - places.mean(axis=1)) * scale * (e * scale)
+        outward = (self.origin - xy.mean(axis=1)) * scale * (e * scale)
         e = e / np.sqrt(np.sum((e * scale) ** 2))
         sign = 1.0 if (np.sum(outward) > 0.0) == (side == "outer") else -1.0
         self.multiplier = float(multiplier)
-        if self.multiplier < 0.0:  # the two sides change places: every second image
+        if self.multiplier < 0.0:  # images alternate between the sides, so take every second one
             self.period *= 2
             self.multiplier *= self.multiplier
         self.weak = self.multiplier < WEAK
@@ -103,53 +105,53 @@ class Branch:
         if self.weak:
             self.images = int(MOST_IMAGES * log(WEAK) / log(self.multiplier))
         self.ended = None
-        self.first = START * self.radius / self.multiplier * sign * e
+        self.first = SEGMENT * self.radius / self.multiplier * sign * e
 
-    def next(self, fresh, u, states):
-        """States (3, n) at the parameters `fresh` (n,), where `states` at `u` are known."""
-        if not self.weak or u.size < 2 * FRESH:
-            return self(fresh)
-        found, good = self._forward(fresh - 1.0, u, states)
-        if not good.all():
-            found[:, ~good] = self(fresh[~good])
-        return found
+    def next(self, new_u, u, states):
+        """Return states (3, m) at new parameters (m,), from the known `states` at u."""
+        if not self.weak or u.size < 2 * POINTS_OF_IMAGE:
+            return self(new_u)
+        new_states, accurate = self._forward(new_u - 1.0, u, states)
+        if not accurate.all():
+            new_states[:, ~accurate] = self(new_u[~accurate])
+        return new_states
 
     def _forward(self, before, u, states):
-        """The images of the states at the parameters `before`, and which of them can be trusted."""
+        """Return images of the states at parameters `before`, and which of them are accurate."""
         ball = self.ball
         at = np.minimum(np.searchsorted(u, before), u.size - 1)
-        there = u[at] == before
+        is_vertex = u[at] == before
         four = np.clip(at - 2, 0, u.size - 4) + np.arange(4)[:, None]
-        known = self._mirror(states[:, four])
-        columns = known[:, at - four[0], np.arange(at.size)]
-        places = chart(ball.k, *known)
+        nearby = self._mirror(states[:, four])
+        columns = nearby[:, at - four[0], np.arange(at.size)]
+        xy = chart(ball.k, *nearby)
         first, second = (
-            _interpolated(u[four[part]], places[:, part], before)
+            _interpolated(u[four[part]], xy[:, part], before)
             for part in (slice(0, 3), slice(1, 4))
         )
-        good = np.ones(at.size, bool)
+        accurate = np.ones(at.size, bool)
         if self.energy > ball.g * ball.g * (1.0 + 0.5 * ball.k):  # the map may jump
-            extent = np.max(np.ptp(places, axis=1), axis=0)
-            good = np.all(np.abs(first - second) <= 0.5 * extent, axis=0)
+            extent = np.max(np.ptp(xy, axis=1), axis=0)
+            accurate = np.all(np.abs(first - second) <= 0.5 * extent, axis=0)
         share = (before - u[four[0]]) / (u[four[3]] - u[four[0]])
         x, y = first + share * (second - first)
-        between = good & ~there
+        between = accurate & ~is_vertex
         columns[:, between] = ball.state_xy(x[between], y[between], self.energy)
-        return self._mirror(self._image(columns, 1)), good | there
+        return self._mirror(self._image(columns, 1)), accurate | is_vertex
 
     def __call__(self, u):
-        """States (3, n) at the parameters u (n,), each from the first segment."""
+        """Return states (3, n) at the parameters u (n,), each mapped from the first segment."""
         image = np.floor(u)
         sigma = 1.0 + (self.multiplier - 1.0) * (u - image)
         start = self.origin[:, None] + sigma * self.first[:, None]
         states = np.stack(self.ball.state_xy(*start, self.energy))
         for m in np.unique(image):
-            there = image == m
-            states[:, there] = self._image(states[:, there], int(m))
+            selected = image == m
+            states[:, selected] = self._image(states[:, selected], int(m))
         return self._mirror(states)
 
     def _image(self, states, images):
-        """The states so many images later."""
+        """Return the states after a number of images."""
         ball, columns = self.ball, [np.array(a) for a in states]
         ball.map.steps(*columns, ball.k, ball.g, images * self.period, np.empty(columns[0].size))
         return np.stack(columns)
@@ -157,29 +159,29 @@ class Branch:
     def _mirror(self, states):
         return np.stack(self.ball.reflect(*states)) if self.mirrored else states
 
-    def known(self, image, u, states):
-        """Whether two orbits to where images `image - 1` and `image` join agree that far."""
+    def is_accurate(self, image, u, states):
+        """Return whether the orbits to where images `image - 1` and `image` join agree so far."""
         if image < 2:
             return True
         extent = np.max(np.ptp(states[:, u >= image - 1], axis=1))
-        return self._gap(image) <= KNOWN * extent
+        return self._gap(image) <= LARGEST_SPLIT * extent
 
     def _gap(self, image):
-        """How far two orbits to where images `image - 1` and `image` join are apart."""
+        """Return the distance of the two orbits to where images `image - 1` and `image` join."""
         ends = self(np.array([np.nextafter(float(image), 0.0), float(image)]))
         return np.max(np.abs(ends[:, 1] - ends[:, 0]))
 
     def base(self):
-        """The point itself, (3, 1)."""
+        """Return the orbit's point as an array (3, 1)."""
         return self._mirror(self.point[:, None])
 
     def start_error(self):
-        """By how much the image of the segment's start misses its end, in section radii."""
+        """Return the distance, in section radii, of the segment's end from its start's image."""
         return float(self._gap(1) / self.radius)
 
 
 def _interpolated(nodes, values, at):
-    """The parabolas through values (2, 3, n) at nodes (3, n), at `at` (n,)."""
+    """Return the parabolas through values (2, 3, n) at nodes (3, n), at `at` (n,)."""
     a, b, c = nodes
     slope = (values[:, 1] - values[:, 0]) / (b - a)
     bend = ((values[:, 2] - values[:, 1]) / (c - b) - slope) / (c - a)

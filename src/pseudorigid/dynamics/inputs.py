@@ -1,4 +1,4 @@
-"""How the arguments of public functions are read; `help(pseudorigid)` states the rule."""
+"""Conversion of the arguments of public functions; `help(pseudorigid)` states the rule."""
 
 import math
 import reprlib
@@ -8,28 +8,19 @@ from numbers import Real
 import numpy as np
 
 _STATE = ("x", "xdot", "udot")
-_MOST = 2**53  # from here on a double does not hold every whole number
+_END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 
 
-def doubles(name, value):
-    """Read a real number, or an array of them, as doubles.
+def doubles(name: str, value) -> np.ndarray:
+    """Convert a real number, or an array of them, to an array of doubles.
 
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : number or array
-        Masked elements become NaN.
-
-    Returns
-    -------
-    ndarray of float
+    Masked elements become NaN. Errors name the argument `name`.
 
     Raises
     ------
     ValueError
-        What is no real number (text, None, a bool, a complex number, ...), or beyond the range of
-        doubles.
+        The value is no real number (text, None, a bool, a complex number, ...), or it is beyond the
+        range of doubles.
     """
     if type(value) is float:
         return np.asarray(value)
@@ -42,23 +33,11 @@ def doubles(name, value):
     raise not_allowed(name, value, allowed)
 
 
-def coordinates(**values):
-    """Read numbers and arrays that broadcast.
+def coordinates(**values) -> list[np.ndarray]:
+    """Convert named numbers and arrays that broadcast to arrays of one shape.
 
-    Parameters
-    ----------
-    **values : number or array
-        Under their names.
-
-    Returns
-    -------
-    list of ndarray
-        Of one shape. Where one of them is not finite, all are NaN.
-
-    Raises
-    ------
-    ValueError
-        As from `doubles`, and for shapes that do not broadcast.
+    Where one of them is not finite, all are NaN. Raises ValueError as `doubles` does, and for
+    shapes that do not broadcast.
     """
     arrays = [doubles(name, value) for name, value in values.items()]
     try:
@@ -70,96 +49,33 @@ def coordinates(**values):
     return arrays if finite.all() else [np.where(finite, array, np.nan) for array in arrays]
 
 
-def number(name, value, allowed="one finite number", holds=math.isfinite):
-    """Read one finite number.
-
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : number
-    allowed : str
-        What the message says of it.
-    holds : callable
-        Whether a finite number is allowed.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        For anything else.
-    """
+def number(name: str, value, allowed="one finite number", holds=math.isfinite) -> float:
+    """Convert one finite number for which `holds` is true; `allowed` is the text of the error."""
     try:
-        found = doubles(name, value)
+        array = doubles(name, value)
     except ValueError:
         raise not_allowed(name, value, allowed) from None
-    if found.shape == () and math.isfinite(found) and holds(float(found)):
-        return float(found)
+    if array.shape == () and math.isfinite(array) and holds(float(array)):
+        return float(array)
     raise not_allowed(name, value, allowed)
 
 
-def whole_number(name, value, least=1):
-    """Read one whole number.
-
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : number
-    least : int
-
-    Returns
-    -------
-    int
-        From `least` to 2^53 - 1.
-
-    Raises
-    ------
-    ValueError
-        For anything else.
-    """
+def whole_number(name: str, value, least=1) -> int:
+    """Convert one whole number from `least` to 2^53 - 1."""
     allowed = f"a whole number, at least {least} and below 2^53"
-    return int(number(name, value, allowed, lambda v: least <= v < _MOST and v == int(v)))
+    return int(number(name, value, allowed, lambda v: least <= v < _END_OF_COUNTS and v == int(v)))
 
 
-def one_of(name, value, words):
-    """Refuse what is none of some words.
-
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : str
-    words : sequence of str
-
-    Raises
-    ------
-    ValueError
-        For anything else.
-    """
+def one_of(name: str, value, words) -> None:
+    """Raise ValueError unless the value is one of some words."""
     if not (isinstance(value, str) and value in words):
         raise not_allowed(name, value, " or ".join(map(repr, words)))
 
 
-def state_of(state):
-    """Read where an orbit starts.
+def state_of(state) -> tuple:
+    """Return x, xdot and udot of a state (x, xdot, udot) or of a Dataset.
 
-    Parameters
-    ----------
-    state : (x, xdot, udot) or xarray.Dataset
-        Of a Dataset the last state along `impact` or `point`, of each orbit that it has.
-
-    Returns
-    -------
-    x, xdot, udot : number or array
-
-    Raises
-    ------
-    ValueError
-        What is neither.
+    A Dataset stands for its last state along `impact` or `point`, of each orbit in it.
     """
     if hasattr(state, "data_vars"):
         return _last_state(state)
@@ -171,69 +87,59 @@ def state_of(state):
     return x, xdot, udot
 
 
-def not_allowed(name, value, allowed):
-    """The ValueError of one line for an argument.
-
-    Parameters
-    ----------
-    name : str
-    value : object
-    allowed : str
-
-    Returns
-    -------
-    ValueError
-    """
+def not_allowed(name: str, value, allowed: str) -> ValueError:
+    """Return the ValueError, of one line, for an argument."""
     try:
         text = " ".join(reprlib.repr(value).split())
-    except ValueError:  # an integer of more digits than Python prints
+    except ValueError:  # an integer with more digits than Python prints
         text = f"<{type(value).__name__}>"
     return ValueError(f"{name} = {text} is not allowed: {allowed}")
 
 
 def _converted(value):
-    """Convert to an array of doubles; TypeError or OverflowError where that loses the meaning."""
+    """Convert to an array of doubles; raise TypeError or OverflowError if that is impossible."""
     if hasattr(value, "__array__") and not np.ma.isMaskedArray(value):
         value = np.asarray(value)
     elif isinstance(value, (list, tuple)) and not any(map(np.ma.isMaskedArray, value)):
         value = np.array(value, dtype=object)
     elif not np.ma.isMaskedArray(value):
         value = np.ma.array(value, dtype=object)
-    given = np.ma.getdata(value)
-    if given.dtype.kind == "O":
-        found = np.array([_double(one) for one in given.flat], dtype=float).reshape(given.shape)
-    elif given.dtype.kind in "iuf":
+    data = np.ma.getdata(value)
+    if data.dtype.kind == "O":
+        array = np.array([_double(a) for a in data.flat], dtype=float).reshape(data.shape)
+    elif data.dtype.kind in "iuf":
         with np.errstate(over="ignore"):
-            found = given.astype(float, copy=False)
-        if np.any(np.isinf(found) & np.isfinite(given)):
+            array = data.astype(float, copy=False)
+        if np.any(np.isinf(array) & np.isfinite(data)):
             raise OverflowError
     else:
         raise TypeError
     mask = np.ma.getmaskarray(value)
-    return np.where(mask, np.nan, found) if mask.any() else found
+    return np.where(mask, np.nan, array) if mask.any() else array
 
 
-def _double(one):
+def _double(element):
     """Convert one element of an array of objects."""
-    if np.ma.is_masked(one):
+    if np.ma.is_masked(element):
         return math.nan
-    if getattr(one, "shape", None) == ():
-        return float(_converted(one))
-    if isinstance(one, bool) or not isinstance(one, (Real, Decimal)):
+    if getattr(element, "shape", None) == ():
+        return float(_converted(element))
+    if isinstance(element, bool) or not isinstance(element, (Real, Decimal)):
         raise TypeError
-    found = float(one)
-    if abs(found) == math.inf and one != found:
+    value = float(element)
+    if abs(value) == math.inf and element != value:
         raise OverflowError
-    return found
+    return value
 
 
 def _last_state(data):
+    """Return x, xdot and udot of the last state of each orbit in a Dataset."""
     if missing := [name for name in _STATE if name not in data]:
         raise ValueError(f"state: a Dataset without {', '.join(missing)}")
     if "row_size" in data and data["row_size"].attrs.get("sample_dimension") == "point":
         counts = np.atleast_1d(data["row_size"].values)
-        whole = data["x"].dims == ("point",) and counts.sum() == data.sizes["point"]
-        if not whole or np.any(counts < 1):
+        complete = data["x"].dims == ("point",) and counts.sum() == data.sizes["point"]
+        if not complete or np.any(counts < 1):
             raise ValueError(
                 "state: row_size does not count the points of the Dataset: "
                 "select one orbit's points, and drop row_size"
@@ -243,7 +149,7 @@ def _last_state(data):
         data = data[list(_STATE)]
         for dim in {"impact", "point"} & set(data.dims):
             if data.sizes[dim] == 0:
-                raise ValueError(f"state: a Dataset of no {dim}")
+                raise ValueError(f"state: a Dataset without any {dim}")
             data = data.isel({dim: -1})
     dims = data["x"].dims
     if any(data[name].dims != dims for name in _STATE):

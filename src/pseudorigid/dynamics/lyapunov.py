@@ -1,8 +1,9 @@
-"""The three Lyapunov exponents of an orbit, eq. (32) with the factor 1/i it lacks.
+"""Lyapunov exponents of orbits, eq. (32) with the factor 1/i that it lacks.
 
-Benettin's method: an orthonormal frame is carried along by the analytic Jacobian, eq. (33), in the
-same loop as the orbit, and made orthonormal again at each impact (Benettin et al. 1980, reference
-[18] of the paper).
+Benettin's method: the analytic Jacobian, eq. (33), carries an orthonormal frame of three vectors
+along the orbit, and the frame is made orthonormal again at each impact (Benettin et al. 1980,
+reference [18] of the paper). Kernels write the exponents of n orbits after each of the impacts
+`at` (m,) to `out` (n, m, 3), and return how many impacts were missed, as in `kernel.impact`.
 """
 
 import math
@@ -15,14 +16,15 @@ from ..kernel.compiled import jit
 from ..kernel.impact import impact_coefficients, step_with_flight, tangent
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
+from .ball import Ball
 from .ensemble import shared
 from .inputs import not_allowed, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims
 
 
-def lyapunov_spectrum(ball, state, impacts, records=400):
-    """Lyapunov exponents an impact, and how they converge.
+def lyapunov_spectrum(ball: Ball, state, impacts: int, records: int = 400) -> xr.Dataset:
+    """Compute the Lyapunov exponents, in nats an impact, and their convergence.
 
     Parameters
     ----------
@@ -30,24 +32,25 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     state : (x, xdot, udot) or xarray.Dataset
         Just before an impact, as for `orbit`.
     impacts : int
-        How many impacts, at least 1.
+        Number of impacts, at least 1.
     records : int
-        After how many equal stretches the exponents so far are kept, at least 1.
+        Number of equal parts of the orbit after which the exponents so far are recorded, at least
+        1.
 
     Returns
     -------
     xarray.Dataset
-        exponent, dims (impact, ..., index), nats an impact; its last entry is the final value.
-        `index` counts the vectors of the frame, in the order in which they are orthogonalized. The
-        values tend to falling order, but those of a finite orbit need not be in it: the largest
-        exponent is `exponent.max("index")`. `impact` holds the number of impacts. A state of one
-        dimension has the dim `orbit`, of more `orbit_0`, ... NaN from a grazing impact on, where
-        the map has no derivative.
+        exponent, dims (impact, ..., index); its last entry is the final value. `impact` holds the
+        number of impacts. `index` counts the vectors of the frame in the order in which they are
+        orthogonalized. The exponents tend to descending order, but need not be in it after a finite
+        number of impacts: the largest one is `exponent.max("index")`. Arrays of states have the dim
+        `orbit`, or orbit_0, orbit_1, ... From a grazing impact on, where the map has no derivative,
+        exponents are NaN.
 
     Raises
     ------
     ValueError
-        A state with xdot + udot < 0, impacts < 1 or records < 1.
+        A state has xdot + udot < 0, or `impacts` or `records` is below 1.
 
     References
     ----------
@@ -72,13 +75,12 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     except (MemoryError, ValueError):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
-    def some(x, v, w, out):
-        spectra = (
-            _each if x.size < MIN_ORBITS_FOR_LANES else _spectrum
-        )  # the second one takes long to compile
+    def piece(x, v, w, out):
+        few = x.size < MIN_ORBITS_FOR_LANES
+        spectra = _orbit_by_orbit if few else _in_groups  # the second one takes long to compile
         return spectra(x, v, w, ball.k, ball.g, at, out, ball.map.root_finder)
 
-    missed = shared(some, impacts, *(a.flatten() for a in state), out)
+    missed = shared(piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
     exponent = (
         ("impact", *dims, "index"),
@@ -89,8 +91,10 @@ def lyapunov_spectrum(ball, state, impacts, records=400):
     return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})
 
 
-def scene_exponents(ball, energy, starts, impacts, records):
-    """Lyapunov exponents of the orbits of a scene, and how they converge.
+def scene_exponents(
+    ball: Ball, energy: float, starts: list, impacts: int | list[int], records: int
+) -> xr.Dataset:
+    """Compute the Lyapunov exponents of the orbits of a scene, and their convergence (Figure 7).
 
     Parameters
     ----------
@@ -98,41 +102,33 @@ def scene_exponents(ball, energy, starts, impacts, records):
     energy : float
         In m omega^2 R^2.
     starts : list
-        Where its orbits start, each as in `starts.start_state`.
+        Where the orbits start, each as in `starts.start_state`.
     impacts : int or list of int
-        How many impacts of each; where they differ `exponent` is NaN at the records of others.
+        Number of impacts of all orbits, or of each. If they differ, `exponent` is NaN at the
+        records of other orbits.
     records : int
-        How many records of each orbit.
+        Number of records of each orbit.
 
     Returns
     -------
     xarray.Dataset
         exponent (impact, orbit, index) as from `lyapunov_spectrum`; start on `orbit`, and start_x
-        and start_xdot where a start is a point.
-
-    Raises
-    ------
-    ValueError
-        A start off the section, impacts < 1 or records < 1.
-
-    References
-    ----------
-    Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks, and Figure 7.
+        and start_xdot if a start is a point.
 
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> found = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
-    >>> bool(abs(found["exponent"].values[-1].sum()) < 0.01)
+    >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
+    >>> bool(abs(spectrum["exponent"].values[-1].sum()) < 0.01)
     True
     """
     states = np.array([start_state(ball, energy, start) for start in starts])
     if isinstance(impacts, list) and len(set(impacts)) > 1:
-        each = [
+        spectra = [
             lyapunov_spectrum(ball, state[:, None], count, records)
             for state, count in zip(states, impacts, strict=True)
         ]
-        spectrum = xr.concat(each, "orbit", join="outer").transpose("impact", "orbit", "index")
+        spectrum = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
         count = impacts[0] if isinstance(impacts, list) else impacts
         spectrum = lyapunov_spectrum(ball, tuple(states.T), count, records)
@@ -140,33 +136,32 @@ def scene_exponents(ball, energy, starts, impacts, records):
 
 
 @jit
-def _unit(a, b, c):
-    """A vector's length and its direction."""
+def _normalized(a, b, c):
+    """Return a vector's length and its direction."""
     length = math.sqrt((a * a + b * b) + c * c)
     return length, a / length, b / length, c / length
 
 
 @jit
-def _without(a, b, c, d, e, f):
-    """The vector (d, e, f) without its part along the unit vector (a, b, c)."""
+def _orthogonal_part(a, b, c, d, e, f):
+    """Return the part of the vector (d, e, f) orthogonal to the unit vector (a, b, c)."""
     along = (a * d + b * e) + c * f
     return d - along * a, e - along * b, f - along * c
 
 
-# Of each orbit its frame, three vectors, and the product of the lengths that each had; rows as in
+# Offsets of each orbit's frame, three vectors, and the products of their lengths; rows as in
 # `tangents`.
 _A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
 
 
 @jit
 def _advance(frames, n, k, g, coefficients, states, flights, row):
-    """Carry the frames of some orbits over an impact, and make them orthonormal.
+    """Carry the frames of n orbits over an impact, and make them orthonormal.
 
-    Their lengths are multiplied up. Returns whether one of these nears the end of what a double
-    holds.
+    Return whether one of the products of lengths nears the limits of a double.
     """
-    far = 0
-    row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
+    extremes = 0
+    row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
         a0, a1, a2 = frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i]
         b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
@@ -175,10 +170,10 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
         a0, a1, a2 = push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at)
         b0, b1, b2 = push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at)
         c0, c1, c2 = push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at)
-        p, a0, a1, a2 = _unit(a0, a1, a2)
-        q, b0, b1, b2 = _unit(*_without(a0, a1, a2, b0, b1, b2))
-        c0, c1, c2 = _without(a0, a1, a2, c0, c1, c2)
-        r, c0, c1, c2 = _unit(*_without(b0, b1, b2, c0, c1, c2))
+        p, a0, a1, a2 = _normalized(a0, a1, a2)
+        q, b0, b1, b2 = _normalized(*_orthogonal_part(a0, a1, a2, b0, b1, b2))
+        c0, c1, c2 = _orthogonal_part(a0, a1, a2, c0, c1, c2)
+        r, c0, c1, c2 = _normalized(*_orthogonal_part(b0, b1, b2, c0, c1, c2))
         p, q, r = (
             frames[_GROWN + i] * p,
             frames[_GROWN + GROUP + i] * q,
@@ -188,30 +183,27 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
         frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
         frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
         frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
-        far += 0 if _held(p) & _held(q) & _held(r) else 1
-    return far > 0
+        extremes += 0 if _in_range(p) & _in_range(q) & _in_range(r) else 1
+    return extremes > 0
 
 
 @jit
-def _held(length):
-    """Whether a length is far from the ends of what a double holds."""
+def _in_range(length):
+    """Return whether a length is far from the limits of a double."""
     return (length > 1e-100) & (length < 1e100)
 
 
 @jit
 def _collect(total, frames, i):
-    """Add the logarithms of the lengths of orbit i to its sums, and start again from 1."""
+    """Add the logarithms of the lengths of orbit i to its sums, and reset the lengths to 1."""
     for m in range(3):
         total[m, i] += log(frames[_GROWN + m * GROUP + i])
         frames[_GROWN + m * GROUP + i] = 1.0
 
 
 @jit
-def _spectrum(x, v, w, k, g, at, out, root_finder):
-    """Exponents of the states (n,) after each of `at` (m,) impacts: out (n, m, 3).
-
-    `root_finder` and what is returned, the impacts missed, are as in `impact`.
-    """
+def _in_groups(x, v, w, k, g, at, out, root_finder):
+    """Compute the exponents of orbits in groups."""
     missed = 0
     for first in range(0, x.size, GROUP):
         group = slice(first, min(first + GROUP, x.size))
@@ -221,19 +213,16 @@ def _spectrum(x, v, w, k, g, at, out, root_finder):
 
 @jit
 def _orthonormal(a, b, c):
-    """Gram and Schmidt's method on three vectors: the three lengths, then the three directions."""
-    p, a0, a1, a2 = _unit(*a)
-    q, b0, b1, b2 = _unit(*_without(a0, a1, a2, *b))
-    r, c0, c1, c2 = _unit(*_without(b0, b1, b2, *_without(a0, a1, a2, *c)))
+    """Return the lengths and directions that Gram and Schmidt's method gives for three vectors."""
+    p, a0, a1, a2 = _normalized(*a)
+    q, b0, b1, b2 = _normalized(*_orthogonal_part(a0, a1, a2, *b))
+    r, c0, c1, c2 = _normalized(*_orthogonal_part(b0, b1, b2, *_orthogonal_part(a0, a1, a2, *c)))
     return p, q, r, (a0, a1, a2), (b0, b1, b2), (c0, c1, c2)
 
 
 @jit
-def _one(x, v, w, k, g, at, out, root_finder):
-    """Write the exponents of one orbit after each of `at` impacts to out (m, 3).
-
-    The frame stays in the processor's registers, which is faster for few orbits than `_group`.
-    """
+def _one_orbit(x, v, w, k, g, at, out, root_finder):
+    """Compute the exponents of one orbit; its frame stays in the processor's registers."""
     coefficients = impact_coefficients(k)
     a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     p = q = r = 1.0
@@ -248,10 +237,10 @@ def _one(x, v, w, k, g, at, out, root_finder):
             a = tangent(*a, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
             b = tangent(*b, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
             c = tangent(*c, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            one, two, three, a, b, c = _orthonormal(a, b, c)
-            p, q, r = p * one, q * two, r * three
+            length_a, length_b, length_c, a, b, c = _orthonormal(a, b, c)
+            p, q, r = p * length_a, q * length_b, r * length_c
             done += 1
-            if done == at[m] or not (_held(p) & _held(q) & _held(r)):
+            if done == at[m] or not (_in_range(p) & _in_range(q) & _in_range(r)):
                 sums[0], sums[1], sums[2] = sums[0] + log(p), sums[1] + log(q), sums[2] + log(r)
                 p = q = r = 1.0
         for j in range(3):
@@ -260,21 +249,19 @@ def _one(x, v, w, k, g, at, out, root_finder):
 
 
 @jit
-def _each(x, v, w, k, g, at, out, root_finder):
-    """Write the exponents of orbits, one after the other, to out (n, m, 3), as `_spectrum` does."""
+def _orbit_by_orbit(x, v, w, k, g, at, out, root_finder):
+    """Compute the exponents of orbits one after the other, which is faster for few orbits."""
     missed = 0
     for i in range(x.size):
-        missed += _one(x[i], v[i], w[i], k, g, at, out[i], root_finder)
+        missed += _one_orbit(x[i], v[i], w[i], k, g, at, out[i], root_finder)
     return missed
 
 
 @jit
 def _group(x, v, w, k, g, at, out, root_finder):
-    """Write the exponents of at most GROUP orbits after each of `at` impacts to out (n, m, 3)."""
+    """Compute the exponents of at most GROUP orbits."""
     n = x.size
     missed, done = 0, 0
-    if n < MIN_ORBITS_FOR_LANES:
-        return _each(x, v, w, k, g, at, out, root_finder)
     coefficients = impact_coefficients(k)
     states, flights = allocate_buffers()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
@@ -287,7 +274,7 @@ def _group(x, v, w, k, g, at, out, root_finder):
             missed += advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder)
             for row in range(0, impacts * GROUP, GROUP):
                 if _advance(frames, n, k, g, coefficients, states, flights, row):
-                    _collect_far(total, frames, n)
+                    _collect_extremes(total, frames, n)
             done += impacts
         for i in range(n):
             _collect(total, frames, i)
@@ -297,8 +284,9 @@ def _group(x, v, w, k, g, at, out, root_finder):
 
 
 @jit
-def _collect_far(total, frames, n):
+def _collect_extremes(total, frames, n):
+    """Collect the lengths of orbits for which one nears the limits of a double."""
     for i in range(n):
         p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
-        if not (_held(p) and _held(q) and _held(r)):
+        if not (_in_range(p) and _in_range(q) and _in_range(r)):
             _collect(total, frames, i)

@@ -1,6 +1,6 @@
 """Stable and unstable manifolds of a hyperbolic periodic orbit, as ordered polylines.
 
-`branch` has the rule by which a branch is computed, `tracing` follows it as far as it is wanted.
+`branch` computes points of a branch, `tracing` makes a polyline of them.
 """
 
 from itertools import product
@@ -8,12 +8,13 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
+from .ball import Ball
 from .branch import Branch
 from .inputs import coordinates, not_allowed, number, one_of
 from .tracing import trace
 from .variables import NAMES, of_rows, of_type, variables
 
-MOST_IN_ALL = 10_000_000  # points of a scene
+MOST_VERTICES_OF_SCENE = 10_000_000
 _STATES = {name: NAMES[name] for name in ("x", "xdot", "udot")}
 _BRANCHES = {
     "row_size": ("branch", "number of vertices"),
@@ -24,57 +25,57 @@ _BRANCHES = {
 
 
 def trace_manifold(
-    ball,
-    energy,
-    orbit,
-    saddle=0,
+    ball: Ball,
+    energy: float,
+    orbit: xr.Dataset,
+    saddle: int = 0,
     *,
-    stable=False,
-    side="outer",
-    length=1.0,
-    distance=0.01,
-    bend=10.0,
+    stable: bool = False,
+    side: str = "outer",
+    length: float = 1.0,
+    distance: float = 0.01,
+    bend: float = 10.0,
     window=None,
-):
-    """One branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
+) -> xr.Dataset:
+    """Trace one branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
 
     Parameters
     ----------
     ball : Ball
     energy : float
-        The energy of the orbit (m omega^2 R^2).
+        Energy of the orbit (m omega^2 R^2).
     orbit : xarray.Dataset
         One orbit, x, xdot, udot on `point`, as from `variables.of_type`. An inverse hyperbolic one
         is traced under P^2n.
     saddle : int
         Index of the point.
     stable : bool
-        The stable branch instead of the unstable one.
+        Whether to trace the stable branch instead of the unstable one.
     side : {"outer", "inner"}
         "outer" leaves the point away from the middle of the orbit.
     length : float
         Arc length in (x, xdot, udot), in section radii.
     distance : float
-        Largest side of the polyline, in section radii, or within a window in units of its size.
+        Largest side of the polyline, in section radii, or with a window in units of its size.
     bend : float
-        Largest bend from side to side, in degrees, where a side is longer than a
-        thousandth of the distance (FINEST in `tracing`).
+        Largest angle between sides, in degrees, where a side is longer than `tracing.FINEST`, a
+        thousandth, times the distance.
     window : (x_low, x_high, xdot_low, xdot_high), optional
-        In R and R omega: only what passes through it is kept.
+        In R and R omega; only what passes through the window is kept.
 
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot on `vertex`, in order, starting at the point; a row of NaN where the line is
-        interrupted, by the window's edge or by a jump of the map. Attribute start_error: by how
-        much, in section radii, the image of the first segment misses it; ended: the length, in
-        section radii, where a branch is no longer known to rounding, if that is before `length`.
+        x, xdot, udot on `vertex`, in order from the point on. A row of NaN interrupts the line at
+        the window's edge and where the map jumps. Attributes: start_error, the distance in section
+        radii between the image of the first segment and the branch; and ended, the length in
+        section radii where rounding errors end the branch, if that is before `length`.
 
     Raises
     ------
     ValueError
-        An orbit that is not hyperbolic or not of this energy, an argument out of range, or a branch
-        of more points or images than `tracing.MOST_VERTICES` or `branch.MOST_IMAGES` allow.
+        The orbit is not hyperbolic or not of this energy, an argument is out of range, or the
+        branch has more points or images than `tracing.MOST_VERTICES` or `branch.MOST_IMAGES`.
 
     Examples
     --------
@@ -109,7 +110,7 @@ def trace_manifold(
 
 
 def _points(orbit):
-    """Read one orbit's states, (3, n)."""
+    """Return one orbit's states as an array (3, n)."""
     if not (hasattr(orbit, "data_vars") and all(name in orbit for name in _STATES)):
         raise not_allowed("orbit", orbit, "a Dataset with x, xdot and udot")
     if any(orbit[name].dims != ("point",) or not orbit[name].size for name in _STATES):
@@ -118,15 +119,15 @@ def _points(orbit):
 
 
 def _check_orbit(ball, energy, points):
-    """Refuse an orbit of another energy."""
-    off = np.abs(ball.energy(*points) - energy)
-    if not np.all(off <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
-        own = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
-        raise not_allowed("energy", energy, own)
+    """Raise ValueError if the orbit has another energy."""
+    errors = np.abs(ball.energy(*points) - energy)
+    if not np.all(errors <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
+        allowed = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
+        raise not_allowed("energy", energy, allowed)
 
 
 def _edges(window):
-    """Read a window."""
+    """Return the edges of a window as floats."""
     allowed = "(x_low, x_high, xdot_low, xdot_high)"
     try:
         x_low, x_high, xdot_low, xdot_high = (number("window", edge) for edge in window)
@@ -138,18 +139,18 @@ def _edges(window):
 
 
 def scene_manifolds(
-    ball,
-    energy,
-    periodic,
-    period,
-    type,
-    resolution,
-    branches=None,
-    point=None,
-    window=None,
-    length=None,
-):
-    """Both manifolds of every point of an orbit: whole branches, or what a window shows of them.
+    ball: Ball,
+    energy: float,
+    periodic: xr.Dataset,
+    period: int,
+    type: str,
+    resolution: dict,
+    branches: dict | None = None,
+    point: int | None = None,
+    window: dict | None = None,
+    length: float | None = None,
+) -> xr.Dataset:
+    """Trace both manifolds of an orbit's points (Figure 5), or what a window shows (Figure 6).
 
     Parameters
     ----------
@@ -159,68 +160,57 @@ def scene_manifolds(
     periodic : xarray.Dataset
         Orbits of this period, as from `symmetric_orbits`.
     period : int
-        Of the orbit.
     type : {"hyperbolic", "inverse hyperbolic"}
-        Of the orbit.
     resolution : mapping
         `distance` and `bend` of `trace_manifold`.
     branches : mapping, optional
-        {side: {"length": L}}, in section radii: whole branches.
-    point : int, optional
-        Instead of branches: the index of the point that a window shows.
-    window : mapping, optional
-        {"x": [a, b], "xdot": [a, b]}, relative to that point, in section radii.
-    length : float, optional
-        How far the branches are followed then, in section radii.
+        {side: {"length": L}}, in section radii, for whole branches.
+    point, window, length : int, mapping, float, optional
+        For a window: the index of the point that it shows, its edges {"x": [a, b], "xdot": [a, b]}
+        relative to that point, and how far branches are followed, both in section radii.
 
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot on `vertex`, branch after branch; on `branch` row_size, stable (0 or 1),
-        saddle and side. Attributes start_error and ended of `trace_manifold`, of all branches the
-        worst; with a window window_x, window_xdot, point_x, point_xdot.
-
-    Raises
-    ------
-    ValueError
-        No such orbit, or what `trace_manifold` refuses.
-
-    References
-    ----------
-    Kanso and Papadopoulos, Figures 5 and 6.
+        x, xdot, udot on `vertex`, branch after branch; row_size, stable (0 or 1), saddle and side
+        on `branch`. Attributes: the worst start_error and ended of all branches, as in
+        `trace_manifold`; with a window also window_x, window_xdot, point_x and point_xdot.
 
     Examples
     --------
     >>> from pseudorigid import Ball, symmetric_orbits
-    >>> six = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> six = symmetric_orbits(ball, 0.01, 6)
     >>> outer = {"outer": {"length": 0.1}}
-    >>> how = {"distance": 0.05, "bend": 30}
-    >>> scene_manifolds(Ball(k=0.2, g=0.04), 0.01, six, 6, "hyperbolic", how, outer).sizes["branch"]
+    >>> coarse = {"distance": 0.05, "bend": 30}
+    >>> scene_manifolds(ball, 0.01, six, 6, "hyperbolic", coarse, outer).sizes["branch"]
     12
     """
     orbit = of_type(periodic, type, period)
     if window is None:
-        how = {side: {"length": branches[side]["length"]} for side in sorted(branches)}
-        about = {}
+        extents = {side: {"length": branches[side]["length"]} for side in sorted(branches)}
+        attributes = {}
     else:
         radius = ball.section(energy)[1]
         centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}
         edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
         box = (*edges["x"], *edges["xdot"])
-        how = {side: {"length": length, "window": box} for side in ("inner", "outer")}
-        about = {f"window_{name}": edges[name] for name in centre}
-        about |= {f"point_{name}": centre[name] for name in centre}
+        extents = {side: {"length": length, "window": box} for side in ("inner", "outer")}
+        attributes = {f"window_{name}": edges[name] for name in centre}
+        attributes |= {f"point_{name}": centre[name] for name in centre}
     lines, rows, total = [], [], 0
-    for side, stable, saddle in product(how, (False, True), range(period)):
-        more = {"stable": stable, "side": side} | how[side] | resolution
-        lines.append(trace_manifold(ball, energy, orbit, saddle, **more))
+    for side, stable, saddle in product(extents, (False, True), range(period)):
+        options = {"stable": stable, "side": side} | extents[side] | resolution
+        lines.append(trace_manifold(ball, energy, orbit, saddle, **options))
         rows.append((lines[-1].sizes["vertex"], np.int8(stable), saddle, side))
         total += rows[-1][0]
-        if total > MOST_IN_ALL:
-            raise ValueError(f"manifolds of more than {MOST_IN_ALL} points: make length shorter")
-    about["start_error"] = max(line.attrs["start_error"] for line in lines)
+        if total > MOST_VERTICES_OF_SCENE:
+            raise ValueError(
+                f"manifolds of more than {MOST_VERTICES_OF_SCENE} points: make length shorter"
+            )
+    attributes["start_error"] = max(line.attrs["start_error"] for line in lines)
     if ended := [line.attrs["ended"] for line in lines if "ended" in line.attrs]:
-        about["ended"] = min(ended)
+        attributes["ended"] = min(ended)
     whole = xr.concat(lines, "vertex", combine_attrs="override").assign(of_rows(_BRANCHES, rows))
     whole["row_size"].attrs["sample_dimension"] = "vertex"
-    return whole.assign_attrs(about)
+    return whole.assign_attrs(attributes)

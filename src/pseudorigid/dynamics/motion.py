@@ -1,4 +1,4 @@
-"""The motion in time between the impacts of a periodic orbit."""
+"""Motion in time between the impacts of a periodic orbit."""
 
 import itertools
 
@@ -7,16 +7,17 @@ import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.impact_law import impact_coefficients, rebound
+from .ball import Ball
 from .variables import LENGTH, TIME, of_type, variables
 
-# Samples a flight is drawn with: at Figure 3's scale the chord of 1/200 of a flight is off by 1e-5.
+# Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
 SAMPLES = 200
-# More flights than this are no picture: 2 million samples.
+# Flights of a motion; more than 2 million samples cannot be drawn.
 MOST_FLIGHTS = 10_000
 
 
 def _flights(ball, orbit):
-    """(x, xdot, udot, tau) of one flight after the other from a periodic orbit's first point."""
+    """Yield (x, xdot, udot, tau) of each flight from a periodic orbit's first point."""
     columns = (orbit[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
     points = list(zip(*columns, strict=True))
     if ball.map.certified:
@@ -28,36 +29,27 @@ def _flights(ball, orbit):
         state = after
 
 
-def scene_motion(ball, energy, periodic, period, type, duration):
-    """Motion in time along a periodic orbit of given period and type.
+def scene_motion(
+    ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
+) -> xr.Dataset:
+    """Compute the motion along a periodic orbit of given period and type (Figures 3 and 4).
 
     Parameters
     ----------
     ball : Ball
     energy : float
-        Of the orbits; they carry it themselves.
+        Not used: the orbits carry their energy.
     periodic : xarray.Dataset
         Orbits of this period, as from `symmetric_orbits`.
     period : int
-        Of the orbit.
     type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
-        Of the orbit.
     duration : float
-        The length of time (1/omega).
+        Length of time (1/omega).
 
     Returns
     -------
     xarray.Dataset
         As from `motion`.
-
-    Raises
-    ------
-    ValueError
-        No such orbit, or too long a duration.
-
-    References
-    ----------
-    Kanso and Papadopoulos, eq. (26), Figures 3 and 4.
 
     Examples
     --------
@@ -69,30 +61,30 @@ def scene_motion(ball, energy, periodic, period, type, duration):
     return motion(ball, of_type(periodic, type, period), duration)
 
 
-def motion(ball, orbit, duration):
-    """x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
+def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
+    """Compute x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
 
-    The orbit's own points are repeated; a map that is not certified, for which they are no orbit,
-    follows the first one impact by impact.
+    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
+    it, and the first point is followed impact by impact instead.
 
     Parameters
     ----------
     ball : Ball
     orbit : xarray.Dataset
-        One orbit, x, xdot, udot, tau on `point`, as from `variables.of_type`.
+        One orbit: x, xdot, udot, tau on `point`, as from `variables.of_type`.
     duration : float
-        The length of time (1/omega).
+        Length of time (1/omega).
 
     Returns
     -------
     xarray.Dataset
-        On `sample` t (1/omega), position (x, in R) and strain (u), both ends of each flight
-        included, where position = -strain exactly; impact_t and impact_position on `impact`.
+        On `sample`: t (1/omega), position (x, in R) and strain (u). Both ends of each flight are
+        included, where position = -strain exactly. On `impact`: impact_t and impact_position.
 
     Raises
     ------
     ValueError
-        A duration of more than MOST_FLIGHTS flights.
+        The duration is that of more than MOST_FLIGHTS flights.
     """
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:
@@ -123,9 +115,9 @@ def motion(ball, orbit, duration):
         for column, values in zip(columns, (time + t, position, strain), strict=True):
             column.append(values)
         time += tau
-    about = "position of the mass centre, downwards", LENGTH
-    names = {"t": ("time", TIME), "position": about, "strain": "strain"}
+    position_text = "position of the mass centre, downwards", LENGTH
+    names = {"t": ("time", TIME), "position": position_text, "strain": "strain"}
     data = variables("sample", [np.concatenate(c) for c in columns], names)
-    about = "position at impact, downwards", LENGTH
-    names = {"impact_t": ("time of impact", TIME), "impact_position": about}
+    position_text = "position at impact, downwards", LENGTH
+    names = {"impact_t": ("time of impact", TIME), "impact_position": position_text}
     return xr.Dataset(data | variables("impact", [np.array(c) for c in impacts], names))

@@ -1,38 +1,41 @@
-"""Orbits of the impact map: impact by impact, and the starts of a scene."""
+"""Orbits of the impact map, from states or from the starts of a scene."""
 
 import numpy as np
 import xarray as xr
 
+from .ball import Ball
 from .inputs import not_allowed, one_of, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims, variables
 
 
-def orbit(ball, state, impacts, keep="all"):
-    """The orbit of a state, or of many, under the impact map, eq. (28).
+def orbit(ball: Ball, state, impacts: int, keep: str = "all") -> xr.Dataset:
+    """Compute the orbit of one state, or of many, under the impact map, eq. (28).
 
     Parameters
     ----------
     ball : Ball
     state : (x, xdot, udot) or xarray.Dataset
         Just before an impact, scalars or arrays that broadcast. A Dataset stands for its last
-        state along `impact` or `point`, of each orbit in it: so an orbit is continued.
+        state along `impact` or `point`, of each orbit in it, so that orbits can be continued.
     impacts : int
-        How many impacts, at least 1, counted from that state.
+        Number of impacts after that state, at least 1.
     keep : {"all", "last"}
-        "last" for the final state alone, in memory that does not grow with `impacts`.
+        "last" keeps only the final state, in memory that does not grow with `impacts`.
 
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot, tau, dims (impact, ...): one entry an impact, the start excluded; tau is the
-        flight that ends there (1/omega). A state of one dimension has the dim `orbit`, of more
-        `orbit_0`, ... With keep="last" there is no dim `impact`.
+        x, xdot, udot, tau with dims (impact, ...): one entry for each impact, without the start.
+        tau is the time of the flight that ends there (1/omega). Arrays of states have the dim
+        `orbit`, or orbit_0, orbit_1, ... if they have several dimensions. With keep="last" there
+        is no dim `impact`.
 
     Raises
     ------
     ValueError
-        A state with xdot + udot < 0, impacts < 1 or too many to keep, or another `keep`.
+        A state has xdot + udot < 0, `impacts` is below 1 or needs too much memory, or `keep` is
+        another word.
 
     Examples
     --------
@@ -70,33 +73,24 @@ def _impact(dims, values):
     return dims, values, attributes_of("number of impacts")
 
 
-def scene_orbits(ball, energy, starts, impacts):
-    """The orbits of a scene, one after the other in a contiguous ragged array (CF).
+def scene_orbits(ball: Ball, energy: float, starts: list, impacts: int | list[int]) -> xr.Dataset:
+    """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
     Parameters
     ----------
     ball : Ball
     energy : float
-        The energy of all of them (m omega^2 R^2).
+        Energy of all orbits (m omega^2 R^2).
     starts : list
-        Where they start, each as in `starts.start_state`.
+        Where the orbits start, each as in `starts.start_state`.
     impacts : int or list of int
-        How many impacts of each.
+        Number of impacts of all orbits, or of each.
 
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot, tau on `point`; on `orbit` start and row_size, and start_x and start_xdot
-        where a start is a point.
-
-    Raises
-    ------
-    ValueError
-        A start off the section.
-
-    References
-    ----------
-    Kanso and Papadopoulos, eq. (28), Figures 2 and 8.
+        x, xdot, udot, tau on `point`; start and row_size on `orbit`, with start_x and start_xdot if
+        a start is a point.
 
     Examples
     --------
@@ -114,23 +108,11 @@ def scene_orbits(ball, energy, starts, impacts):
     return ragged_orbits(pieces, starts, states, impacts)
 
 
-def ragged_orbits(pieces, starts, states, impacts):
-    """The Dataset of `scene_orbits` from the orbits' arrays.
+def ragged_orbits(pieces, starts, states, impacts) -> xr.Dataset:
+    """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau.
 
-    Parameters
-    ----------
-    pieces : list of ndarray, shape (4, impacts)
-        x, xdot, udot, tau of each orbit, the start excluded.
-    starts : list
-        As for `scene_orbits`.
-    states : list of (x, xdot, udot)
-        The starts' states.
-    impacts : list of int
-        How many impacts of each.
-
-    Returns
-    -------
-    xarray.Dataset
+    Each of the lists has an entry for each orbit; `states` are the states (x, xdot, udot) of
+    `starts`.
     """
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data["row_size"] = (

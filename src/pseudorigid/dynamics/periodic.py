@@ -1,40 +1,38 @@
-"""Symmetric periodic orbits: one-dimensional root searches on the symmetry lines of the map.
+"""Symmetric periodic orbits by one-dimensional root searches on the symmetry lines of the map.
 
-With the reversor R, (x, y) -> (x, -y), and the map P, a symmetric orbit of even period 2m starts on
-Fix R (y = 0) and is back there after m impacts, or does so on Fix RP; one of odd period 2m + 1
-starts on Fix R and is on Fix RP after m impacts. On Fix RP the flight that follows is symmetric in
-time: b + g tau/2 = 0. Orbits without that symmetry are not looked for.
+Let P be the map and R the reversor, (x, y) -> (x, -y). A symmetric orbit of even period 2m starts
+on Fix R (y = 0) and returns to it after m impacts, or does so on Fix RP. An orbit of odd period 2m
++ 1 starts on Fix R and is on Fix RP after m impacts. On Fix RP the flight that follows is symmetric
+in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
 """
-
-from itertools import product
 
 import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.impact_law import impact_coefficients, rebound
+from .ball import Ball
 from .inputs import number, whole_number
 from .variables import NAMES, TIME, variables
 
-# Cells into which a symmetry line is divided; each sign change between neighbours is followed. Of
-# periods up to 12 of the paper's ball, at energies 0.0017, 0.01 and 0.03, ten times as many cells
-# show no further orbit.
+# Cells into which a symmetry line is divided to find sign changes. For the paper's ball at energies
+# 0.0017, 0.01 and 0.03, ten times as many cells show no further orbit of a period up to 12.
 RESOLUTION = 20_000
-# Two points nearer than this, in section radii, are one: a solution's error is smaller, the cells
-# of the search are wider.
+# Distance in section radii below which two points are the same. The error of a solution is smaller,
+# and the cells of the search are wider.
 SAME = 1e-9
 TURN = float.fromhex("0x1.921fb54442d18p+2")  # 2 pi
-# Largest |P^n z - z| of a solution in section radii, some fifty units of rounding; times
-# |multiplier|/50 where that is larger, since the error of z is multiplied by it.
+# Largest |P^n z - z| of a solution, in section radii: about fifty roundings. If |multiplier| > 50
+# it is multiplied by |multiplier|/50, because the map multiplies the error of z.
 CLOSURE = 1e-14
-# A sign change that leaves more than this, in section radii, is a jump of the map: those of a root
-# between neighbouring doubles leave 1e-16 times the multiplier.
+# |P^n z - z|, in section radii, above which a sign change is a jump of the map. At a root between
+# neighbouring doubles it is 1e-16 times the multiplier.
 JUMP = 1e-6
-NEWTON_STEPS = 5  # three were the most that helped, over those energies and periods
+NEWTON_STEPS = 5  # at those energies and periods no more than three helped
 
 
-def symmetric_orbits(ball, energy, period):
-    """All symmetric orbits of a prime period that the resolution of the search shows.
+def symmetric_orbits(ball: Ball, energy: float, period: int) -> xr.Dataset:
+    """Find all symmetric orbits of a prime period that the resolution of the search shows.
 
     Parameters
     ----------
@@ -42,24 +40,24 @@ def symmetric_orbits(ball, energy, period):
     energy : float
         Above the lowest energy, -g^2/(2k).
     period : int
-        The number of impacts, at least 1.
+        Number of impacts, at least 1.
 
     Returns
     -------
     xarray.Dataset
-        On (orbit, point), the orbits in the order of |multiplier|: x, xdot, udot just before each
-        impact, tau the flight from that point to the next (1/omega). On orbit: type, elliptic,
+        x, xdot, udot just before each impact on (orbit, point), in ascending order of |multiplier|;
+        tau, the time of flight from that point to the next (1/omega). On `orbit`: type, elliptic,
         hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface;
-        multiplier, its eigenvalue of largest modulus, for an elliptic orbit that modulus, 1;
+        multiplier, its eigenvalue of largest modulus, or the modulus, 1, of an elliptic orbit;
         rotation_number, the argument of the multiplier over 2 pi, 0 to 1/2; total_time, the sum of
-        tau. Length 0 where none is found. The first point lies on a symmetry line, unless the orbit
-        is too sensitive there to be closed. Attribute resolution: the cells of each line; unsolved:
-        how many orbits were seen, but close to no better than CLOSURE allows.
+        tau. `orbit` has length 0 if none is found. The first point lies on a symmetry line, unless
+        the orbit is too sensitive there to be closed. Attributes: resolution, the number of cells
+        of each line; unsolved, the number of orbits that were seen but do not close to CLOSURE.
 
     Raises
     ------
     ValueError
-        An energy below the bound or a period below 1.
+        The energy is below the lowest one, or the period is below 1.
 
     References
     ----------
@@ -75,59 +73,35 @@ def symmetric_orbits(ball, energy, period):
     """
     period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
-    seen, orbits, found = _Points(SAME * radius), 0, []
+    seen, orbits_seen, solved = np.empty((3, 0)), 0, []
     for line in _lines(ball, energy, period):
         for state in _solutions(ball, line, period, radius):
-            points = _follow(ball, state, period)
-            if seen.has(points[:3, 0]):
-                continue
-            if np.any(np.all(np.abs(points[:3, :1] - points[:3, 1:]) < SAME * radius, axis=0)):
-                continue  # its prime period is a divisor
-            seen.add(points[:3])
-            orbits += 1
-            # the third eigenvalue of eq. (33)'s product is 1
+            points = _orbit_from(ball, state, period)
+            others = np.append(seen, points[:3, 1:], axis=1)
+            if np.any(np.all(np.abs(points[:3, :1] - others) < SAME * radius, axis=0)):
+                continue  # the orbit was seen before, or its prime period is a divisor
+            seen = np.append(others, points[:3, :1], axis=1)
+            orbits_seen += 1
+            # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
             trace = float(np.trace(ball.jacobian(*points[:3, 0], impacts=period)) - 1.0)
             limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
-            # Where the orbit is too sensitive at its first point, another one serves as the first.
+            # If the orbit is too sensitive at its first point, begin it at another one.
             nearest = (_closest(ball, energy, point, period) for point in points[:3].T)
             first = next((state for state, gap in nearest if gap <= limit), None)
             if first is not None:
-                found.append((trace, _follow(ball, first, period)))
-    found.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
-    points = np.array([p for _, p in found]).reshape(len(found), 4, period)
+                solved.append((trace, _orbit_from(ball, first, period)))
+    solved.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
+    points = np.array([p for _, p in solved]).reshape(len(solved), 4, period)
     names = NAMES | {"tau": ("time of flight to the next point", TIME)}
     data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
     attrs = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
-    attrs |= {"resolution": RESOLUTION, "unsolved": orbits - len(found)}
-    return xr.Dataset(data | _stability(np.array([t for t, _ in found]), points[:, 3]), attrs=attrs)
-
-
-class _Points:
-    """Points of space, kept in boxes of the size `near`, so that a neighbour is found at once."""
-
-    def __init__(self, near):
-        self.near, self.boxes = near, {}
-
-    def add(self, points):
-        """Add points (3, n)."""
-        for point in points.T.tolist():
-            self.boxes.setdefault(self._box(point), []).append(point)
-
-    def has(self, point):
-        """Whether a point is nearer than `near` in every coordinate."""
-        i, j, k = self._box(point)
-        for box in product((i - 1, i, i + 1), (j - 1, j, j + 1), (k - 1, k, k + 1)):
-            for other in self.boxes.get(box, ()):
-                if max(abs(a - b) for a, b in zip(point, other, strict=True)) < self.near:
-                    return True
-        return False
-
-    def _box(self, point):
-        return tuple(int(value / self.near // 1.0) for value in point)
+    attrs |= {"resolution": RESOLUTION, "unsolved": orbits_seen - len(solved)}
+    traces = np.array([t for t, _ in solved])
+    return xr.Dataset(data | _stability(traces, points[:, 3]), attrs=attrs)
 
 
 def _stability(traces, tau):
-    """Variables on `orbit` from the traces (n,) and the flights (n, period)."""
+    """Return variables on `orbit` from the traces (n,) and the times of flight (n, period)."""
     kinds = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
     kinds[np.abs(traces) < 2.0] = "elliptic"
     names = {
@@ -143,26 +117,26 @@ def _stability(traces, tau):
 
 
 def _lines(ball, energy, period):
-    """(start, parameters, defect) of each search: states along a line, what is 0 at an orbit."""
+    """Yield (states along a line, parameters, defect) of each search; orbits have defect 0."""
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
     def on_r(q):
-        # a rational parameter of the circle, which resolves its ends, where s = 0, as well
+        # A rational parametrization of the circle resolves its ends, where s = 0.
         udot = radius * ((1.0 - q) * (1.0 + q) / (1.0 + q * q)) / np.sqrt(1.0 + k)
         return np.stack((centre + radius * (2.0 * q / (1.0 + q * q)), k * udot, udot))
 
     def symmetric_flight(x, xdot, udot):
-        """b + g tau/2, 0 on Fix RP."""
+        """Return b + g tau/2, which is 0 on Fix RP."""
         _, after, _, tau = ball.impact(x, xdot, udot)
         return after - 0.5 * g * tau
 
-    # the rim itself is at rest and no orbit
+    # The rim is left out, because a ball there is at rest.
     inside = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
     if period % 2:
         yield on_r, inside, symmetric_flight
         return
-    yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y, 0 on Fix R
+    yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y is 0 on Fix R
     # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a
     # from E = g^2 theta^2/2 + k a^2/2 - g a cos theta.
     longest = radius * np.sqrt(k) / g
@@ -175,14 +149,14 @@ def _lines(ball, energy, period):
             xdot, udot, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
             state = np.where(xdot + udot >= 0.0, (a * cosine, xdot, udot), np.nan)
             tau = ball.time_to_impact(*state)
-            # no earlier impact has ended the flight; where it grazes tau is good to 1e-8
+            # Omit flights that an earlier impact ends. Where an impact grazes, tau is good to 1e-8.
             return np.where(np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta), state, np.nan)
 
         yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, symmetric_flight
 
 
 def _solutions(ball, line, period, radius):
-    """States on one symmetry line that are back after `period` impacts, jumps left out."""
+    """Yield the states on one symmetry line that return after `period` impacts."""
     start, parameters, defect = line
 
     def value(p):
@@ -195,22 +169,22 @@ def _solutions(ball, line, period, radius):
     _, gaps = _gaps(ball, states, period)
     states, gaps = states.reshape(3, 2, -1), gaps.reshape(2, -1)
     for root in range(gaps.shape[1]):
-        if np.min(gaps[:, root]) < JUMP * radius:  # a jump changes sign too, but does not close
+        if np.min(gaps[:, root]) < JUMP * radius:  # a jump changes the sign, but does not close
             yield states[:, np.argmin(gaps[:, root]), root]
 
 
 def _sign_changes(value, parameters):
-    """(low, high): the ends, neighbouring doubles, of each sign change of `value`.
+    """Return the ends (low, high), neighbouring doubles, of each sign change of `value`.
 
-    It takes arrays (n,) and is NaN beyond the ends of a line.
+    `value` takes arrays (n,) and is NaN beyond the ends of a line.
     """
-    there = ~np.isnan(value(parameters))
+    on_line = ~np.isnan(value(parameters))
     low, high = parameters[:-1].copy(), parameters[1:].copy()
-    # Where a line ends between two parameters, the last point on it takes the place of the one
-    # beyond.
-    (leaves,) = np.nonzero(there[:-1] & ~there[1:])
+    # Where a line ends between two parameters, replace the one beyond by the last point on the
+    # line.
+    (leaves,) = np.nonzero(on_line[:-1] & ~on_line[1:])
     high[leaves] = _halve(low[leaves], high[leaves], lambda p: ~np.isnan(value(p)))[0]
-    (enters,) = np.nonzero(~there[:-1] & there[1:])
+    (enters,) = np.nonzero(~on_line[:-1] & on_line[1:])
     low[enters] = _halve(low[enters], high[enters], lambda p: np.isnan(value(p)))[1]
     at_low = value(low)
     change = at_low * value(high) <= 0.0
@@ -219,7 +193,7 @@ def _sign_changes(value, parameters):
 
 
 def _halve(low, high, goes_right):
-    """Bisection of intervals (n,) down to neighbouring doubles; goes_right(middle) is boolean."""
+    """Bisect intervals (n,) down to neighbouring doubles; goes_right(middle) selects halves."""
     while True:
         middle = 0.5 * (low + high)
         if np.all((middle == low) | (middle == high)):
@@ -229,17 +203,17 @@ def _halve(low, high, goes_right):
 
 
 def _gaps(ball, states, period):
-    """P^n z and the largest coordinate of P^n z - z, (n,), for states z (3, n)."""
+    """Return P^n z, and the largest coordinate of P^n z - z (n,), for states z (3, n)."""
     after = states.copy()
     ball.map.steps(*after, ball.k, ball.g, period, np.empty(states.shape[1]))
     return after, np.max(np.abs(after - states), axis=0)
 
 
 def _closest(ball, energy, state, period):
-    """(state, gap) of an orbit next to `state`, to the last bit.
+    """Return the state nearby from which an orbit closes best, and the gap that it leaves.
 
-    Newton steps on P^n z = z in the chart, while they close better; then, of the doubles up to two
-    units in the last place away, the one that closes best.
+    Newton steps solve P^n z = z in the chart as long as the gap falls. Then the doubles up to two
+    units in the last place away are tried.
     """
     best, least = state, np.inf
     for _ in range(NEWTON_STEPS):
@@ -266,8 +240,8 @@ def _closest(ball, energy, state, period):
     return near[:, np.argmin(gaps)], np.min(gaps)
 
 
-def _follow(ball, state, period):
-    """x, xdot, udot and the flight that follows, (4, period), along the orbit from `state` on."""
+def _orbit_from(ball, state, period):
+    """Return x, xdot, udot and the time of the next flight (4, period) along an orbit."""
     out = np.empty((1, period, 4))
     ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
     after = out[0].T
@@ -275,14 +249,14 @@ def _follow(ball, state, period):
 
 
 def _multiplier(trace):
-    """The eigenvalue of largest modulus at determinant 1; where it is complex the modulus, 1."""
+    """Return the eigenvalue of largest modulus at determinant 1, or the modulus, 1, if complex."""
     size = np.maximum(np.abs(trace), 2.0)
     root = np.sqrt((size - 2.0) * (size + 2.0))
     return np.where(size > 2.0, np.copysign(0.5 * (size + root), trace), 1.0)
 
 
 def _rotation_number(traces):
-    """arccos(trace/2)/(2 pi) by bisection on our own cosine: the same bits on every machine."""
+    """Return arccos(trace/2)/(2 pi), by bisection on `sincos` for reproducible bits."""
     low, high = np.zeros(traces.size), np.full(traces.size, 0.5)
     low, high = _halve(low, high, lambda turn: 2.0 * sincos_each(TURN * turn)[1] > traces)
     return np.where(traces <= -2.0, 0.5, 0.5 * (low + high))

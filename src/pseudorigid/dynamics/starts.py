@@ -1,4 +1,4 @@
-"""Where the orbits of a scene start: on the symmetry line y = 0, or at a point of the section."""
+"""Starts of orbits: on the symmetry line y = 0, or at a point of the section."""
 
 import numpy as np
 
@@ -6,26 +6,11 @@ from .variables import LENGTH, RADIUS, SPEED, attributes_of
 
 
 def start_state(ball, energy, start):
-    """The state (x, xdot, udot) of a start.
+    """Return the state (x, xdot, udot) of a start.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    start : float or mapping
-        A fraction of the section's radius along y = 0, from -1 to 1; or a point with x and
-        either xdot or y = xdot - k udot.
-
-    Returns
-    -------
-    x, xdot, udot : float
-        Of two states with this xdot, that with the larger udot.
-
-    Raises
-    ------
-    ValueError
-        A start off the section.
+    A start is a fraction of the section's radius along y = 0, from -1 to 1, or a mapping with x and
+    either xdot or y = xdot - k udot. Of two states with this xdot, the one with the larger udot is
+    taken. Raises ValueError for a start off the section.
     """
     if not isinstance(start, dict):
         return ball.start(start, energy)
@@ -34,25 +19,15 @@ def start_state(ball, energy, start):
     return ball.state(start["x"], start["xdot"], energy)
 
 
-def start_variables(starts, states):
-    """Dataset variables that say where orbits start.
+def start_variables(starts, states) -> dict:
+    """Return dataset variables on `orbit` for some starts and their states.
 
-    Parameters
-    ----------
-    starts : list
-        Each as for `start_state`.
-    states : sequence of (x, xdot, udot)
-        The starts' states.
-
-    Returns
-    -------
-    dict
-        On `orbit`: start, the fraction, NaN where it is a point; where one is, start_x and
-        start_xdot.
+    `start` is the fraction, NaN where a start is a point. start_x and start_xdot are present if one
+    is.
     """
     fractions = [np.nan if isinstance(start, dict) else start for start in starts]
-    about = attributes_of("start along y = 0, in section radii from the centre", RADIUS)
-    data = {"start": ("orbit", np.asarray(fractions, dtype=float), about)}
+    attributes = attributes_of("start along y = 0, in section radii from the centre", RADIUS)
+    data = {"start": ("orbit", np.asarray(fractions, dtype=float), attributes)}
     if any(isinstance(start, dict) for start in starts):
         for i, (name, scale) in enumerate((("x", LENGTH), ("xdot", SPEED))):
             values = np.array([state[i] for state in states], dtype=float)

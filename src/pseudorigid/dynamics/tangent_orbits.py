@@ -1,6 +1,6 @@
-"""Many orbits of one ball: how fast neighbours part, and how often an orbit winds round a centre.
+"""Growth of tangent vectors, and winding around a centre, along many orbits of one ball.
 
-The one place where a sweep calls the compiled map. Lengths are in units of g R, so that g = 1.
+Only this module calls the compiled map for a sweep. Lengths are in g R, so that g = 1.
 """
 
 import math
@@ -13,7 +13,7 @@ from ..kernel.impact import impact_coefficients
 from ..kernel.tangents import CHUNK, GROUP, V, W, X, advance_chunk, allocate_buffers, push_tangent
 
 _EIGHTH = math.sqrt(2.0) - 1.0  # tan(pi/8)
-# (atan t - t)/t^3 in z = t^2, Chebyshev on |t| <= tan(pi/8), error below 1e-14
+# Chebyshev polynomial for (atan t - t)/t^3 in z = t^2 on |t| <= tan(pi/8), error below 1e-14
 _A0 = float.fromhex("-0x1.55555555553a3p-2")
 _A1 = float.fromhex("0x1.99999998d12f0p-3")
 _A2 = float.fromhex("-0x1.249248aa52bc5p-3")
@@ -24,35 +24,26 @@ _A6 = float.fromhex("-0x1.0c52a4b5af878p-4")
 _A7 = float.fromhex("0x1.a769bd3353c1cp-5")
 _A8 = float.fromhex("-0x1.be20c62f176ddp-6")
 
-# What is kept of an orbit between calls of `propagate_with_tangent`: its state x, v, w; a tangent
-# vector and the logarithm of what it was divided by to stay small; the logarithm of its whole
-# length; the place of the centre, at y = 0 of the chart, and the turn around it that is expected of
-# an impact.
+# Rows of an orbit's data between calls of `propagate_with_tangent`: the state x, v, w; a tangent
+# vector and the logarithm of the factors by which it was divided; the logarithm of its whole
+# length; the x of the centre, at y = 0 in the chart, and the turns around it to expect of an
+# impact.
 VECTOR, GROWN, SIZE, CENTRE, EXPECTED, KEPT = 3, 6, 7, 8, 9, 10
-# Rows of GROUP numbers while orbits are followed, the first ones as above: the last place around
-# the centre and the last turn.
+# Offsets of rows of GROUP numbers during propagation. The first rows are as above; the others hold
+# the last position relative to the centre and the last turn.
 _DX, _DV, _DW = ((VECTOR + i) * GROUP for i in range(3))
 _GROWN, _SIZE, _CENTRE, _EXPECTED = (i * GROUP for i in (GROWN, SIZE, CENTRE, EXPECTED))
 _P, _Q, _TURN = ((KEPT + i) * GROUP for i in range(3))
 _ROWS = (KEPT + 3) * GROUP
-# A tangent vector's length beyond these is made 1: the impact after neither over- nor underflows.
-_LEAST, _MOST = 1e-50, 1e50
+# A tangent vector with a length beyond these limits is normalized, so that it cannot overflow.
+_SHORTEST, _LONGEST = 1e-50, 1e50
 
 
 @jit
 def angle(across, up):
-    """The angle of a vector in the plane.
+    """Return the angle of a vector in the plane, in (-pi, pi] to 1e-14; 0 for the vector 0.
 
-    Choices instead of branches, for vector instructions.
-
-    Parameters
-    ----------
-    across, up : float
-
-    Returns
-    -------
-    float
-        Radians in (-pi, pi], to 1e-14; 0 for the vector 0.
+    It selects instead of branching, so that LLVM can vectorise it.
     """
     a, b = abs(across), abs(up)
     large = max(a, b)
@@ -72,21 +63,11 @@ def angle(across, up):
 
 
 def begin(k, states, centre, expected):
-    """Orbits for `propagate_with_tangent`, each with a tangent vector along the energy surface.
+    """Return orbits (KEPT, n) for `propagate_with_tangent`, with tangents of the energy surface.
 
-    Parameters
-    ----------
-    k : float
-        Euler inertia, eq. (5).
-    states : (x, v, w), each of shape (n,)
-        Just before an impact, lengths in g R.
-    centre, expected : float or ndarray, shape (n,)
-        The x around which turns are counted, at y = 0, and the turn of an impact that is expected:
-        half a turn where that is NaN, since the centre is no elliptic point.
-
-    Returns
-    -------
-    ndarray, shape (KEPT, n)
+    `states` are arrays x, v, w (n,) just before an impact. `centre` is the x, at y = 0, around
+    which turns are counted, and `expected` the turns to expect of an impact: half a turn where it
+    is NaN, because the centre is no elliptic point. Both are floats or arrays (n,).
     """
     x, v, w = states
     orbits = np.zeros((KEPT, x.size))
@@ -96,7 +77,7 @@ def begin(k, states, centre, expected):
 
 
 def weight(length):
-    """The sum of the weights of turns over a window of so many impacts."""
+    """Return the sum of the weights of turns over a window of `length` impacts."""
     time = (np.arange(length) + 0.5) / length
     bump = time * (1.0 - time)
     return np.sum(bump * bump * bump)
@@ -104,19 +85,19 @@ def weight(length):
 
 @jit
 def _observe(rows, n, k, round_y, coefficients, states, flights, row):
-    """Carry the tangent vectors over an impact, and see how far the orbits turned.
+    """Carry the tangent vectors over an impact, and compute how far the orbits turned.
 
-    Returns whether a vector has to be made shorter or longer.
+    Return whether the length of a vector has become extreme.
     """
-    far = 0
-    row = max(row, 0)  # where an index may be negative, no vector instructions come of a loop
+    extreme = 0
+    row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
         dx, dv, dw = rows[_DX + i], rows[_DV + i], rows[_DW + i]
         dx, dv, dw = push_tangent(dx, dv, dw, k, 1.0, coefficients, states, flights, row + i)
         size = (abs(dx) + abs(dv)) + abs(dw)
         grown = rows[_GROWN + i] + narrow_log(size)
         rows[_DX + i], rows[_DV + i], rows[_DW + i], rows[_SIZE + i] = dx, dv, dw, grown
-        far += 0 if (size > _LEAST) & (size < _MOST) else 1
+        extreme += 0 if (size > _SHORTEST) & (size < _LONGEST) else 1
     for i in range(n):
         at = GROUP + row + i
         expected, p, q = rows[_EXPECTED + i], rows[_P + i], rows[_Q + i]
@@ -126,16 +107,16 @@ def _observe(rows, n, k, round_y, coefficients, states, flights, row):
         shift = 1.0 if turn < expected - 0.5 else 0.0
         shift = -1.0 if turn > expected + 0.5 else shift
         rows[_TURN + i], rows[_P + i], rows[_Q + i] = turn + shift, r, s
-    return far > 0
+    return extreme > 0
 
 
 @jit
 def _rescale(rows, n):
-    """Make tangent vectors as long as 1 that are near the end of what a double holds."""
+    """Normalize tangent vectors whose length is extreme."""
     for i in range(n):
         dx, dv, dw = rows[_DX + i], rows[_DV + i], rows[_DW + i]
         size = (abs(dx) + abs(dv)) + abs(dw)
-        if not _LEAST < size < _MOST:
+        if not _SHORTEST < size < _LONGEST:
             rows[_GROWN + i] += log(size)
             rows[_SIZE + i] = rows[_GROWN + i]
             rows[_DX + i], rows[_DV + i], rows[_DW + i] = dx / size, dv / size, dw / size
@@ -143,16 +124,17 @@ def _rescale(rows, n):
 
 @jit
 def _add(sums, weight, rows, row):
+    """Add a weighted row to some sums."""
     for i in range(sums.size):
         sums[i] += weight * rows[row + i]
 
 
 @jit
-def _group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, growth):
+def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, growth):
     """Propagate the orbits from `low_end` to before `high_end`, at most GROUP of them."""
     n = high_end - low_end
     coefficients = impact_coefficients(k)
-    round_y = 1.0 / math.sqrt(k * (1.0 + k))  # the section is a disk in x, round_y * y
+    round_y = 1.0 / math.sqrt(k * (1.0 + k))  # the section is a disk in (x, round_y * y)
     states, flights = allocate_buffers()
     rows = np.zeros(_ROWS)
     for i in range(n):
@@ -186,27 +168,26 @@ def _group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, 
 
 @jit
 def propagate_with_tangent(orbits, k, start, stop, turning, growing, turned, growth):
-    """Follow orbits, in units where g = 1: lengths in g R.
+    """Propagate orbits in place, with tangent vectors along the energy surface.
 
-    A tangent vector along the energy surface is carried along; NaN from an exactly grazing impact
-    on, where the map has no derivative.
+    A tangent vector is NaN from an exactly grazing impact on, where the map has no derivative.
 
     Parameters
     ----------
     orbits : ndarray, shape (KEPT, n)
-        A row for each quantity named above, a column an orbit; advanced in place.
+        From `begin`; a row for each quantity, a column for each orbit.
     k : float
         Euler inertia, eq. (5).
     start, stop : int
-        The impacts to be done, counted from the orbits' beginning.
+        Impacts to do, counted from the orbits' beginning.
     turning, growing : ndarray of int, shape (m, 2)
         Windows: first impact and length.
     turned : ndarray, shape (m, n)
-        Added to: the turns around the centre, summed over each window of `turning` with the weights
-        (t (1 - t))^3, t from 0 to 1 over the window. A turn is taken within half a turn of the one
-        expected.
+        The turns around the centre are added, summed over each window of `turning` with the weights
+        (t (1 - t))^3, t from 0 to 1 over the window. A turn is taken within half a turn of the
+        expected one.
     growth : ndarray, shape (m, n)
-        Added to: the logarithm of the tangent vector's length, summed over each window of
+        The logarithms of the tangent vector's length are added, summed over each window of
         `growing`.
 
     References
@@ -217,4 +198,4 @@ def propagate_with_tangent(orbits, k, start, stop, turning, growing, turned, gro
     count = orbits.shape[1]
     for first in range(0, count, GROUP):
         last = min(first + GROUP, count)
-        _group(orbits, first, last, k, start, stop, turning, growing, turned, growth)
+        _propagate_group(orbits, first, last, k, start, stop, turning, growing, turned, growth)

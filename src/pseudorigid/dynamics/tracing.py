@@ -1,57 +1,43 @@
-"""A branch as a polyline: as fine as a picture needs it, as long as it is wanted.
+"""Polyline of a branch, as fine and as long as requested.
 
-Where two neighbours are too far apart or the line bends too much, a point is inserted at the middle
-of the branch's parameter u.
+Where two neighbours are too far apart or the line bends too much, a point is inserted at the mean
+of their parameters u.
 """
 
 import numpy as np
 
 from ..kernel.arithmetic import sincos
-from .branch import FRESH
+from .branch import POINTS_OF_IMAGE
 
-# A bend counts while a neighbouring side is longer than this share of the distance allowed: else a
-# corner of the line would be refined without end.
+# Length of a side, as a share of the largest one, below which its bend is ignored. Without this
+# limit a corner of the line would be refined for ever.
 FINEST = 1e-3
-# Outside a window the line is followed with sides of this length, in section radii: that of the
-# paper's whole branches.
+# Largest side outside a window, in section radii, as for the paper's whole branches.
 COARSE = 0.01
 MOST_VERTICES = 3_000_000
 DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 
 def trace(branch, length, distance, bend, window):
-    """The polyline of a branch, image by image until it is long enough.
+    """Return the polyline (3, n) of a branch, image by image until it is long enough.
 
-    Parameters
-    ----------
-    branch : Branch
-        Its `ended` is set where it ends before.
-    length, distance, bend, window
-        Of `manifolds.trace_manifold`.
-
-    Returns
-    -------
-    ndarray, shape (3, n)
-
-    Raises
-    ------
-    ValueError
-        Too many points or images.
+    The other arguments are those of `manifolds.trace_manifold`. The branch's `ended` is set if it
+    ends before. Raises ValueError for too many points or images.
     """
     straight = sincos(bend * DEGREE)[1]
     u, states, travelled = np.empty(0), np.empty((3, 0)), np.zeros(1)
     for image in range(branch.images):
-        if branch.weak and not branch.known(image, u, states):
+        if branch.weak and not branch.is_accurate(image, u, states):
             branch.ended = float(travelled[-1])
             break
-        fresh = image + np.arange(FRESH) / FRESH
-        states = np.append(states, branch.next(fresh, u, states), axis=1)
-        u = np.append(u, fresh)
+        new_u = image + np.arange(POINTS_OF_IMAGE) / POINTS_OF_IMAGE
+        states = np.append(states, branch.next(new_u, u, states), axis=1)
+        u = np.append(u, new_u)
         while (coarse := _too_coarse(branch, u, states, distance, straight, window)).any():
             at = np.flatnonzero(coarse) + 1
             middle = (0.5 * (u[:-1] + u[1:]))[coarse]
-            fresh = branch.next(middle, u, states)
-            u, states = np.insert(u, at, middle), np.insert(states, at, fresh, axis=1)
+            new_states = branch.next(middle, u, states)
+            u, states = np.insert(u, at, middle), np.insert(states, at, new_states, axis=1)
             if u.size > MOST_VERTICES:
                 raise ValueError(
                     f"a manifold of more than {MOST_VERTICES} points: make length shorter"
@@ -75,18 +61,19 @@ def trace(branch, length, distance, bend, window):
 
 
 def _sides(vertices):
+    """Return the lengths of the sides of a polyline."""
     steps = np.diff(vertices, axis=1)
     return np.sqrt(np.sum(steps * steps, axis=0))
 
 
 def _is_jump(u):
-    """Where u cannot be halved any further: what is still apart there is a jump of the map."""
+    """Return where u cannot be halved further, so that a remaining gap is a jump of the map."""
     middle = 0.5 * (u[:-1] + u[1:])
     return (u[1:] - u[:-1] < 2.0**-40) | (middle == u[:-1]) | (middle == u[1:])
 
 
 def _too_coarse(branch, u, states, distance, straight, window):
-    """Which sides of the polyline need a point in their middle."""
+    """Return which sides of the polyline need a point in their middle."""
     drawn, inside, coarse = states / branch.radius, True, False
     if window is not None:
         sizes = np.array([window[1] - window[0], window[3] - window[2]])
@@ -97,7 +84,7 @@ def _too_coarse(branch, u, states, distance, straight, window):
     cosine = np.sum(step[:, 1:] * step[:, :-1], axis=0)
     bends = cosine < straight * sides[1:] * sides[:-1]
     bends &= np.maximum(sides[1:], sides[:-1]) > FINEST * distance
-    # a bend is mended by halving the longer of its two sides, both where they are alike
+    # Halve the longer of the two sides of a bend, or both if their lengths are similar.
     fine = sides > distance
     fine[:-1] |= bends & (sides[:-1] >= 0.5 * sides[1:])
     fine[1:] |= bends & (sides[1:] >= 0.5 * sides[:-1])
@@ -105,7 +92,7 @@ def _too_coarse(branch, u, states, distance, straight, window):
 
 
 def _meets(states, window, margin):
-    """Whether the box around a side, widened by `margin` of its longer edge, meets the window."""
+    """Return whether a side's box, widened by `margin` times its longer edge, meets the window."""
     low = np.minimum(states[:2, 1:], states[:2, :-1])
     high = np.maximum(states[:2, 1:], states[:2, :-1])
     widen = margin * np.max(high - low, axis=0)
@@ -114,9 +101,9 @@ def _meets(states, window, margin):
 
 
 def _pieces(states, keep):
-    """The vertices of the sides that are kept, a row of NaN between separate pieces."""
+    """Return the vertices of the sides to keep, with a row of NaN between separate pieces."""
     ends = np.concatenate([[False], keep]) | np.concatenate([keep, [False]])
-    gap = ends[:-1] & ends[1:] & ~keep  # two kept pieces that only a dropped side parts
+    gap = ends[:-1] & ends[1:] & ~keep  # a single dropped side separates two pieces
     (rows,) = np.nonzero(ends)
-    parted = np.nonzero((np.diff(rows) > 1) | gap[rows[:-1]])[0] + 1
-    return np.insert(states[:, rows], parted, np.nan, axis=1)
+    breaks = np.nonzero((np.diff(rows) > 1) | gap[rows[:-1]])[0] + 1
+    return np.insert(states[:, rows], breaks, np.nan, axis=1)

@@ -1,9 +1,9 @@
-"""What datasets of orbits are made of: names, variables, dims; and what is picked out of them."""
+"""Names, meanings and dims of variables in datasets of orbits, and selections from them."""
 
 import numpy as np
 
-# Scales: a number of a dataset times its scale is the quantity. R is the ball's radius, omega the
-# frequency of its stretching and m its mass.
+# Scales, by which numbers in datasets are multiplied. R is the ball's radius, omega the frequency
+# of its vibration and m its mass.
 LENGTH, SPEED, RATE, TIME = "R", "omega R", "omega", "1/omega"
 ENERGY, AREA, RADIUS = "m omega^2 R^2", "omega R^2", "section radius"
 NAMES = {
@@ -14,156 +14,102 @@ NAMES = {
 }
 
 
-def variables(dims, values, names=NAMES):
-    """Variables of a Dataset, dimensionless, each with what it means.
+def variables(dims, values, names=NAMES) -> dict:
+    """Return Dataset variables {name: (dims, array, attributes)} that share their dims.
 
-    Parameters
-    ----------
-    dims : str or tuple of str
-        The same of all.
-    values : iterable of array
-    names : dict
-        Name and meaning of each, or (meaning, scale), in the order of `values`.
-
-    Returns
-    -------
-    dict
-        {name: (dims, array, attributes)}.
+    `names` has the meaning of each name, or (meaning, scale), in the order of `values`.
     """
-    about = {name: (text,) if isinstance(text, str) else text for name, text in names.items()}
-    pairs = zip(about.items(), values, strict=True)
+    texts = {name: (text,) if isinstance(text, str) else text for name, text in names.items()}
+    pairs = zip(texts.items(), values, strict=True)
     return described({name: (dims, array, *text) for (name, text), array in pairs})
 
 
-def described(table):
-    """Variables of a Dataset, dimensionless numbers or words, each with what it means.
+def described(table) -> dict:
+    """Return Dataset variables {name: (dims, array, attributes)} from a table.
 
-    Parameters
-    ----------
-    table : dict
-        {name: (dims, values, meaning)}, or (dims, values, meaning, scale) of what is no pure
-        number.
-
-    Returns
-    -------
-    dict
-        {name: (dims, array, attributes)}.
+    `table` is {name: (dims, values, meaning)} or {name: (dims, values, meaning, scale)}. Values are
+    dimensionless numbers or words.
     """
-    found = {}
-    for name, (dims, values, *about) in table.items():
+    result = {}
+    for name, (dims, values, *text) in table.items():
         array = np.asarray(values)
         words = array.dtype.kind in "OU"
-        attributes = {"long_name": about[0]} if words else attributes_of(*about)
-        found[name] = dims, array.astype(object) if words else array, attributes
-    return found
+        attributes = {"long_name": text[0]} if words else attributes_of(*text)
+        result[name] = dims, array.astype(object) if words else array, attributes
+    return result
 
 
-def attributes_of(meaning, scale="1"):
-    """The attributes of a variable: what it means, and its scale.
+def attributes_of(meaning: str, scale: str = "1") -> dict:
+    """Return the attributes long_name, units and scale of a variable.
 
-    Parameters
-    ----------
-    meaning : str
-    scale : str
-        What the numbers are multiples of; "1" for pure numbers.
-
-    Returns
-    -------
-    dict
-        long_name, units ("1": all numbers are dimensionless) and scale.
+    Units are "1", because all numbers are dimensionless. The quantity is the number times the
+    scale.
     """
     return {"long_name": meaning, "units": "1", "scale": scale}
 
 
-def of_rows(table, rows):
-    """The same of rows of values, which are in the order of the table.
+def of_rows(table, rows) -> dict:
+    """Return Dataset variables from rows of values in the order of `table`.
 
-    Parameters
-    ----------
-    table : dict
-        {name: (dims, meaning)} or {name: (dims, meaning, scale)}; the first of the dims counts
-        the rows.
-    rows : sequence of tuple
-
-    Returns
-    -------
-    dict
-        {name: (dims, array, attributes)}.
+    `table` is {name: (dims, meaning)} or {name: (dims, meaning, scale)}; the first dim counts the
+    rows.
     """
     columns = zip(table.items(), zip(*rows, strict=True), strict=True)
     return described({name: (dims, column, *text) for (name, (dims, *text)), column in columns})
 
 
-def states_of(dataset):
-    """The states x, xdot, udot of a dataset as one array, a row each."""
+def states_of(dataset) -> np.ndarray:
+    """Return the states of a dataset as an array with the rows x, xdot, udot."""
     return np.stack([dataset[name].values for name in ("x", "xdot", "udot")])
 
 
-def chart(k, x, xdot, udot):
-    """The points (x, y) of states in the section's chart, y = xdot - k udot: (2, ...)."""
+def chart(k, x, xdot, udot) -> np.ndarray:
+    """Return the points (x, y = xdot - k udot) of states as an array (2, ...)."""
     return np.stack([x, xdot - k * udot])
 
 
-def orbit_dims(shape):
-    """The dims of many orbits: `orbit`, or of more than one dimension `orbit_0`, `orbit_1`, ..."""
+def orbit_dims(shape) -> tuple[str, ...]:
+    """Return the dim `orbit` of many orbits, or orbit_0, orbit_1, ... for more dimensions."""
     return ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
 
 
 class NoOrbitError(ValueError):
-    """There is no periodic orbit of that type, and so nothing that is made from it."""
+    """There is no periodic orbit of the requested type."""
 
     lasting = True
 
 
 def of_type(orbits, kind, period=None):
-    """The first orbit of a type among those of `symmetric_orbits`.
+    """Return the first orbit of a type, on `point`, among those of `symmetric_orbits`.
 
-    Parameters
-    ----------
-    orbits : xarray.Dataset
-        On (orbit, point), with type.
-    kind : {"elliptic", "hyperbolic", "inverse hyperbolic"}
-    period : int, optional
-        What the orbits' period must be.
-
-    Returns
-    -------
-    xarray.Dataset
-        On `point`.
+    The type is elliptic, hyperbolic or inverse hyperbolic.
 
     Raises
     ------
     NoOrbitError
-        Where there is none, saying what there is.
+        There is none.
     ValueError
-        Where the orbits have another period.
+        The orbits do not have the requested period.
     """
     if period not in (None, orbits.sizes["point"]):
         raise ValueError(f"orbits of period {orbits.sizes['point']}, not {period}")
     (matches,) = np.nonzero(orbits["type"].values == kind)
     if matches.size == 0:
-        there = ", ".join(sorted(set(orbits["type"].values.tolist()))) or "none at all"
+        available = ", ".join(sorted(set(orbits["type"].values.tolist()))) or "none at all"
         raise NoOrbitError(
             f"no {kind} orbit of period {orbits.sizes['point']} "
-            f"at energy {orbits.attrs['energy']:g} (found: {there})"
+            f"at energy {orbits.attrs['energy']:g} (found: {available})"
         )
     return orbits.isel(orbit=int(matches[0]))
 
 
-def final_exponents(lyapunov):
-    """The exponents of each orbit at its last record, sorted by value.
+def final_exponents(lyapunov) -> np.ndarray:
+    """Return the exponents (orbit, index) of each orbit at its last record, the largest first.
 
-    Parameters
-    ----------
-    lyapunov : xarray.Dataset
-        exponent (impact, orbit, index), as from `lyapunov_spectrum`; NaN beyond an orbit's end.
-
-    Returns
-    -------
-    ndarray, shape (orbit, index)
-        Nats an impact, the largest of each orbit first.
+    `lyapunov` has exponent (impact, orbit, index) as from `lyapunov_spectrum`, NaN beyond an
+    orbit's end.
     """
     exponent = lyapunov["exponent"].values
-    there = ~np.isnan(exponent[:, :, 0])
-    last = exponent.shape[0] - 1 - np.argmax(there[::-1], axis=0)
+    recorded = ~np.isnan(exponent[:, :, 0])
+    last = exponent.shape[0] - 1 - np.argmax(recorded[::-1], axis=0)
     return np.sort(exponent[last, np.arange(exponent.shape[1])], axis=1)[:, ::-1]
