@@ -1,13 +1,12 @@
-"""Where methods fail: grazing, touches, corners of k, g and E, and input that is no number.
+"""Flights near grazing, flights that touch the floor, and corners of k, g and E.
 
-The judge proves which root is the first; a wrong one counts as an infinite error. Errors of tau are
-relative and in units of its condition, which is 1/|f'(tau)| near a double root: see judge.Verdict.
+A reference solver proves which root is the first; another root counts as an infinite error. Errors
+of tau are relative, in units of its condition, which is 1/|f'(tau)| near a double root.
 """
 
 import math
 
 import mpmath
-import numpy as np
 import pytest
 from flights import TAU, before, error
 from hypothesis import example, given, settings
@@ -22,13 +21,13 @@ BALL = Ball(0.2, 0.04)
 
 
 def sides(g):
-    """x far above, hardly above, at, hardly below and far below -g."""
+    """Return x far above, just above, at, just below and far below -g."""
     nextafter = math.nextafter
     return (0.5 * g, 0.0, nextafter(-g, 0.0), -g, nextafter(-g, -1.0), -1.5 * g, -9.0 * g)
 
 
 def grazing(decade, g):
-    """States of this v + w, as small velocities and, where doubles can, as a difference."""
+    """Yield states with v + w = 1e-decade, as small velocities or as a difference."""
     s = float(f"1e-{decade}")
     for x in sides(g):
         for v in (0.0, s, -0.7 * s, 0.3, -1e-3):
@@ -44,11 +43,12 @@ def test_towards_grazing(decade, g):
         assert error(state) <= TAU, [a.hex() for a in state]
 
 
-# Seen from 1e-140 on, where squares and cubes of v + w under- and overflow: -inf (g = 1e-4,
-# x = w = 0, v = 0x1.e7c5f127bd87ep-466), tau too small at x = -g, a landing that does not end.
+# From 1e-140 on squares and cubes of v + w leave the range of doubles. That once led to tau = -inf
+# (g = 1e-4, x = w = 0, v = 0x1.e7c5f127bd87ep-466), a tau too small at x = -g, and an endless
+# landing.
 @pytest.mark.parametrize("decade", [140, *slowly(200, 300)])
 def test_the_last_decades_of_grazing(decade):
-    """At x = -g itself, where squares of v + w decide, tau counts as right to 1e-40."""
+    """At x = -g, where squares of v + w decide, an error of tau below 1e-40 is allowed."""
     for g in (1e-4, 1.0):
         for state in grazing(decade, g):
             off = error(state)
@@ -59,20 +59,20 @@ def test_the_last_decades_of_grazing(decade):
 
 
 def touching(x, t, height, g=0.04, k=0.2):
-    """(v, w) of a flight whose gap has a maximum of this height at t: f = height, f' = 0.
+    """Return (v, w) of a flight whose gap has a maximum of this height at t.
 
-    x, b and c enter the gap linearly; the doubles miss the height by a rounding.
+    x, b and c enter the gap linearly; as doubles they miss the height by a rounding.
     """
     x, t, g, k = (mpf(a) for a in (x, t, g, k))
     cosine, sine = mpmath.cos_sin(t)
     c = (height + g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
     b = -g * t - x * sine - c * cosine
-    assert b + c < 0  # the ball leaves the floor, and f'' < 0 at t
+    assert b + c < 0  # the ball leaves the floor
     assert g + x * cosine - c * sine < 0
     return tuple(float(a) for a in before(k, b, c))
 
 
-# (x, t): in the air before the touch.
+# (x, t) of touches without an earlier impact
 TOUCHES = ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.0399999, 5.0), (-0.05, 5.0),
            (-0.2, 7.0), (-0.2, 25.0))  # fmt: skip
 
@@ -80,7 +80,7 @@ TOUCHES = ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.0399999, 5.0), (
 @pytest.mark.parametrize("decade", range(2, 15))
 @pytest.mark.parametrize(("x", "t"), TOUCHES)
 def test_touched_and_missed(x, t, decade):
-    """A maximum of the gap of height +-1e-2 to +-1e-14: an impact before t, or not until after."""
+    """A maximum of +-1e-2 to +-1e-14 makes an impact before t, or none until later."""
     for sign in (1, -1):
         v, w = touching(x, t, sign * mpf(10) ** -decade)
         tau = BALL.time_to_impact(x, v, w)
@@ -90,7 +90,7 @@ def test_touched_and_missed(x, t, decade):
 
 @pytest.mark.parametrize(("x", "t"), TOUCHES)
 def test_a_touch_to_the_last_bit(x, t):
-    """Then tau is t to the root of a rounding, or the next impact: nothing in between."""
+    """tau is t to the root of a rounding, or the next impact, but nothing in between."""
     v, w = touching(x, t, 0)
     tau = BALL.time_to_impact(x, v, w)
     assert abs(tau - t) < 3e-7 * t or tau > t + 0.01
@@ -100,7 +100,7 @@ def test_a_touch_to_the_last_bit(x, t):
 @pytest.mark.parametrize("share", [1e-300, 1e-12, 0.1, 0.9, 1.0 - 1e-15])
 @pytest.mark.parametrize("g", [1e-4, 0.04, 1.0])
 def test_convex_gap(g, share):
-    """A = share g < g: f'' > 0 throughout."""
+    """For A = share g < g the gap is convex."""
     for phase in range(8):
         angle = 0.25 * math.pi * phase + 0.1
         x, c = share * g * math.cos(angle), share * g * math.sin(angle)
@@ -111,19 +111,10 @@ def test_convex_gap(g, share):
             assert error(state) <= TAU, [a.hex() for a in state]
 
 
-@pytest.mark.parametrize("k", [5e-324, 1e-300, 1e-16, 1e-9, 0.01, 0.2, 1 / 3, 1.0])
-@pytest.mark.parametrize("g", [1e-4, 1.0])
-def test_corners_of_k_and_g(k, g):
-    rng = np.random.default_rng(3)
-    for x, v, w in rng.uniform(-1.0, 1.0, (20, 3)):
-        state = (k, g, x, *((v, w) if v + w > 0.0 else (-v, -w)))
-        assert error(state) <= TAU, [a.hex() for a in state]
-
-
 @pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1e-4), Ball(0.01, 0.009)])
 @pytest.mark.parametrize("off", [1e-300, 1e-15, 1e-6])
 def test_energies_at_both_bounds(ball, off):
-    """A hair above rest on the floor, and below the energy at which the ball could flatten."""
+    """Cover energies close to rest on the floor, and to eq. (31)."""
     low, high = ball.energy_bounds()
     for energy in (low + off * abs(low), high - off * high):
         for fraction in (-0.999999, -0.5, 0.0, 0.5, 0.999999):
@@ -136,11 +127,11 @@ def test_energies_at_both_bounds(ball, off):
 
 @pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1.0)])
 def test_the_rim(ball):
-    """v + w = 0 exactly: pressed down above x = -g, tau = 0; leaving the floor below it."""
+    """At v + w = 0 the ball is pressed down above x = -g, and leaves the floor below it."""
     for x in sides(ball.g):
         for v in (0.3, -0.3, 1e-8, -1e-8, 1e-200):
             tau = ball.time_to_impact(x, v, -v)
-            # with x = -g the third derivative decides: -c = -w
+            # At x = -g the third derivative, -c = -w, decides.
             pressed = x > -ball.g or (x == -ball.g and v > 0.0)
             assert (tau == 0.0) == pressed, (x, v)
             assert error((ball.k, ball.g, x, v, -v)) <= TAU, (x.hex(), v.hex())
@@ -152,31 +143,18 @@ def within(found, true, grain):
 
 @pytest.mark.parametrize("unit", [5e-324, 1e-320, 1e-312, 2.3e-308])
 def test_subnormal_states(unit):
-    """Their own grain is 5e-324: the impact is right to what some grains of b and c do to it."""
+    """The error of subnormal impacts is that of some units of 5e-324 in b and c."""
     for x, v, w in ((3, 5, 7), (-4, 2, 9), (0, 1, 0), (100, -30, 31), (-200, 60, 60)):
         state = (x * unit, v * unit, w * unit)
         *_, tau = BALL.impact(*state)
         assert within(tau, judge(0.2, 0.04, *state).tau, 200 * 5e-324), state
-        # a light ball as well: then nothing is small in comparison
+        # With an equally small gravity nothing is small in comparison.
         tau = Ball(0.2, 8 * unit).time_to_impact(*state)
         assert 0.0 < tau < 1e3
 
 
-# Once answered with 0 or NaN, by squares beyond the range of doubles; see test_flight.REGRESSIONS
-# for the other states that were once wrong.
-REGRESSIONS = {
-    "huge gravity": (0.2, 1e300, 0.1, 0.1, 0.1),
-    "gravity beyond the other squares": (0.2, 1e200, 0.1, 0.1, 0.1),
-}
-
-
-@pytest.mark.parametrize("name", REGRESSIONS)
-def test_regressions(name):
-    assert error(REGRESSIONS[name]) <= TAU
-
-
 def signed(low, high):
-    """Floats of either sign whose sizes are spread by decade, and 0."""
+    """Return a strategy for 0 and floats of either sign with uniformly distributed logarithms."""
     sizes = st.floats(low, high).map(lambda a: 10.0**a)
     return st.one_of(sizes, sizes.map(lambda a: -a), st.just(0.0))
 
@@ -187,7 +165,7 @@ def signed(low, high):
 )
 @example(-2.0, -4.0, -1.0, 1.0, -1.0, True)
 def test_any_state_of_any_ball(k, g, x, v, w, near):
-    """k from 1e-12 to 1, g from 1e-6 to 100, lengths from 1e-9 to 1000 g; x near -g or anywhere."""
+    """Cover k from 1e-12 to 1, g from 1e-6 to 100, lengths from 1e-9 g to 1000 g, and x near -g."""
     k, g = 10.0**k, 10.0**g
     x, v, w = x * g, v * g, w * g
     x = -g + 1e-6 * x if near else x
@@ -199,7 +177,7 @@ def test_any_state_of_any_ball(k, g, x, v, w, near):
 @settings(max_examples=500, derandomize=True, deadline=None)
 @given(st.floats(-2, -0.5), st.floats(0.01, 0.99), st.floats(-0.999, 0.999), st.floats(0, 1))
 def test_any_energy(k, share, fraction, height):
-    """Over the whole section, energies from one bound to the other."""
+    """Cover the whole section at energies between both bounds."""
     k = 10.0**k
     ball = Ball(k, share * 0.5 * k)
     low, high = ball.energy_bounds()

@@ -1,8 +1,8 @@
-"""The impact map: what it preserves, its inverse, scaling and Jacobian, and its machine code."""
+"""Invariants, inverse, scaling and Jacobian of the impact map."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from independent_solver import exact_jacobian, judge
 from sections import BALL, section_states
@@ -10,14 +10,15 @@ from sections import BALL, section_states
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import flight, impact
 
-# About 1.4 times the worst that was measured over 20,000 states a ball (by the judge: 300 and 40).
+# Tolerances: about 1.4 times the largest errors of 20,000 states of each ball, or of 300 and 40
+# states where the reference solver is used.
 ONE_ENERGY = 1.2e-15
 STATE = 2.5e-16
 DETERMINANT = 6e-15
 GRADIENT = 1.6e-14
 JACOBIAN = 8e-16
 INVERSE = 1.4e-16
-ENERGY = 1e-11  # over a million impacts, relative; the worst of these orbits reaches 7.8e-12
+ENERGY = 1e-11  # relative, over a million impacts; the largest error of these orbits is 7.8e-12
 
 BALLS = (BALL, Ball(0.01, 0.003), Ball(1 / 3, 0.3), Ball(1.0, 1e-4), Ball(1.0, 1.0))
 
@@ -27,12 +28,12 @@ def sizes(ball, x, v, w):
 
 
 def spread(matrices):
-    """The largest entry of each matrix, at least 1."""
+    """Return the largest entry of each matrix, at least 1."""
     return np.maximum(1.0, np.abs(matrices).max(axis=(-1, -2)))
 
 
 def determinant(j):
-    """Of (..., 3, 3), by cofactors, and the sum of its terms' sizes: the scale of its rounding."""
+    """Return determinants (...) by cofactors, and the scale of their rounding errors."""
     terms = [
         (j[..., 0, i], (j[..., 1, p] * j[..., 2, q], j[..., 1, q] * j[..., 2, p]))
         for i, p, q in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
@@ -44,7 +45,7 @@ def determinant(j):
 
 
 def test_energy_over_a_million_impacts():
-    """The chaotic sea, an island and a nested one of Figure 2, looked at every 5,000 impacts."""
+    """Check orbits in the sea and in islands of Figure 2 every 5,000 impacts."""
     state = list(BALL.state_xy(np.array([0.40, 0.0735, 0.2532]), 0.0, 0.01))
     state = [a.copy() for a in np.broadcast_arrays(*state)]
     tau = np.empty(3)
@@ -56,22 +57,16 @@ def test_energy_over_a_million_impacts():
 
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_energy_of_one_impact(ball):
+def test_one_impact_keeps_energy_and_section(ball):
     state = section_states(ball, 3000)
-    x, v, w, _ = ball.impact(*state)
+    x, v, w, tau = ball.impact(*state)
+    assert np.all(v + w >= 0.0) and np.all(tau > 0.0)
     kinetic = v * v + ball.k * w * w + ball.k * x * x + np.abs(ball.g * x)
     assert np.max(np.abs(ball.energy(x, v, w) - ball.energy(*state)) / kinetic) < ONE_ENERGY
 
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_the_map_stays_on_the_section(ball):
-    _, v, w, tau = ball.impact(*section_states(ball, 3000))
-    assert np.all(v + w >= 0.0)
-    assert np.all(tau > 0.0)
-
-
-@pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_state_against_the_judge(ball):
+def test_state_against_the_reference_solver(ball):
     state = section_states(ball, 60, seed=1)
     found = np.array(ball.impact(*state)).T
     for start, (*end, tau) in zip(zip(*state, strict=True), found, strict=True):
@@ -83,7 +78,7 @@ def test_state_against_the_judge(ball):
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
 def test_area_is_kept(ball):
-    """det = 1 in the chart (x, y) at one energy; in (x, v, w) that is (v + w)/(v' + w')."""
+    """In (x, v, w) the chart's determinant 1 at fixed energy becomes (v + w)/(v' + w')."""
     state = section_states(ball, 3000, seed=2)
     _, v, w, _ = ball.impact(*state)
     det, scale = determinant(ball.jacobian(*state))
@@ -91,24 +86,15 @@ def test_area_is_kept(ball):
     assert np.max(np.abs(det * ratio - 1.0) / (scale * ratio)) < DETERMINANT
 
 
-def test_area_is_kept_by_the_chart_map():
-    """The 2 x 2 matrix itself, along two tangents of the energy surface."""
-    k, g = BALL.k, BALL.g
-    state = section_states(BALL, 3000, seed=3)
-    x, v, w = state
-    j = BALL.jacobian(*state)
-    columns = []
-    for dx, dy in ((1.0, 0.0), (0.0, 1.0)):
-        dw = -(v * dy + (k * x - g) * dx) / (k * (v + w))
-        moved = np.einsum("nij,nj->ni", j, np.stack([dx + 0 * dw, dy + k * dw, dw], axis=-1))
-        columns.append((moved[:, 0], moved[:, 1] - k * moved[:, 2]))
-    (a, c), (b, d) = columns
-    assert np.max(np.abs(a * d - b * c - 1.0) / (1.0 + np.abs(a * d) + np.abs(b * c))) < 1e-12
+def test_chart_jacobian_has_determinant_one():
+    for state in zip(*section_states(BALL, 300, seed=3), strict=True):
+        (a, b), (c, d) = BALL.chart_jacobian(*state)
+        assert abs(a * d - b * c - 1.0) < 1e-12 * (1.0 + abs(a * d) + abs(b * c))
 
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
 def test_energy_gradient_is_kept(ball):
-    """E o F = E: the gradient at the end times the Jacobian is the gradient at the start."""
+    """E o F = E: the gradient at the end times the Jacobian is that at the start."""
     state = section_states(ball, 3000, seed=4)
     j = ball.jacobian(*state)
     grad = [
@@ -121,7 +107,7 @@ def test_energy_gradient_is_kept(ball):
 
 
 @pytest.mark.parametrize("ball", BALLS[:4], ids=str)
-def test_jacobian_against_the_judge(ball):
+def test_jacobian_against_the_reference_solver(ball):
     for state in zip(*section_states(ball, 12, seed=5), strict=True):
         exact = np.array(exact_jacobian(ball.k, ball.g, *state), dtype=float)
         found = ball.jacobian(*state)
@@ -133,7 +119,7 @@ def test_jacobian_against_the_judge(ball):
 @pytest.mark.parametrize("s", [1e-12, 1e-6])
 @pytest.mark.parametrize("share", [-0.9, 0.0, 2.0])
 def test_jacobian_of_tiny_flights(share, s):
-    """Where x > -g a grazing flight is tiny: no entry is lost to cancellation."""
+    """For x > -g a grazing flight is tiny, and no entry may suffer cancellation."""
     state = (share * BALL.g, 0.1, s - 0.1)
     exact = np.array(exact_jacobian(BALL.k, BALL.g, *state, step=s * 1e-20), dtype=float)
     assert np.allclose(BALL.jacobian(*state), exact, rtol=1e-14, atol=1e-14)
@@ -141,13 +127,13 @@ def test_jacobian_of_tiny_flights(share, s):
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
 def test_inverse(ball):
-    """F^-1 F = F F^-1 = identity, to roundings times what the way back stretches them by."""
+    """F^-1 F = F F^-1 = identity, to roundings times their growth on the way back."""
     state = section_states(ball, 3000, seed=6)
     size = sizes(ball, *state)
     for there, back in ((ball.impact, ball.inverse_impact), (ball.inverse_impact, ball.impact)):
         *middle, tau = there(*state)
         *again, tau_again = back(*middle)
-        # the way back undoes `there`, so it stretches by the inverse of its Jacobian
+        # The way back stretches errors by the inverse of the Jacobian of the way there.
         begin = state if there == ball.impact else middle
         j = ball.jacobian(*begin)
         stretch = spread(np.linalg.inv(j)) if there == ball.impact else spread(j)
@@ -160,11 +146,11 @@ def test_inverse(ball):
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
 def test_reversor(ball):
-    """P R P R = identity, through the public map and reflection only."""
+    """P R P R = identity, by the public map and reflection."""
     state = section_states(ball, 3000, seed=7)
     there = ball.impact(*ball.reflect(*state))[:3]
     again = ball.impact(*ball.reflect(*there))[:3]
-    # the rounding of `there` is stretched by the flight from R(there)
+    # The second flight stretches the rounding errors of the first.
     stretch = spread(ball.jacobian(*ball.reflect(*there)))
     size = sizes(ball, *state)
     speed = np.minimum(state[1] + state[2], there[1] + there[2])
@@ -179,10 +165,8 @@ def test_reversor(ball):
     *[st.floats(-2.0, 2.0, allow_subnormal=False)] * 3,
 )  # fmt: skip
 def test_scaling_by_a_power_of_two(power, k, g, x, v, w):
-    """(x, v, w, g) -> L (...) leaves tau alone, in every bit."""
-    small = any(0 < abs(a) < 1e-30 for a in (x, v, w, v + w))
-    if small:
-        return
+    """(x, v, w, g) -> L (x, v, w, g) keeps every bit of tau."""
+    assume(not any(0 < abs(a) < 1e-30 for a in (x, v, w, v + w)))
     v, w = (v, w) if v + w >= 0 else (-v, -w)
     scale = 2.0**power
     one, two = Ball(k, g), Ball(k, g * scale)
@@ -197,16 +181,6 @@ def test_scaling_by_a_power_of_two(power, k, g, x, v, w):
     assert np.array_equal(
         one.jacobian(x, v, w), two.jacobian(x * scale, v * scale, w * scale), equal_nan=True
     )
-
-
-def test_scaling_over_the_section():
-    for ball in BALLS:
-        state = section_states(ball, 2000, seed=8)
-        large = Ball(ball.k, ball.g * 2.0**40)
-        *end, tau = ball.impact(*state)
-        *far, tau_far = large.impact(*(a * 2.0**40 for a in state))
-        assert np.array_equal(tau, tau_far)
-        assert all(np.array_equal(a * 2.0**40, b) for a, b in zip(end, far, strict=True))
 
 
 def test_loops_agree_with_single_steps():
@@ -224,7 +198,7 @@ def test_loops_agree_with_single_steps():
 
 
 def test_a_march_has_few_evaluations():
-    """O(1) a flight, also at thousands of vibrations: a crawl or a scan would show here."""
+    """Even flights of thousands of vibrations take few evaluations."""
     evaluations = []
     for g in (1e-4, 1e-2, 1.0):
         rng = np.random.default_rng(10)

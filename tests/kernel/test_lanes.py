@@ -1,4 +1,4 @@
-"""An ensemble gives every orbit the bits it has alone, in lanes, in threads and in any company."""
+"""Orbits of an ensemble have the bits of single orbits, in lanes and in threads."""
 
 import numpy as np
 import pytest
@@ -14,15 +14,15 @@ from pseudorigid.kernel import impact, lanes
 BALL = Ball(k=0.2, g=0.04)
 
 
-def alone(states, ball, impacts):
-    """The history (n, impacts, 4) of each state by the loop over one orbit."""
+def orbit_by_orbit(states, ball, impacts):
+    """Return the history (n, impacts, 4) of each state, computed orbit by orbit."""
     out = np.empty((states[0].size, impacts, 4))
     impact.history(*(a.copy() for a in states), ball.k, ball.g, out, None)
     return out
 
 
-def together(states, ball, impacts):
-    """The same in lanes."""
+def in_lanes(states, ball, impacts):
+    """Return the history (n, impacts, 4) of each state, computed in lanes."""
     out = np.empty((states[0].size, impacts, 4))
     tau = np.empty(states[0].size)
     ends = [a.copy() for a in states]
@@ -34,7 +34,7 @@ def together(states, ball, impacts):
 @pytest.mark.parametrize("n", [1, 2, lanes.LANES - 1, lanes.LANES, lanes.LANES + 1, 205])
 def test_every_lane_has_the_bits_of_one_orbit(n):
     states = sea(n)
-    assert np.array_equal(together(states, BALL, 150), alone(states, BALL, 150))
+    assert np.array_equal(in_lanes(states, BALL, 150), orbit_by_orbit(states, BALL, 150))
 
 
 @settings(max_examples=30, deadline=None)
@@ -44,15 +44,17 @@ def test_every_lane_has_the_bits_of_one_orbit(n):
     share=st.floats(1e-6, 0.999),
     seed=st.integers(1, 1000),
 )
-def test_for_any_ball_and_energy(k, g, share, seed):
+def test_lanes_for_any_ball_and_energy(k, g, share, seed):
     ball = Ball(k=k, g=g)
     lowest, _ = ball.energy_bounds()
     states = sea(32 + seed % 9, lowest + share * (3.0 * abs(lowest) + 0.1), ball)
-    assert np.array_equal(together(states, ball, 40), alone(states, ball, 40), equal_nan=True)
+    assert np.array_equal(
+        in_lanes(states, ball, 40), orbit_by_orbit(states, ball, 40), equal_nan=True
+    )
 
 
-def test_states_that_no_lane_can_do():
-    """On the rim, huge, tiny, NaN and infinite ones, among ordinary ones."""
+def test_states_that_leave_their_lane():
+    """Mix ordinary states with ones on the rim, huge, tiny, NaN and infinite."""
     x, v, w = sea(60)
     x[3], v[3], w[3] = -0.04, 0.05, -0.05
     x[7], v[7], w[7] = 0.1, 0.05, -0.05
@@ -62,11 +64,13 @@ def test_states_that_no_lane_can_do():
     x[23], v[23], w[23] = 2.0**-300, 0.0, 2.0**-300
     x[27], v[27], w[27] = 0.0, 1e9, 0.0
     states = x, v, w
-    assert np.array_equal(together(states, BALL, 5), alone(states, BALL, 5), equal_nan=True)
+    assert np.array_equal(
+        in_lanes(states, BALL, 5), orbit_by_orbit(states, BALL, 5), equal_nan=True
+    )
 
 
 def test_few_flights_leave_their_lane(monkeypatch):
-    """What is left to `impact.step` is the exception, or the lanes would be for nothing."""
+    """`impact.step` may do few flights only, or lanes would gain nothing."""
     states = sea(lanes.LANES)
     row = np.zeros(lanes.SIZE)
     coefficients = impact.impact_coefficients(BALL.k)
@@ -93,7 +97,7 @@ def test_few_flights_leave_their_lane(monkeypatch):
 def test_threads_do_not_matter(threads, monkeypatch):
     states = sea(300)
     assert 3 * ensemble.MIN_IMPACTS_PER_THREAD < 300 * 400
-    expected = alone(states, BALL, 400)
+    expected = orbit_by_orbit(states, BALL, 400)
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     out = np.empty_like(expected)
     BALL.map.history(*(a.copy() for a in states), BALL.k, BALL.g, out)

@@ -1,4 +1,4 @@
-"""The machine code: every operation rounded once, in the order written, and no library called."""
+"""Machine code: every operation is rounded once, in the order written, and no library is called."""
 
 import math
 import os
@@ -13,7 +13,7 @@ from sections import BALL, section_states
 from pseudorigid.dynamics import lyapunov, tangent_orbits
 from pseudorigid.kernel import arithmetic, impact, lanes, tangents
 
-# A fused multiply-add changes bits from processor to processor, and so does a library's sine.
+# Fused multiply-adds and library functions have other bits on other processors.
 FUSED = re.compile(r"\bv?fn?m(?:add|sub)\w*|\bfml[as]\b|llvm\.fma|llvm\.fmuladd")
 LIBRARY = re.compile(
     r"(?:callq?|bl|jmp|movabsq|leaq|ldr)\s[^\n]*?"
@@ -23,7 +23,7 @@ LIBRARY = re.compile(
 
 
 def code(function, *arguments):
-    """The machine and LLVM code of a kernel, compiled anew: numba cannot show what is cached."""
+    """Compile a kernel anew, because numba cannot show cached code, and return its machine code."""
     fresh = numba.njit(error_model="numpy")(function.py_func)
     fresh(*arguments)
     return "\n".join([*fresh.inspect_asm().values(), *fresh.inspect_llvm().values()])
@@ -48,8 +48,8 @@ def test_machine_code_is_strict():
         assert not re.search(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)", text), kernel
 
 
-def test_the_loops_over_lanes_are_vector_instructions():
-    """Whether the compiler sees that they may be depends on how an index is written."""
+def test_loops_over_lanes_are_vectorised():
+    """The compiler vectorises a loop only if it can exclude negative indices."""
     row, h = np.ones(lanes.SIZE), (0.1, 0.1)
     states, flights = tangents.allocate_buffers()
     states[:] = flights[:] = 1.0
@@ -68,8 +68,8 @@ def test_the_loops_over_lanes_are_vector_instructions():
         assert re.search(r"fdiv <\d+ x double>", code(loop, *arguments)), loop
 
 
-def test_the_search_of_machine_code_finds():
-    """A positive control of the test above."""
+def test_patterns_find_code_that_is_not_strict():
+    """The patterns match code that is not strict."""
 
     @numba.njit(fastmath=True)
     def loose(a, b):
@@ -82,7 +82,7 @@ def test_the_search_of_machine_code_finds():
     assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
 
 
-def test_where_nothing_can_be_kept_each_process_compiles_for_itself(tmp_path):
+def test_compilation_without_a_writable_folder(tmp_path):
     (tmp_path / "file").touch()
     program = "from pseudorigid.kernel.compiled import jit; print(jit(lambda x: x + 1)(1))"
     result = subprocess.run(

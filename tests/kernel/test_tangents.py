@@ -1,4 +1,4 @@
-"""Tangent vectors of many orbits have the bits that those of each orbit have alone."""
+"""Tangent vectors along many orbits have the bits of those along single orbits."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,8 @@ from pseudorigid.kernel.arithmetic import WIDE
 BALL = Ball(k=0.2, g=0.04)
 
 
-def alone(states, vectors, ball, impacts):
-    """The vector (3, n) of each state after `impacts`, one orbit after the other."""
+def orbit_by_orbit(states, vectors, ball, impacts):
+    """Return the vectors (3, n) after `impacts`, computed orbit by orbit."""
     coefficients = impact.impact_coefficients(ball.k)
     out = vectors.copy()
     for i in range(states[0].size):
@@ -30,47 +30,43 @@ def alone(states, vectors, ball, impacts):
     return out
 
 
-def together(states, vectors, ball, impacts, how=None):
-    """The same by stretches, and the states at the end."""
+def in_chunks(states, vectors, ball, impacts, root_finder=None):
+    """Return the vectors (3, n) and the states after `impacts`, computed in chunks."""
     x, v, w = (a.copy() for a in states)
     coefficients = impact.impact_coefficients(ball.k)
     out = vectors.copy()
     for first in range(0, x.size, tangents.GROUP):
         part = slice(first, min(first + tangents.GROUP, x.size))
-        rooms = tangents.allocate_buffers()
+        buffers = tangents.allocate_buffers()
         done = 0
         while done < impacts:
             count = min(tangents.CHUNK, impacts - done)
-            tangents.advance_chunk(x[part], v[part], w[part], ball.k, ball.g, count, *rooms, how)
+            tangents.advance_chunk(
+                x[part], v[part], w[part], ball.k, ball.g, count, *buffers, root_finder
+            )
             for row in range(0, count * tangents.GROUP, tangents.GROUP):
                 for i in range(part.stop - part.start):
                     at = row + i
                     out[:, first + i] = tangents.push_tangent(
-                        *out[:, first + i], ball.k, ball.g, coefficients, *rooms, at
+                        *out[:, first + i], ball.k, ball.g, coefficients, *buffers, at
                     )
             done += count
     return out, (x, v, w)
 
 
-def some_vectors(n):
+def random_vectors(n):
     return np.random.default_rng(n).normal(size=(3, n))
 
 
-@pytest.mark.parametrize(
-    "n",
-    [
-        1,
-        lanes.MIN_ORBITS_FOR_LANES - 1,
-        lanes.MIN_ORBITS_FOR_LANES,
-        lanes.LANES + 1,
-        tangents.GROUP + 2,
-    ],
-)
+FEW = lanes.MIN_ORBITS_FOR_LANES
+
+
+@pytest.mark.parametrize("n", [1, FEW - 1, FEW, lanes.LANES + 1, tangents.GROUP + 2])
 def test_every_vector_has_the_bits_of_one_orbit(n):
-    states, vectors = sea(n), some_vectors(n)
+    states, vectors = sea(n), random_vectors(n)
     impacts = tangents.CHUNK + 9
-    found, ends = together(states, vectors, BALL, impacts)
-    assert np.array_equal(found, alone(states, vectors, BALL, impacts))
+    found, ends = in_chunks(states, vectors, BALL, impacts)
+    assert np.array_equal(found, orbit_by_orbit(states, vectors, BALL, impacts))
     steps = [a.copy() for a in states]
     impact.steps(*steps, BALL.k, BALL.g, impacts, np.empty(n), None)
     assert np.array_equal(ends, steps)
@@ -83,41 +79,41 @@ def test_every_vector_has_the_bits_of_one_orbit(n):
     share=st.floats(1e-6, 0.999),
     seed=st.integers(1, 1000),
 )
-def test_for_any_ball_and_energy(k, g, share, seed):
+def test_vectors_for_any_ball_and_energy(k, g, share, seed):
     ball = Ball(k=k, g=g)
     lowest, _ = ball.energy_bounds()
     states = sea(12 + seed % 9, lowest + share * (3.0 * abs(lowest) + 0.1), ball)
-    vectors = some_vectors(states[0].size)
-    found, _ = together(states, vectors, ball, 12)
-    assert np.array_equal(found, alone(states, vectors, ball, 12), equal_nan=True)
+    vectors = random_vectors(states[0].size)
+    found, _ = in_chunks(states, vectors, ball, 12)
+    assert np.array_equal(found, orbit_by_orbit(states, vectors, ball, 12), equal_nan=True)
 
 
-def test_long_flights_and_states_that_are_none():
+def test_long_flights_and_invalid_states():
     x, v, w = sea(40)
     x[5], v[5], w[5] = np.nan, 0.1, 0.1
     x[9], v[9], w[9] = 0.0, 0.0, 1e9
     x[13], v[13], w[13] = -0.04, 0.05, -0.05  # on the rim
     assert BALL.time_to_impact(x[9], v[9], w[9]) > WIDE
-    found, _ = together((x, v, w), some_vectors(40), BALL, 5)
-    expected = alone((x, v, w), some_vectors(40), BALL, 5)
+    found, _ = in_chunks((x, v, w), random_vectors(40), BALL, 5)
+    expected = orbit_by_orbit((x, v, w), random_vectors(40), BALL, 5)
     assert np.array_equal(found, expected, equal_nan=True)
     assert np.all(np.isfinite(found[:, 9]))
     assert np.all(np.isnan(found[:, 5]))
 
 
-def test_by_the_scan_as_well():
-    states, vectors = sea(20), some_vectors(20)
-    found, ends = together(states, vectors, BALL, 10, (0.1, 1e-12))
+def test_vectors_with_the_scan():
+    states, vectors = sea(20), random_vectors(20)
+    found, ends = in_chunks(states, vectors, BALL, 10, (0.1, 1e-12))
     steps = [a.copy() for a in states]
     impact.steps(*steps, BALL.k, BALL.g, 10, np.empty(20), (0.1, 1e-12))
     assert np.array_equal(ends, steps)
-    exact, _ = together(states, vectors, BALL, 10)
+    exact, _ = in_chunks(states, vectors, BALL, 10)
     assert not np.array_equal(found, exact)
     assert found == pytest.approx(exact, rel=1e-4)
 
 
 @pytest.mark.parametrize("threads", ["1", "3"])
-def test_a_spectrum_does_not_depend_on_company_or_threads(threads, monkeypatch):
+def test_a_spectrum_depends_on_no_other_orbit_or_thread(threads, monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     states = sea(tangents.GROUP + 40)
     many = lyapunov_spectrum(BALL, states, 500, 3)["exponent"].values
