@@ -9,7 +9,7 @@ from pseudorigid import Ball, orbit, symmetric_orbits
 
 
 def brute_force(ball, energy, period, cells, steps=25):
-    """Symmetric orbits from Newton's method in the chart, started on a grid of the section."""
+    """Return symmetric orbits found by Newton's method in the chart from a grid of the section."""
     k, g = ball.k, ball.g
     centre, radius = ball.section(energy)
     height = radius * np.sqrt(k * (1 + k))
@@ -57,7 +57,7 @@ def brute_force(ball, energy, period, cells, steps=25):
 
 
 def compare_with_brute_force(ball, energy, period, cells):
-    """Every orbit that brute force finds with |trace| < 500 is in the answer."""
+    """Check that the search finds each orbit of brute force with |trace| < 500."""
     radius = ball.section(energy)[1]
     orbits = symmetric_orbits(ball, energy, period)
     starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]

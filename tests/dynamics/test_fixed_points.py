@@ -1,4 +1,4 @@
-"""Fixed points of the impact map are those of the closed form, in 40 digits."""
+"""Fixed points of the impact map agree with the closed form in 40 digits."""
 
 import mpmath
 import numpy as np
@@ -10,11 +10,9 @@ from pseudorigid import Ball, symmetric_orbits
 
 
 def fixed_points(k, g, energy):
-    """(theta, x, v, w) of all fixed points, by the closed form of tau = 2 theta, in 40 digits.
+    """Return (theta, x, v, w) of all fixed points, by the closed form of `dynamics.fixed_point`.
 
-    v = g theta, w = g theta/k, x = (g theta/k) cot theta and
-    E = (g^2/2k) ((1 + k) theta^2 + (1 - theta cot theta)^2 - 1); beyond pi, those that do not touch
-    the floor earlier.
+    Roots theta beyond pi count only if the flight does not touch the floor earlier.
     """
     big = mpf(energy) * 2 * mpf(k) / mpf(g) ** 2 + 1
 
@@ -23,7 +21,7 @@ def fixed_points(k, g, energy):
 
     found = []
     last = float(mpmath.sqrt(big / (1 + k)))
-    # nodes crowd towards both ends, where cot is infinite
+    # Nodes are dense near both ends, where cot is infinite.
     share = (1 - np.cos(np.pi * (np.arange(4000) + 1 / 3) / 4000)) / 2
     for branch in range(int(last / np.pi) + 1):
         theta = np.pi * (branch + share)
@@ -54,11 +52,11 @@ FIXED = [
 
 
 @pytest.mark.parametrize(("k", "g", "energy"), FIXED)
-def test_fixed_points_are_those_of_the_closed_form(k, g, energy):
+def test_fixed_points_against_the_closed_form(k, g, energy):
     ball = Ball(k, g)
     lowest, _ = ball.energy_bounds()
     radius = ball.section(energy)[1]
-    # how much a rounding of the terms of E moves the points
+    # Effect on the points of a rounding of the terms of E
     limit = 1e-15 * (1 + abs(lowest) / (energy - lowest))
     with mpmath.workdps(40):
         expected = sorted(fixed_points(k, g, energy))
@@ -72,7 +70,7 @@ def test_fixed_points_are_those_of_the_closed_form(k, g, energy):
                 assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
 
 
-def test_one_fixed_point_on_zero_to_pi_whatever_the_ball():
+def test_any_ball_has_one_fixed_point_below_pi():
     random = np.random.default_rng(2)
     for _ in range(40):
         k = 10 ** random.uniform(-2, 0)

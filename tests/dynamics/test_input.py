@@ -1,4 +1,4 @@
-"""How public functions read numbers: one rule for all of them, in `help(pseudorigid)`."""
+"""Conversion of numbers by public functions, by the rule in `help(pseudorigid)`."""
 
 import datetime
 from decimal import Decimal
@@ -24,8 +24,8 @@ def trace(ball=BALL, energy=0.01, **arguments):
     return trace_manifold(Ball(0.2, 0.04), energy, SADDLE, **short | arguments)
 
 
-def entry(name, call, value, **others):
-    """The values of what a call returns for one argument, the others as they are."""
+def results(name, call, value, **others):
+    """Call a function with one argument replaced, and return the values of its result."""
     found = call(**others | {name: value})
     if isinstance(found, xr.Dataset):
         return [found[variable].values for variable in sorted(found.data_vars)]
@@ -37,7 +37,7 @@ def entry(name, call, value, **others):
 
 
 STATE = {"x": 0.125, "xdot": 0.25, "udot": 0.5}
-OF_STATES = [
+FUNCTIONS_OF_STATES = [
     BALL.energy,
     BALL.reflect,
     BALL.time_to_impact,
@@ -47,8 +47,8 @@ OF_STATES = [
     lambda x, xdot, udot: orbit(BALL, (x, xdot, udot), 3, keep="last"),
     lambda x, xdot, udot: lyapunov_spectrum(BALL, (x, xdot, udot), 3, 1),
 ]
-# (argument, function, a value, the others)
-COORDINATES = [(name, call, STATE[name], STATE) for call in OF_STATES for name in STATE]
+# (argument, function, value, other arguments)
+COORDINATES = [(name, call, STATE[name], STATE) for call in FUNCTIONS_OF_STATES for name in STATE]
 COORDINATES += [
     (name, BALL.state, value, {"x": 0.125, "xdot": 0.25, "energy": 0.5})
     for name, value in (("x", 0.125), ("xdot", 0.25), ("energy", 0.5))
@@ -81,13 +81,13 @@ COUNTS = [
     ("period", lambda period: symmetric_orbits(BALL, 0.25, period), 1, {}),
     ("saddle", trace, 3, {}),
 ]
-NO_NUMBERS = (
+INVALID_NUMBERS = (
     True, np.True_, "0.25", b"1", np.str_("1"), None, 0.25 + 0j, np.complex64(1), {}, {0.25},
     object(), datetime.date(2020, 1, 1), np.datetime64("2020"), np.timedelta64(1, "ns"),
     np.array("0.25"), np.array(True), np.array(None), 10**400, -(10**5000), Decimal("1e400"),
     Decimal("sNaN"), Fraction(10**400), xr.DataArray(True), SADDLE, pandas.NA, lambda: 1.0,
 )  # fmt: skip
-NO_ARRAYS = (
+INVALID_ARRAYS = (
     [True, 0.25], ["0.25", 0.25], [None, 0.25], [0.25, 1j], [[1], [1, 2]], [10**400], [{}],
     np.array([0.25, 1j]), np.array(["0.25"]), np.array([True]), pandas.Series(["a"]),
     np.array([np.timedelta64(1, "ns")]), np.array([0.25, None]), np.zeros(2, dtype="f8, f8"),
@@ -100,11 +100,11 @@ def same(found, expected):
 
 
 @pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
-def test_what_is_no_number_is_refused_in_one_line(case):
+def test_other_values_are_rejected_in_one_line(case):
     name, call, _, others = case
-    for value in (*NO_NUMBERS, *NO_ARRAYS):
+    for value in (*INVALID_NUMBERS, *INVALID_ARRAYS):
         with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: ") as error:
-            entry(name, call, value, **others)
+            results(name, call, value, **others)
         assert "\n" not in str(error.value) and len(str(error.value)) < 160
 
 
@@ -115,48 +115,48 @@ def test_a_parameter_is_one_finite_number_within_its_range(case):
     bad += [[], -2.5, 200.5, 2**53 + 1] if case in COUNTS else [[], -0.25]
     for one in bad:
         with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: ") as error:
-            entry(name, call, one, **others)
+            results(name, call, one, **others)
         assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
-def test_the_type_of_a_number_does_not_matter(case):
+def test_the_type_of_a_number_is_irrelevant(case):
     name, call, value, others = case
-    expected = entry(name, call, value, **others)
+    expected = results(name, call, value, **others)
     kinds = [np.float64, np.float32, np.float16, np.longdouble, Decimal, Fraction, np.array]
     kinds += [xr.DataArray, lambda v: np.array(Fraction(v)), np.ma.array, float]
     kinds += [int, np.int8, np.int64, np.array] if value == int(value) else []
     kinds += [np.uint8] if value == int(value) and value > 0 else []
     for kind in kinds:
-        assert same(entry(name, call, kind(value), **others), expected), kind
+        assert same(results(name, call, kind(value), **others), expected), kind
 
 
 @pytest.mark.parametrize("case", COORDINATES)
-def test_a_coordinate_that_is_not_finite_gives_nan_there_and_only_there(case):
+def test_a_coordinate_that_is_not_finite_gives_nan_only_there(case):
     name, call, value, others = case
-    expected = [np.asarray(a).ravel() for a in entry(name, call, value, **others)]
+    expected = [np.asarray(a).ravel() for a in results(name, call, value, **others)]
     arrays = [[value, bad, value] for bad in (np.nan, np.inf, -np.inf, np.ma.masked)]
     arrays += [tuple(arrays[0]), np.array(arrays[0]), np.float32(arrays[0])]
     arrays += [np.ma.array([value, 9.0, value], mask=[0, 1, 0]), pandas.Series(arrays[0])]
     arrays += [xr.DataArray(arrays[0], dims="any"), [Decimal(value), np.nan, Fraction(value)]]
     arrays += [[value, Decimal("Infinity"), np.array(value)]]
     for array in arrays:
-        for found, one in zip(entry(name, call, array, **others), expected, strict=True):
+        for found, one in zip(results(name, call, array, **others), expected, strict=True):
             orbits = np.moveaxis(np.asarray(found), np.shape(found).index(3), 0)
             if np.shape(found)[:2] == (1, 3):  # the exponents, on (impact, orbit, index)
                 orbits = found[0]
             assert np.isnan(orbits[1]).all()
             assert orbits[0].tobytes() == orbits[2].tobytes() == one.tobytes()
     for bad in (np.nan, np.inf, -np.inf, np.ma.masked):
-        for found in entry(name, call, bad, **others):
+        for found in results(name, call, bad, **others):
             assert np.isnan(found).all()
 
 
 @pytest.mark.parametrize("case", COORDINATES)
-def test_empty_arrays_give_empty_ones(case):
+def test_empty_arrays_give_empty_results(case):
     name, call, _, others = case
     for empty in ([], np.empty((0, 2)), xr.DataArray(np.empty(0))):
-        assert all(np.size(found) == 0 for found in entry(name, call, empty, **others))
+        assert all(np.size(found) == 0 for found in results(name, call, empty, **others))
 
 
 @settings(derandomize=True, deadline=None)
@@ -176,7 +176,7 @@ def test_the_section_takes_energies():
 
 
 @pytest.mark.filterwarnings("error")
-def test_numbers_too_large_to_compute_with_and_the_rim_warn_of_nothing():
+def test_overflow_and_the_rim_cause_no_warning():
     for size in (1e200, 1e308):
         assert BALL.energy(size, size, size) == np.inf
         for call in (BALL.reflect, BALL.impact, BALL.inverse_impact, BALL.jacobian):
@@ -189,7 +189,7 @@ def test_numbers_too_large_to_compute_with_and_the_rim_warn_of_nothing():
     assert np.isnan(BALL.chart_jacobian(0.1, -0.1, 0.1)).all()
 
 
-def test_words_are_these_words():
+def test_other_words_and_objects_are_rejected():
     start = BALL.start(0.5, 0.5)
     for keep in ("some", None, ["all"], np.array(["all", "last"])):
         with pytest.raises(ValueError, match=r"^keep = .* is not allowed: 'all' or 'last'"):
@@ -217,8 +217,8 @@ def test_words_are_these_words():
 
 
 @pytest.mark.parametrize("start", [0.5, [0.5], [0.5, -0.25, 0.75], [[0.5, -0.25]]])
-def test_an_orbit_goes_on_from_a_dataset(start):
-    """With the bits of the whole orbit, after all impacts or the last one, in any order of dims."""
+def test_an_orbit_continues_from_a_dataset(start):
+    """It has the bits of the whole orbit, for any order of dims."""
     state = BALL.start(start, 0.01)
     whole = orbit(BALL, state, 50)
     first = orbit(BALL, state, 20)
@@ -237,10 +237,10 @@ def test_an_orbit_goes_on_from_a_dataset(start):
     )
 
 
-def test_an_orbit_goes_on_from_a_periodic_orbit_and_a_scene():
+def test_an_orbit_continues_from_a_periodic_orbit_and_a_scene():
     ball = Ball(0.2, 0.04)
     six = symmetric_orbits(ball, 0.01, 6)
-    again = orbit(ball, six.isel(orbit=1), 6)  # from the last point on: the points in their order
+    again = orbit(ball, six.isel(orbit=1), 6)  # from the last point on
     assert np.allclose(again["x"], six["x"][1], atol=1e-13)
     assert orbit(ball, six, 2)["x"].dims == ("impact", "orbit")
     point = six.isel(orbit=1, point=2)
@@ -262,14 +262,14 @@ def test_an_orbit_goes_on_from_a_periodic_orbit_and_a_scene():
         None, 3, (0.1, 0.2), (0.1, 0.2, 0.3, 0.4), {}, "ab",
     ],
 )  # fmt: skip
-def test_what_is_no_state_is_refused_in_one_line(state):
+def test_invalid_states_are_rejected_in_one_line(state):
     for call in (orbit, lyapunov_spectrum):
         with pytest.raises(ValueError, match=r"^state(:| = .* is not allowed)") as error:
             call(BALL, state, 3)
         assert "\n" not in str(error.value)
 
 
-def test_more_impacts_than_memory_holds():
+def test_results_beyond_memory_are_rejected():
     with pytest.raises(ValueError, match=r"^impacts = .* is not allowed: fewer"):
         orbit(BALL, (0.125, 0.25, 0.5), 2**52)
     with pytest.raises(ValueError, match=r"^records = .* is not allowed: fewer"):

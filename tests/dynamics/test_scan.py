@@ -1,4 +1,4 @@
-"""The paper's own method: its map, and the impacts it misses."""
+"""Map of the paper's method, and the impacts that it misses."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def scanned(step=0.1, tolerance=1e-12):
     return Ball(BALL.k, BALL.g, ImpactMap((step, tolerance)))
 
 
-def test_it_is_the_map_to_its_tolerance():
+def test_the_scan_gives_the_map_to_its_tolerance():
     states = BALL.start(np.linspace(-0.9, 0.9, 50), 0.01)
     for tolerance in (1e-3, 1e-6, 1e-12):
         ball = scanned(tolerance=tolerance)
@@ -28,11 +28,11 @@ def test_it_is_the_map_to_its_tolerance():
         exact = BALL.jacobian(*states, impacts=2)
         off = np.abs(ball.jacobian(*states, impacts=2) - exact).max(axis=(1, 2))
         assert np.all(off <= 100 * tolerance * np.abs(exact).max(axis=(1, 2)) ** 2)
-    assert np.abs(near - far).max() > 0  # another method indeed
+    assert np.abs(near - far).max() > 0  # the method differs
 
 
-def test_impacts_flown_past_are_counted():
-    """Against the certified march from each of its own states, one by one."""
+def test_missed_impacts_are_counted():
+    """Compare with the certified march from each state of the orbit."""
     ball = scanned(step=0.5)
     track = orbit(ball, SEA, 50_000)
     x, v, w, tau = (track[name].values for name in ("x", "xdot", "udot", "tau"))
@@ -40,21 +40,21 @@ def test_impacts_flown_past_are_counted():
     late = int(np.sum(tau[1:] > first + 1e-5))
     assert ball.map.missed == late > 5
     assert ball.map.impacts == 50_000
-    # the energy shows nothing
+    # The energy does not show missed impacts.
     assert np.max(np.abs(BALL.energy(x, v, w) / 0.01 - 1.0)) < 1e-9
 
 
-def test_exponents_are_of_its_own_orbit():
+def test_exponents_belong_to_the_scanned_orbit():
     ball = scanned(step=0.5)
     found = lyapunov_spectrum(ball, SEA, 2000, records=1).exponent.values[-1]
     orbits = scanned(step=0.5)
     orbit(orbits, SEA, 2000)
     assert (ball.map.impacts, ball.map.missed) == (2000, orbits.map.missed)
     exact = lyapunov_spectrum(BALL, SEA, 2000, records=1).exponent.values[-1]
-    assert 1e-6 < np.max(np.abs(found - exact)) < 0.1  # chaos: another orbit after 100 impacts
+    assert 1e-6 < np.max(np.abs(found - exact)) < 0.1  # chaotic orbits part after 100 impacts
 
 
-def test_a_motion_follows_its_own_impacts():
+def test_a_motion_follows_the_scanned_impacts():
     one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
     exact = motion(BALL, one, 60)
     for tolerance in (1e-12, 1e-4):
@@ -67,20 +67,20 @@ def test_a_motion_follows_its_own_impacts():
         assert np.all(np.diff(at) > 0)
 
 
-def test_the_scan_gives_up_with_an_error():
-    """A flight of 2e7 time units has more steps than any scan takes."""
+def test_a_scan_without_an_end_raises():
+    """A flight of 2e7 time units takes more steps than a scan may."""
     with pytest.raises(ArithmeticError, match="scan"):
         Ball(0.2, 1e-8, ImpactMap((0.1, 1e-6))).impact(0.0, 0.0, 0.3)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_what_is_not_finite_gives_nan_at_once(bad):
+def test_input_that_is_not_finite_gives_nan(bad):
     assert np.isnan(scan(bad, -0.1, -0.1, 0.04, 0.1, 1e-6)[0])
     assert np.isnan(scanned().impact(bad, 0.0, 1.0)).all()
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
-def test_a_nonsense_scan_is_refused(bad):
+def test_an_invalid_scan_is_rejected(bad):
     for how in ({"step": bad}, {"tolerance": bad}):
         with pytest.raises(ValueError, match=f"{next(iter(how))} = .* is not allowed"):
             scanned(**how)
