@@ -19,9 +19,9 @@ BALL = Ball(0.25, 0.0625)
 SADDLE = symmetric_orbits(Ball(0.2, 0.04), 0.01, 6).isel(orbit=1)
 
 
-def trace(ball=BALL, energy=0.01, **arguments):
+def trace(**arguments):
     short = {"length": 0.125, "distance": 0.0625, "bend": 32.0}
-    return trace_manifold(Ball(0.2, 0.04), energy, SADDLE, **short | arguments)
+    return trace_manifold(Ball(0.2, 0.04), 0.01, SADDLE, **short | arguments)
 
 
 def results(name, call, value, **others):
@@ -47,39 +47,36 @@ FUNCTIONS_OF_STATES = [
     lambda x, xdot, udot: orbit(BALL, (x, xdot, udot), 3, keep="last"),
     lambda x, xdot, udot: lyapunov_spectrum(BALL, (x, xdot, udot), 3, 1),
 ]
-# (argument, function, value, other arguments)
-COORDINATES = [(name, call, STATE[name], STATE) for call in FUNCTIONS_OF_STATES for name in STATE]
-COORDINATES += [
-    (name, BALL.state, value, {"x": 0.125, "xdot": 0.25, "energy": 0.5})
-    for name, value in (("x", 0.125), ("xdot", 0.25), ("energy", 0.5))
-]
-COORDINATES += [
-    (name, BALL.state_xy, value, {"x": 0.125, "y": 0.25, "energy": 0.5})
-    for name, value in (("x", 0.125), ("y", 0.25), ("energy", 0.5))
-]
-COORDINATES += [
-    (name, BALL.start, value, {"fraction": 0.25, "energy": 0.5})
-    for name, value in (("fraction", 0.25), ("energy", 0.5))
-]
+
+
+def cases(function, **arguments):
+    """Return (argument, function, value, all arguments) for each argument."""
+    return [(name, function, value, arguments) for name, value in arguments.items()]
+
+
+COORDINATES = [case for function in FUNCTIONS_OF_STATES for case in cases(function, **STATE)]
+COORDINATES += cases(BALL.state, x=0.125, xdot=0.25, energy=0.5)
+COORDINATES += cases(BALL.state_xy, x=0.125, y=0.25, energy=0.5)
+COORDINATES += cases(BALL.start, fraction=0.25, energy=0.5)
 NUMBERS = [
-    ("k", Ball, 0.25, {"g": 0.5}),
-    ("g", Ball, 0.5, {"k": 0.25}),
-    ("step", lambda step: ImpactMap((step, 0.5)), 0.25, {}),
-    ("tolerance", lambda tolerance: ImpactMap([0.5, tolerance]), 0.25, {}),
-    ("branch", lambda branch: BALL.state(0.125, 0.9375, 0.5, branch), -1.0, {}),
-    ("energy", lambda energy: symmetric_orbits(BALL, energy, 1), 0.25, {}),
-    ("length", trace, 0.125, {}),
-    ("distance", trace, 0.0625, {}),
-    ("bend", trace, 32.0, {}),
+    *cases(Ball, k=0.25, g=0.5),
+    *cases(lambda step, tolerance: ImpactMap((step, tolerance)), step=0.25, tolerance=0.5),
+    *cases(lambda branch: BALL.state(0.125, 0.9375, 0.5, branch), branch=-1.0),
+    *cases(lambda energy: symmetric_orbits(BALL, energy, 1), energy=0.25),
+    *cases(trace, length=0.125, distance=0.0625, bend=32.0),
 ]
+START = 0.125, 0.25, 0.5
 COUNTS = [
-    ("impacts", lambda impacts: orbit(BALL, (0.125, 0.25, 0.5), impacts), 3, {}),
-    ("impacts", lambda impacts: BALL.jacobian(0.125, 0.25, 0.5, impacts), 3, {}),
-    ("impacts", lambda impacts: BALL.chart_jacobian(0.125, 0.25, 0.5, impacts), 3, {}),
-    ("impacts", lambda impacts: lyapunov_spectrum(BALL, (0.125, 0.25, 0.5), impacts), 3, {}),
-    ("records", lambda records: lyapunov_spectrum(BALL, (0.1, 0.2, 0.5), 9, records), 3, {}),
-    ("period", lambda period: symmetric_orbits(BALL, 0.25, period), 1, {}),
-    ("saddle", trace, 3, {}),
+    *cases(lambda impacts: orbit(BALL, START, impacts), impacts=3),
+    *cases(lambda impacts: BALL.jacobian(*START, impacts), impacts=3),
+    *cases(lambda impacts: BALL.chart_jacobian(*START, impacts), impacts=3),
+    *cases(
+        lambda impacts, records: lyapunov_spectrum(BALL, START, impacts, records),
+        impacts=9,
+        records=3,
+    ),
+    *cases(lambda period: symmetric_orbits(BALL, 0.25, period), period=1),
+    *cases(trace, saddle=3),
 ]
 INVALID_NUMBERS = (
     True, np.True_, "0.25", b"1", np.str_("1"), None, 0.25 + 0j, np.complex64(1), {}, {0.25},
@@ -189,29 +186,30 @@ def test_overflow_and_the_rim_cause_no_warning():
     assert np.isnan(BALL.chart_jacobian(0.1, -0.1, 0.1)).all()
 
 
-def test_other_words_and_objects_are_rejected():
-    start = BALL.start(0.5, 0.5)
-    for keep in ("some", None, ["all"], np.array(["all", "last"])):
-        with pytest.raises(ValueError, match=r"^keep = .* is not allowed: 'all' or 'last'"):
-            orbit(BALL, start, 3, keep)
-    for side in ("left", None, np.array(["inner", "outer"])):
-        with pytest.raises(ValueError, match=r"^side = .* is not allowed: 'inner' or 'outer'"):
-            trace(side=side)
-    for stable in ("no", 1, None, np.array([True, False])):
-        with pytest.raises(ValueError, match=r"^stable = .* is not allowed: True or False"):
-            trace(stable=stable)
-    for window in (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1])):
-        with pytest.raises(ValueError, match=r"^window = .* is not allowed: \(x_low, "):
-            trace(window=window)
-    for none in (None, 3, SADDLE.drop_vars("udot"), "orbit"):
-        with pytest.raises(ValueError, match=r"^orbit = .* is not allowed: a Dataset with x"):
-            trace_manifold(BALL, 0.01, none)
-    for scan in (3, (0.1,), (0.1, 0.2, 0.3)):
-        with pytest.raises(ValueError, match=r"^scan = .* is not allowed: None, or \(step"):
-            ImpactMap(scan)
-    for way in (None, 3, (0.1, 1e-6)):
-        with pytest.raises(ValueError, match=r"^map = .* is not allowed: an ImpactMap"):
-            Ball(0.2, 0.04, way)
+@pytest.mark.parametrize(
+    ("name", "function", "allowed", "values"),
+    [
+        ("keep", lambda keep: orbit(BALL, BALL.start(0.5, 0.5), 3, keep), "'all' or 'last'",
+         ("some", None, ["all"], np.array(["all", "last"]))),
+        ("side", lambda side: trace(side=side), "'inner' or 'outer'",
+         ("left", None, np.array(["inner", "outer"]))),
+        ("stable", lambda stable: trace(stable=stable), "True or False",
+         ("no", 1, None, np.array([True, False]))),
+        ("window", lambda window: trace(window=window), r"\(x_low, ",
+         (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1]))),
+        ("orbit", lambda orbit: trace_manifold(BALL, 0.01, orbit), "a Dataset with x",
+         (None, 3, SADDLE.drop_vars("udot"), "orbit")),
+        ("scan", ImpactMap, r"None, or \(step", (3, (0.1,), (0.1, 0.2, 0.3))),
+        ("map", lambda map: Ball(0.2, 0.04, map), "an ImpactMap", (None, 3, (0.1, 1e-6))),
+    ],
+)  # fmt: skip
+def test_other_words_and_objects_are_rejected(name, function, allowed, values):
+    for value in values:
+        with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: {allowed}"):
+            function(value)
+
+
+def test_the_chart_jacobian_takes_one_state():
     with pytest.raises(ValueError, match=r"^one state is needed, not an array of shape"):
         BALL.chart_jacobian(0.1, [0.1, 0.2], 0.3)
 
