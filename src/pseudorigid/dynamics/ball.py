@@ -73,7 +73,7 @@ class Ball:
     def energy_bounds(self) -> tuple[float, float]:
         """Return the lowest energy and the paper's upper bound.
 
-        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which implies u > -1.
+        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1.
         """
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 

@@ -126,8 +126,7 @@ class Branch:
         columns = nearby[:, at - four[0], np.arange(at.size)]
         xy = chart(ball.k, *nearby)
         first, second = (
-            _interpolated(u[four[part]], xy[:, part], before)
-            for part in (slice(0, 3), slice(1, 4))
+            _interpolated(u[four[part]], xy[:, part], before) for part in (slice(0, 3), slice(1, 4))
         )
         accurate = np.ones(at.size, bool)
         if self.energy > ball.g * ball.g * (1.0 + 0.5 * ball.k):  # the map may jump

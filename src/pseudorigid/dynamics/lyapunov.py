@@ -160,6 +160,7 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
 
     Return whether one of the products of lengths nears the limits of a double.
     """
+    # `_orthonormal` is not called here, because LLVM does not vectorise the loop with its tuples.
     extremes = 0
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
