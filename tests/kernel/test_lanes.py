@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sections import sea
 
-from pseudorigid import orbit
 from pseudorigid.dynamics import ensemble
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import impact, lanes
@@ -105,17 +104,6 @@ def test_threads_do_not_matter(threads, monkeypatch):
     ends, tau = [a.copy() for a in states], np.empty(300)
     BALL.map.steps(*ends, BALL.k, BALL.g, 400, tau)
     assert np.array_equal(np.stack([*ends, tau], axis=1), expected[:, -1])
-
-
-def test_an_orbit_does_not_depend_on_its_company():
-    states = sea(90)
-    many = orbit(BALL, states, 100)
-    for i in (0, 31, 32, 89):
-        one = orbit(BALL, [a[i] for a in states], 100)
-        for name in ("x", "xdot", "udot", "tau"):
-            assert np.array_equal(many[name][:, i], one[name])
-    last = orbit(BALL, states, 100, keep="last")
-    assert np.array_equal(last.x, many.x[-1])
 
 
 def test_no_impacts_leave_the_states():

@@ -35,10 +35,8 @@ class Branch:
 
     The side is the sign of the direction's product with that from the orbit's middle. At one point
     of Figure 5's orbit, x = -0.08267, y = -0.04873, the angle between them is 89.99 degrees: the
-    product is 0.084485 - 0.084441 = 4.4e-5, and its sign is not that of the outer branches that the
-    map carries there from the other five points. Inner and outer, and with them the two lengths,
-    are therefore swapped there and at the mirrored point's stable branches. A rule that carried one
-    clear side along the orbit would avoid that, but would change the figure's data.
+    product is 0.084485 - 0.084441 = 4.4e-5, and its sign swaps inner and outer (docs/method.md). A
+    rule that carried one clear side along the orbit would change the figure's data.
 
     Parameters
     ----------
