@@ -5,6 +5,7 @@ import pytest
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses import rotation, winding
+from pseudorigid.analyses.regularity import regular
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
 
@@ -13,11 +14,11 @@ def test_rotation_numbers_at_the_fixed_point_and_in_an_island():
     six = symmetric_orbits(BALL, ENERGY, 6)
     centre, radius = BALL.section(ENERGY)
     island = (float(six["x"].values[0].max()) - centre) / radius  # on y = 0
-    fixed_at, fixed_rotation = winding.fixed(BALL, ENERGY)
+    fixed_at, fixed_rotation = winding.symmetric_fixed_point(BALL, ENERGY)
     turns, grown = winding.winding(BALL, ENERGY, np.array([fixed_at + 1e-5, island]), 20_000)
     assert turns[0] == pytest.approx(fixed_rotation, abs=1e-9)
     assert turns[1] == pytest.approx(1.0 / 6.0, abs=1e-12)
-    assert np.all(rotation.regular(grown, 20_000))
+    assert np.all(regular(grown, 20_000))
     one = symmetric_orbits(BALL, ENERGY, 1)
     assert fixed_at * radius + centre == pytest.approx(float(one["x"].values[0, 0]), abs=1e-14)
     assert fixed_rotation == pytest.approx(float(one["rotation_number"].values[0]), abs=1e-14)
@@ -35,7 +36,7 @@ def test_plateaus_of_a_staircase():
 
 def test_main_island_ends_at_two_chaotic_starts():
     found = rotation.rotation(BALL, ENERGY, [0.026], 120, 3000, (-0.8, -0.7), 1000)
-    good = rotation.regular(found["exponent"].values[0], 3000)
+    good = regular(found["exponent"].values[0], 3000)
     size = rotation.island(found, 0)
     assert good[:size].sum() >= size - 1
     assert not good[size] and not good[size + 1]

@@ -19,10 +19,10 @@ def judged(k, e, starts, impacts):
 
 
 def test_lengths_double_up_to_the_last():
-    assert verdict.levels(4000) == [500, 1000, 2000, 4000]
-    assert verdict.levels(4001) == [500, 1000, 2000, 4000, 4001]
-    assert verdict.levels(300) == [300]
-    assert verdict.levels(500) == [500]
+    assert verdict.lengths_to_decide(4000) == [500, 1000, 2000, 4000]
+    assert verdict.lengths_to_decide(4001) == [500, 1000, 2000, 4000, 4001]
+    assert verdict.lengths_to_decide(300) == [300]
+    assert verdict.lengths_to_decide(500) == [500]
 
 
 def test_a_verdict_that_is_safe_stays():

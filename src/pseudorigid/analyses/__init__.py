@@ -1,1 +1,1 @@
-"""The stages behind the verdicts on the paper's statements, and what they share."""
+"""Analyses behind the verdicts on the statements of the paper, one stage in each module."""

@@ -1,14 +1,15 @@
-"""Clusters of impacts in the chaotic sea: flights in time, and what one cluster says of the next.
+"""Clusters of impacts in the chaotic sea: flight times, and the memory from cluster to cluster.
 
-A cluster begins with an impact whose flight before was longer than a cut. What begins it is its
-first state, the point (x, y = xdot - k udot) of the section. Two measures say how much of that the
-next cluster remembers: the correlation coefficients of the coordinates, and the correlation ratio,
-the share of a coordinate's variance that is explained by the cell in which the cluster before
-began, which sees any dependence and not only a linear one. Both have intervals from a bootstrap
-whose blocks are whole orbits.
+A cluster begins with an impact after a flight that is longer than a cut. Its first state is the
+point (x, y = xdot - k udot) of that impact. Two measures say how much of it the next cluster
+remembers: correlation coefficients of the coordinates, and the correlation ratio, the share of a
+coordinate's variance that is explained by the cell in which the cluster before began. The second
+one sees any dependence, not only a linear one. Confidence intervals come from a bootstrap over
+whole orbits.
 """
 
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -19,8 +20,8 @@ from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
 from .sea import sea_states
 
-# Of each coordinate, alike in count, for the cells of the correlation ratio: so few that each of
-# the 64 cells holds many clusters.
+# Bins of each coordinate, with equal counts: so few that each of the 64 cells of the correlation
+# ratio holds many clusters.
 _BINS = 8
 _LINEAR = "correlation of what begins a cluster with what begins a later one"
 _BY_CELL = "share of the variance explained by the cell in which the earlier one began"
@@ -41,8 +42,8 @@ _OF_CUTS = {
 }
 
 
-def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed):
-    """Flight times in the sea, clusters for each cut, and what they remember of those before.
+def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed) -> xr.Dataset:
+    """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
     Parameters
     ----------
@@ -50,15 +51,15 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     energy : float
         In m omega^2 R^2.
     between : (float, float)
-        The orbits start evenly over this part of y = 0, in section radii from the centre.
+        Part of y = 0, in section radii from the centre, over which the orbits start evenly.
     orbits, impacts : int
-        How many orbits, and how many impacts each has.
+        Number of orbits, and of impacts of each.
     cuts : sequence of float
-        A flight longer than that (1/omega) parts two clusters.
+        Flight times (1/omega); longer flights separate two clusters.
     lags : int
-        Clusters are compared with the next, the next but one, ... up to this many later.
+        A cluster is compared with the next one, the next but one, ... up to this many later.
     resamples, seed : int
-        Of the bootstrap.
+        Number of resamples of the bootstrap, and its random seed.
 
     Returns
     -------
@@ -75,7 +76,7 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     Raises
     ------
     ValueError
-        A cut that leaves an orbit with fewer clusters than lags + 2, or `between` off the section.
+        A cut leaves an orbit with fewer clusters than lags + 2, or `between` is off the section.
 
     References
     ----------
@@ -85,27 +86,28 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> found = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)
-    >>> found.sizes["cut"]
+    >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)
+    >>> data.sizes["cut"]
     2
     """
-    _, *states = sea_states(ball, energy, between, orbits)
+    states = sea_states(ball, energy, between, orbits)
     out = np.full((orbits, impacts + 1, 4), math.nan)
     out[:, 0, :3] = np.transpose(states)
     ball.map.history(*states, ball.k, ball.g, out[:, 1:])
     tau = out[:, 1:, 3]
     edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
-    time, depth, energies, least, most = _strains(out, ball.k, ball.g)
+    time, depth, strain_energy, least, most = _strains(out, ball.k, ball.g)
     error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
+    kinetic = "mean in time of the kinetic energy, of the centre's motion and of the strain's"
     data = {
         "bin_edge": ("edge", edges, "flight time", TIME),
         "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
         "time": ("orbit", time, "length of the orbit in time", TIME),
-        "strain_energy": ("orbit", energies, "mean in time of the strain energy", ENERGY),
+        "strain_energy": ("orbit", strain_energy, "mean in time of the strain energy", ENERGY),
         "kinetic_energy": (
             "orbit",
-            (energy + ball.g * depth) - energies,
-            "mean in time of the kinetic energy, of the centre's motion and of the strain's",
+            (energy + ball.g * depth) - strain_energy,
+            kinetic,
             ENERGY,
         ),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
@@ -114,29 +116,31 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
         "cut": ("cut", np.asarray(cuts, dtype=float), "flight time that parts two clusters", TIME),
         "lag": ("lag", np.arange(1, lags + 1), "clusters later"),
     }
-    chosen = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
-    found = [_cut(out, ball.k, cut, lags, chosen) for cut in cuts]
-    return xr.Dataset(described(data) | of_rows(_OF_CUTS, found))
+    resampled = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
+    rows = [_row(out, ball.k, cut, lags, resampled) for cut in cuts]
+    return xr.Dataset(described(data) | of_rows(_OF_CUTS, rows))
 
 
 @jit
 def _strains(out, k, g):
-    """(time, mean x, mean strain energy, least and largest strain) of each orbit, (5, orbits)."""
+    """Return time, mean x, mean strain energy, least and largest strain: (5, orbits)."""
     coefficients = kernel.impact_coefficients(k)
-    found = np.empty((5, out.shape[0]))
+    result = np.empty((5, out.shape[0]))
     for i in range(out.shape[0]):
         time, depth, square, least, most = 0.0, 0.0, 0.0, 0.0, 0.0
         for j in range(out.shape[1] - 1):
             x, tau = out[i, j, 0], out[i, j + 1, 3]
             b, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, coefficients)
             sine, cosine = sincos(tau)
-            both = sine * cosine
+            product = sine * cosine
             # u = c sin t - x cos t
-            square += 0.5 * (x * x * (tau + both) + c * c * (tau - both)) - x * c * sine * sine
+            square += (
+                0.5 * (x * x * (tau + product) + c * c * (tau - product)) - x * c * sine * sine
+            )
             time += tau
             depth += tau * (x + tau * (0.5 * b + tau * g / 6.0))
-            # u' changes sign once at most in a part shorter than pi, at an end of u's range
-            size = math.sqrt(x * x + c * c)
+            # in a part shorter than pi, u' changes sign at most once, at an extremum of u
+            amplitude = math.sqrt(x * x + c * c)
             parts = int(tau / 3.0) + 1
             before = c
             least, most = min(least, -x), max(most, -x)
@@ -144,19 +148,19 @@ def _strains(out, k, g):
                 sine, cosine = sincos(tau * part / parts)
                 after = c * cosine + x * sine
                 if before > 0.0 > after:
-                    most = max(most, size)
+                    most = max(most, amplitude)
                 elif before < 0.0 < after:
-                    least = min(least, -size)
+                    least = min(least, -amplitude)
                 before = after
-        found[0, i], found[1, i], found[2, i] = time, depth / time, 0.5 * k * square / time
-        found[3, i], found[4, i] = least, most
-    return found
+        result[0, i], result[1, i], result[2, i] = time, depth / time, 0.5 * k * square / time
+        result[3, i], result[4, i] = least, most
+    return result
 
 
-def _cut(out, k, cut, lags, chosen):
-    """Of one cut what _OF_CUTS says, in that order."""
+def _row(out, k, cut, lags, resampled) -> tuple:
+    """Return the values of _OF_CUTS for one cut."""
     begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
-    fewest = min(places.size for places in begun)
+    fewest = min(impacts.size for impacts in begun)
     if fewest < lags + 2:
         raise ValueError(f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters")
     first = [chart(k, *row[at, :3].T) for row, at in zip(out, begun, strict=True)]
@@ -166,50 +170,52 @@ def _cut(out, k, cut, lags, chosen):
         lengths.append(periods[-1] - tau[at[1:] - 1])
     means = np.array([row.mean() for row in periods])
     error = math.sqrt(float(np.sum((means - means.mean()) ** 2)) / (means.size - 1) / means.size)
-    count = float(sum(places.size for places in begun))
+    count = float(sum(impacts.size for impacts in begun))
     sizes = np.concatenate([np.diff(at) for at in begun])
     times = [np.concatenate(rows).mean() for rows in (lengths, periods)]
-    correlation, dependence = _memory(first, lags, chosen)
+    correlation, dependence = _memory(first, lags, resampled)
     return count, sizes.mean(), *times, error, *correlation, *dependence
 
 
-def _memory(first, lags, chosen):
-    """Both measures over all lags: values, and the ends of their intervals."""
+def _memory(
+    first: Sequence[np.ndarray], lags: int, resampled: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return both measures, each with values and the ends of their intervals, for all lags."""
     cells = _cells(first)
     correlations, dependences = [], []
     for lag in range(1, lags + 1):
         linear = [_linear_sums(states[:, :-lag], states[:, lag:]) for states in first]
         by_cell = [_cell_sums(c[:-lag], s[:, lag:]) for c, s in zip(cells, first, strict=True)]
-        correlations.append(_interval(_correlation, np.array(linear), chosen))
-        dependences.append(_interval(_dependence, np.array(by_cell), chosen))
-    return [np.stack(rows, axis=1) for rows in (correlations, dependences)]
+        correlations.append(_interval(_correlation, np.array(linear), resampled))
+        dependences.append(_interval(_dependence, np.array(by_cell), resampled))
+    return np.stack(correlations, axis=1), np.stack(dependences, axis=1)
 
 
-def _interval(measure, sums, chosen):
-    """(value, low, high) of a measure of the orbits' sums, from resampled orbits."""
-    drawn = np.sort([measure(sums[orbits].sum(axis=0)) for orbits in chosen], axis=0)
+def _interval(measure: Callable, sums: np.ndarray, resampled: np.ndarray) -> np.ndarray:
+    """Return the value, and the ends of the 95 % interval, of a measure of the orbits' sums."""
+    drawn = np.sort([measure(sums[orbits].sum(axis=0)) for orbits in resampled], axis=0)
     cut = len(drawn) // 40
     return np.stack([measure(sums.sum(axis=0)), drawn[cut], drawn[len(drawn) - 1 - cut]])
 
 
-def _linear_sums(a, b):
-    """Sums of one orbit for the correlation of a (2, n) with b (2, n): a flat row."""
+def _linear_sums(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the sums of one orbit that the correlation of a (2, n) with b (2, n) needs."""
     count = np.array([a.shape[1]], dtype=float)
     products = [np.sum(a[i] * b[j]) for i in range(2) for j in range(2)]
     squares = [np.sum(row * row, axis=1) for row in (a, b)]
     return np.concatenate([count, a.sum(axis=1), b.sum(axis=1), *squares, products])
 
 
-def _correlation(sums):
-    """Pearson's coefficients (first, then) from the sums of `_linear_sums`."""
+def _correlation(sums: np.ndarray) -> np.ndarray:
+    """Return Pearson's coefficients (first, then) from the sums of `_linear_sums`."""
     n, mean_a, mean_b = sums[0], sums[1:3] / sums[0], sums[3:5] / sums[0]
     var_a, var_b = sums[5:7] / n - mean_a * mean_a, sums[7:9] / n - mean_b * mean_b
-    both = sums[9:].reshape(2, 2) / n - mean_a[:, None] * mean_b
-    return both / np.sqrt(var_a[:, None] * var_b)
+    covariance = sums[9:].reshape(2, 2) / n - mean_a[:, None] * mean_b
+    return covariance / np.sqrt(var_a[:, None] * var_b)
 
 
-def _cells(first):
-    """The cell of each state, alike in count for each coordinate over all orbits: (n,) each."""
+def _cells(first: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Return the cell of each state; the bins of a coordinate hold equally many of all states."""
     borders = []
     for coordinate in range(2):
         values = np.sort(np.concatenate([states[coordinate] for states in first]))
@@ -220,16 +226,15 @@ def _cells(first):
     ]
 
 
-def _cell_sums(cell, after):
-    """Count, sums and sums of squares of `after` (2, n) by cell: (cells, 5)."""
+def _cell_sums(cell: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Return count, sums and sums of squares of `after` (2, n) by cell: (cells, 5)."""
     rows = [np.ones(cell.size), *after, *(after * after)]
-    return np.stack(
-        [np.bincount(cell, weights=row, minlength=_BINS * _BINS) for row in rows], axis=1
-    )
+    sums = [np.bincount(cell, weights=row, minlength=_BINS * _BINS) for row in rows]
+    return np.stack(sums, axis=1)
 
 
-def _dependence(sums):
-    """The correlation ratio squared of each coordinate, less what chance alone would give."""
+def _dependence(sums: np.ndarray) -> np.ndarray:
+    """Return the squared correlation ratio of each coordinate, less what chance would give."""
     sums = sums[sums[:, 0] > 0.0]
     count, total = sums[:, :1], sums.sum(axis=0)
     n = total[0]

@@ -1,8 +1,9 @@
-"""What passes through the broken separatrices of a hyperbolic orbit: crossings, lobes, escape.
+"""Flux through the broken separatrices of a hyperbolic orbit: crossings, lobes and escape.
 
-The unstable branch of each saddle up to its first crossing with y = 0, or that crossing's images,
-and from there the stable branch into the neighbouring saddle close a region in. Each impact carries
-one lobe out of it and one of the same area in (MacKay, Meiss and Percival, Physica D 13, 1984).
+A region is closed in by the unstable branch of each saddle up to its first crossing with y = 0, or
+that crossing's images, and from there by the stable branch into the neighbouring saddle. Each
+impact carries one lobe out of the region and one of equal area into it (MacKay, Meiss and Percival,
+Physica D 13, 1984).
 """
 
 import math
@@ -11,21 +12,26 @@ import numpy as np
 import xarray as xr
 from flint import ctx
 
+from ..dynamics.ball import Ball
 from ..dynamics.manifolds import trace_manifold
 from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
-from .actions import Law, Saddle, first_crossing, lobe
+from .actions import Heteroclinic, Law, Saddle, first_crossing, lobe
 from .polygon import Polygon
 from .sea import sea_states
 
 SIDES = ("inner", "outer")
-_BITS, _NEARER = (900, 1200), (20, 30)  # two ways to the same digits
+# The area of a lobe is computed twice, with these bits and so many images nearer to the saddle, to
+# see which digits agree.
+_BITS, _NEARER = (900, 1200), (20, 30)
+_PRECISION_FACTORS = (1, 2, 4)  # of the bits, tried in turn until flights are enclosed
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
-_FINER = (1, 2, 4)  # times these bits, where flights are not enclosed
-_LONGEST = 16.0  # section radii, of a branch
-_LONGEST_SIDE, _HALVINGS = 0.02, 30  # section radii, of a region's edge; longer then is a jump
-_BEND = 5.0  # degrees, of the lines that polygons are made of
+_MAX_BRANCH = 16.0  # length of a traced branch, section radii
+_MAX_SIDE = 0.02  # side of a region's polygon, section radii
+_HALVINGS = 30  # of a side; a side that is longer after them crosses a jump of the map
+_BEND = 5.0  # degrees between the sides of traced lines
+_DECIMAL = 2.302585092994046  # ln 10
 _VARIABLES = {
     "side": ("side", "which branch"),
     "area": ("side", "area of a lobe, by differences of action", AREA),
@@ -48,8 +54,8 @@ _VARIABLES = {
 }
 
 
-def flux(ball, energy, period, distance, grid, between, orbits, impacts):
-    """Crossings and lobes of both branches of the hyperbolic orbit, and the flux through them.
+def flux(ball, energy, period, distance, grid, between, orbits, impacts) -> xr.Dataset:
+    """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
     Parameters
     ----------
@@ -57,15 +63,16 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     energy : float
         In m omega^2 R^2.
     period : int
-        Of the orbit, even.
+        Period of the hyperbolic orbit, even.
     distance : float
         Largest side of the polygons, in section radii.
     grid : int
         The flux is also counted over grid x grid points of the section's bounding rectangle.
     between : (float, float)
-        And along orbits of the sea, which start evenly over this part of y = 0, in section radii.
+        The flux is also counted along orbits of the sea, which start evenly over this part of
+        y = 0, in section radii.
     orbits, impacts : int
-        How many of these, and how many impacts each has.
+        Number of these orbits, and of impacts of each.
 
     Returns
     -------
@@ -84,8 +91,8 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         of (x, y), which the map keeps, eq. (42), in omega R^2.
 
         A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
-        that says why: its branch is not seen to meet y = 0, or a jump of the map cuts it. Where a
-        jump cuts the region's edge only, what belongs to the region is NaN.
+        with the reason: its branch is not seen to meet y = 0, or a jump of the map cuts it. If a
+        jump cuts only the region's edge, the region's numbers are NaN.
 
     Raises
     ------
@@ -107,15 +114,15 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
     if period % 2:
         raise ValueError(f"period = {period} is not allowed: an even number")
     saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
-    _, *states = sea_states(ball, energy, between, orbits)
+    states = sea_states(ball, energy, between, orbits)
     path = chart(ball.k, *states_of(orbit(ball, states, impacts)))
-    found, missing = [], {}
+    rows, missing = [], {}
     for side in SIDES:
         try:
-            found.append(_side(ball, energy, saddles, side, distance, grid, path))
+            rows.append(_row(ball, energy, saddles, side, distance, grid, path))
         except ValueError as error:
             missing[side] = str(error)
-            found.append(_no_side(side))
+            rows.append(_missing_row(side))
     if len(missing) == len(SIDES):
         raise ValueError("; ".join(f"no {side} lobes: {why}" for side, why in missing.items()))
     attributes = {
@@ -123,11 +130,11 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts):
         "multiplier": float(saddles["multiplier"].values),
     }
     attributes |= {f"missing_{side}": why for side, why in missing.items()}
-    return xr.Dataset(of_rows(_VARIABLES, found), attrs=attributes)
+    return xr.Dataset(of_rows(_VARIABLES, rows), attrs=attributes)
 
 
-def _no_side(side):
-    """A side without lobes, as a row of _VARIABLES."""
+def _missing_row(side: str) -> tuple:
+    """Return the values of _VARIABLES for a side without lobes."""
     sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
     row = {}
     for name, (dims, *_) in _VARIABLES.items():
@@ -135,36 +142,35 @@ def _no_side(side):
     return (*(row | {"side": side, "digits": "", "saddle": -1, "target": -1}).values(),)
 
 
-def _side(ball, energy, saddles, side, distance, grid, path):
-    """Of one side what _VARIABLES says, in that order."""
-    place, sign = _primary(ball, energy, saddles, side)
-    states = states_of(saddles)
-    lobes = []
-    for bits, nearer in zip(_BITS, _NEARER, strict=True):
-        lobes.append(_lobe(ball, energy, saddles, place, sign, nearer, bits))
-    (rough, _), (area, primary) = lobes
+def _row(ball, energy, saddles, side, distance, grid, path) -> tuple:
+    """Return the values of _VARIABLES for one side."""
+    saddle, sign = _primary_branch(ball, energy, saddles, side)
+    (rough, _), (area, primary) = (
+        _lobe(ball, energy, saddles, saddle, sign, nearer, bits)
+        for bits, nearer in zip(_BITS, _NEARER, strict=True)
+    )
     error = abs(area - rough).upper() + area.rad()
-    digits = max(1, min(25, math.floor(float(-(error / area).log() / 2.302585092994046))))
-    traced, region, branch = _polygons(ball, energy, saddles, place, side, distance, primary)
+    digits = max(1, min(25, math.floor(float(-(error / area).log() / _DECIMAL))))
+    lobe_polygon, region, branch = _polygons(ball, energy, saddles, saddle, side, distance, primary)
     counted = (math.nan,) * 5
     if not np.isnan(region[0, 0]):
         polygon = Polygon(region)
-        inside = polygon.holds(*path)
+        inside = polygon.contains(*path)
         left = np.mean(inside[:-1] & ~inside[1:])
         counted = polygon.area(), *_carried(ball, energy, polygon, grid), inside.mean(), left
-    x, y = chart(ball.k, *states)
-    target = int(np.argmin((x - x[place]) ** 2 + (y + y[place]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), traced
-    crossings = [(float(one.points[-1][0]), float(one.sine())) for one in primary]
+    x, y = chart(ball.k, *states_of(saddles))
+    target = int(np.argmin((x - x[saddle]) ** 2 + (y + y[saddle]) ** 2))
+    areas = float(area), float(error), area.str(digits, radius=False), lobe_polygon
+    crossings = [(float(each.points[-1][0]), float(each.sine())) for each in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
-    return side, *areas, *counted, place, target, *np.transpose(crossings), *lines
+    return side, *areas, *counted, saddle, target, *np.transpose(crossings), *lines
 
 
-def _lobe(ball, energy, saddles, place, sign, nearer, bits):
-    """`lobe` of the branch that leaves one of the saddles, with as many bits as it needs."""
-    state, period = states_of(saddles)[:, place].tolist(), saddles.sizes["point"]
-    for finer in _FINER:
-        with ctx.workprec(finer * bits):
+def _lobe(ball, energy, saddles, saddle, sign, nearer, bits):
+    """Return `lobe` of the branch that leaves one of the saddles, with more bits if needed."""
+    state, period = states_of(saddles)[:, saddle].tolist(), saddles.sizes["point"]
+    for factor in _PRECISION_FACTORS:
+        with ctx.workprec(factor * bits):
             try:
                 return lobe(Saddle(Law(ball, energy), state, period), sign, nearer)
             except ArithmeticError as error:
@@ -172,50 +178,62 @@ def _lobe(ball, energy, saddles, place, sign, nearer, bits):
     raise ValueError(f"{reason}")
 
 
-def _thinned(line, count):
-    """`count` vertices of a line (2, n), its ends among them."""
+def _thinned(line: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` vertices of a line (2, n), its ends among them."""
     return line[:, np.arange(count) * (line.shape[1] - 1) // (count - 1)]
 
 
-def _primary(ball, energy, saddles, side):
-    """(saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
-    points = states_of(saddles)
-    places = chart(ball.k, *points)
-    outwards = places - places.mean(axis=1)[:, None]
-    weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # in the disk's own proportions
-    found = []
+def _primary_branch(ball: Ball, energy: float, saddles: xr.Dataset, side: str) -> tuple[int, int]:
+    """Return (saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
+    states = states_of(saddles)
+    points = chart(ball.k, *states)
+    outwards = points - points.mean(axis=1)[:, None]
+    weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # makes the section a circle
+    branches = []
     with ctx.workprec(128):
-        for place in range(points.shape[1]):
-            saddle = Saddle(Law(ball, energy), points[:, place].tolist(), points.shape[1])
+        for index in range(states.shape[1]):
+            saddle = Saddle(Law(ball, energy), states[:, index].tolist(), states.shape[1])
             along = np.array([float(saddle.ex), float(saddle.ey)])
-            outward = np.sum(outwards[:, place] * weight * along) > 0.0
+            outward = np.sum(outwards[:, index] * weight * along) > 0.0
             sign = 1 if outward == (side == "outer") else -1
             crossing = first_crossing(saddle, sign, 0)
             if crossing is not None:
                 parameter, impacts = crossing
                 grown = [float(saddle.multiplier)] * (impacts // saddle.period)
-                found.append((math.prod(grown, start=parameter), place, sign))
-    if not found:
+                branches.append((math.prod(grown, start=parameter), index, sign))
+    if not branches:
         raise ValueError("no such branch meets y = 0")
-    return min(found)[1:]
+    return min(branches)[1:]
 
 
-def _polygons(ball, energy, saddles, place, side, distance, primary):
-    """The lobe's area between the traced lines, and (2, n) the region and the lobe's branch.
+def _polygons(ball, energy, saddles, saddle, side, distance, primary):
+    """Return the lobe's area between the traced lines, the region and the lobe's branch (2, n)."""
+    ends = _lobe_ends(*primary)
+    line, at, states = _traced_lobe(ball, energy, saddles, saddle, side, distance, ends)
+    # the stable arc is the mirror image of the unstable one from ends[0] to ends[2]
+    area = _integral(line, at[0], at[1], ends[0], ends[1])
+    area += _integral(line, at[0], at[2], ends[0], ends[2])
+    arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*ends[0], energy))[:, None], axis=1)
+    region = _region(ball, energy, arc[:, ~np.isnan(arc[0])], saddles.sizes["point"])
+    return abs(area), region, line[:, min(at) : max(at) + 1]
 
-    The region is NaN where a jump of the map cuts its edge.
-    """
-    first, second = primary
+
+def _lobe_ends(first: Heteroclinic, second: Heteroclinic) -> list[np.ndarray]:
+    """Return the lobe's two ends, and the mirror image of its second end, as points (x, y)."""
     steps = 2 * second.impacts - first.impacts
     ends = first.points[-1], second.points[min(first.impacts, steps)]
-    one, other = (np.array([float(a) for a in end]) for end in ends)
+    start, stop = (np.array([float(a) for a in end]) for end in ends)
     if steps < first.impacts:
-        other[1] = -other[1]
-    ends = [one, other, other * np.array([1.0, -1.0])]
+        stop[1] = -stop[1]
+    return [start, stop, stop * np.array([1.0, -1.0])]
+
+
+def _traced_lobe(ball, energy, saddles, saddle, side, distance, ends):
+    """Trace the branch until it passes the lobe's ends: points, indices of the ends, states."""
     length = 0.25
     while True:
         traced = trace_manifold(
-            ball, energy, saddles, place, side=side, length=length, distance=distance, bend=_BEND
+            ball, energy, saddles, saddle, side=side, length=length, distance=distance, bend=_BEND
         )
         states = states_of(traced)
         line = chart(ball.k, *states)
@@ -224,53 +242,50 @@ def _polygons(ball, energy, saddles, place, side, distance, primary):
         at = [int(np.argmin(np.sum((whole - end[:, None]) ** 2, axis=0))) for end in ends]
         gaps = [np.max(np.abs(whole[:, i] - end)) for i, end in zip(at, ends, strict=True)]
         if max(at) < whole.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
-            break
+            return line, at, states
         if cuts.size:
             raise ValueError("a jump of the map cuts the branch before it closes a lobe")
         length *= 2.0
-        if length > _LONGEST:
-            raise ValueError(f"the branch closes no lobe within {_LONGEST:g} section radii")
-    # the stable arc is the mirror image of the unstable one from w1 to the mirror image of w2
-    area = _between(line, at[0], at[1], one, other)
-    area += _between(line, at[0], at[2], one, ends[2])
-    arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*one, energy))[:, None], axis=1)
-    arc = arc[:, ~np.isnan(arc[0])]
-    back = np.stack(ball.reflect(*arc[:, ::-1]))
-    states, points = np.concatenate([arc, back[:, 1:]], axis=1), saddles.sizes["point"]
-    loop = _images(ball, states, points)
-    region = np.full((2, _CORNERS), math.nan)
-    longest = _LONGEST_SIDE * ball.section(energy)[1]
+        if length > _MAX_BRANCH:
+            raise ValueError(f"the branch closes no lobe within {_MAX_BRANCH:g} section radii")
+
+
+def _region(ball: Ball, energy: float, arc: np.ndarray, points: int) -> np.ndarray:
+    """Return the region's edge (2, n) from an unstable arc (3, m), NaN if a jump cuts it."""
+    mirrored = np.stack(ball.reflect(*arc[:, ::-1]))
+    states = np.concatenate([arc, mirrored[:, 1:]], axis=1)
+    longest = _MAX_SIDE * ball.section(energy)[1]
+    arcs = _images(ball, states, points)
     for _ in range(_HALVINGS):
-        long = np.max(np.abs(np.diff(loop)), axis=(0, 1)) > longest
+        long = np.max(np.abs(np.diff(arcs)), axis=(0, 1)) > longest
         if not long.any():
-            region = _closed(loop)
-            break
-        middle = 0.5 * (loop[0][:, :-1] + loop[0][:, 1:])[:, long]
-        fresh = np.stack(ball.state_xy(*middle, energy))
-        states = np.insert(states, np.flatnonzero(long) + 1, fresh, axis=1)
-        loop = _images(ball, states, points)
-    return abs(area), region, line[:, min(at) : max(at) + 1]
+            return _closed(arcs)
+        middle = 0.5 * (arcs[0][:, :-1] + arcs[0][:, 1:])[:, long]
+        inserted = np.stack(ball.state_xy(*middle, energy))
+        states = np.insert(states, np.flatnonzero(long) + 1, inserted, axis=1)
+        arcs = _images(ball, states, points)
+    return np.full((2, _CORNERS), math.nan)
 
 
-def _images(ball, states, count):
-    """The chart's places of states (3, n) and of their images, `count` in all: a list of (2, n)."""
-    states, found = [np.array(values) for values in states], []
+def _images(ball: Ball, states: np.ndarray, count: int) -> list[np.ndarray]:
+    """Return the points (2, n) of states (3, n) and of their images, `count` arrays in all."""
+    states, points = [np.array(values) for values in states], []
     for _ in range(count):
-        found.append(np.stack(chart(ball.k, *states)))
+        points.append(np.stack(chart(ball.k, *states)))
         ball.map.steps(*states, ball.k, ball.g, 1, np.empty(states[0].size))
-    return found
+    return points
 
 
-def _between(line, start, end, first, last):
-    """The integral of y dx along a line (2, n) between points next to two of its vertices."""
+def _integral(line: np.ndarray, start: int, end: int, first, last) -> float:
+    """Return the integral of y dx along a line (2, n) between points next to two vertices."""
     if end < start:
-        return -_between(line, end, start, last, first)
+        return -_integral(line, end, start, last, first)
     x, y = np.column_stack([first, line[:, start + 1 : end], last])
     return float(np.sum(0.5 * (y[1:] + y[:-1]) * (x[1:] - x[:-1])))
 
 
-def _closed(arcs):
-    """Arcs (2, n) from saddle to saddle, put one after the other to a closed line."""
+def _closed(arcs: list[np.ndarray]) -> np.ndarray:
+    """Join arcs (2, n) from saddle to saddle, each next to the nearest end, to a closed line."""
     first, *rest = arcs
     loop = [first]
     while rest:
@@ -279,19 +294,20 @@ def _closed(arcs):
     return np.concatenate(loop, axis=1)
 
 
-def _half_axes(ball, energy):
+def _half_axes(ball: Ball, energy: float) -> tuple[float, float]:
+    """Half axes of the section in (x, y)."""
     radius = ball.section(energy)[1]
     return radius, math.sqrt(ball.k * (1.0 + ball.k)) * radius
 
 
-def _carried(ball, energy, polygon, grid):
-    """Areas that one impact carries out of a region and into it, counted on a grid."""
+def _carried(ball: Ball, energy: float, polygon: Polygon, grid: int) -> tuple[float, float]:
+    """Return the areas that one impact carries out of a region and into it, counted on a grid."""
     width, height = _half_axes(ball, energy)
     middle = (2.0 * np.arange(grid) + 1.0) / grid - 1.0
     x, y = (a.ravel() for a in np.meshgrid(middle, middle))
-    keep = x * x + y * y < 1.0
-    x, y = ball.section(energy)[0] + width * x[keep], height * y[keep]
-    before = polygon.holds(x, y)
-    after = polygon.holds(*chart(ball.k, *ball.impact(*ball.state_xy(x, y, energy))[:3]))
+    inside = x * x + y * y < 1.0
+    x, y = ball.section(energy)[0] + width * x[inside], height * y[inside]
+    before = polygon.contains(x, y)
+    after = polygon.contains(*chart(ball.k, *ball.impact(*ball.state_xy(x, y, energy))[:3]))
     cell = 4.0 * width * height / (grid * grid)
     return cell * int(np.sum(before & ~after)), cell * int(np.sum(after & ~before))

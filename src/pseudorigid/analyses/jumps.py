@@ -1,33 +1,36 @@
 """Where the map jumps: the states whose next flight just touches the floor.
 
-A touch in flight, f = f' = 0, is a state on the section's rim, s = xdot + udot = 0, with x < -g:
-to the right of x = -g the floor does not let the ball go. So the map jumps on the image of that arc
-of the rim under the inverse, and the inverse on its image under the map; the reversor exchanges the
-two curves. There is an arc where the rim reaches beyond -g, that is for E > g^2 (1 + k/2).
+A touch in flight, f = f' = 0, is a state on the section's rim, s = xdot + udot = 0, with x < -g; to
+the right of x = -g the ball cannot leave the floor. So the map jumps on the image of this arc of
+the rim under the inverse map, and the inverse map jumps on its image under the map; the reversor
+exchanges the two curves. The arc exists for E > g^2 (1 + k/2), where the rim reaches beyond -g.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
 
+from ..dynamics.ball import Ball
 from ..dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
 from ..kernel.arithmetic import sincos_each
 from ..kernel.impact_law import impact_coefficients, rebound
 
-# The arc's ends are left out by so little: at x = -g rounding would decide whether the ball leaves.
-_LEFT_OUT = 2.0**-46
-_HALVINGS = 40  # of a side: a continuous image is then as good as one point
-_LEFT = 0.01  # of a side's image: more than this that is left is a jump
-_LEAST = 1e-9  # of the whole image: less is rounding
+# Relative length left out at the arc's ends: at x = -g rounding decides whether the ball leaves.
+_MARGIN = 2.0**-46
+_HALVINGS = 40  # of a side, after which a continuous image is as good as one point
+# The map jumps across a side if after these halvings its image is longer than this share of the
+# side's first image, and than this share of the whole image, below which it is rounding.
+_MIN_SIDE_SHARE, _MIN_TOTAL_SHARE = 0.01, 1e-9
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
-_DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve, of the derivatives
+_DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve to where derivatives are taken
 _LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
 _HALVED = "by how much it differs from what half as many sides give"
 
 
-def jumps(ball, energy, energies, sides):
-    """The curves where the map jumps, at several energies, and the symmetry lines at the first.
+def jumps(ball, energy, energies, sides) -> xr.Dataset:
+    """Compute the curves where the map jumps at several energies, and a symmetry line at the first.
 
     Parameters
     ----------
@@ -35,32 +38,31 @@ def jumps(ball, energy, energies, sides):
     energy : float
         The first of the energies (m omega^2 R^2).
     energies : sequence of float
-        The others.
+        The other energies.
     sides : int
-        Into how many sides a curve is divided, a multiple of four.
+        Number of sides of a curve's polygon, a multiple of four.
 
     Returns
     -------
     xarray.Dataset
         On energy: radius, of the section along y = 0, and length, of the curve in the plane
-        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, by how
-        much it differs from what half as many sides give, and what the ends left out make. On
-        (energy, point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image
-        under the map, where the inverse jumps, NaN next to a jump of the map. The map jumps on the
-        mirror image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the
-        other near the image of that,
-        the point with the same index counted from the end. flight_x, flight_y (half_time, branch):
-        the symmetry line Fix RP of flights symmetric in time, NaN where a flight is not the first
-        to end. On distance, from the middle of the curve at the first energy along its normal:
-        derivative_touched, derivative_missed, the largest singular value of the map's Jacobian in
-        (x, y), on the side where the flight meets the floor that it all but misses on the other;
-        NaN where there is no curve, and outside the section. Attribute first_energy: from where on
-        there are such curves, g^2 (1 + k/2).
+        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, its
+        difference from the value with half as many sides, and the ends left out. On (energy,
+        point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image under the
+        map, where the inverse jumps, NaN next to a jump of the map. The map jumps on the mirror
+        image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the other near
+        the image of that, the point with the same index counted from the end. flight_x, flight_y
+        (half_time, branch): the symmetry line Fix RP of flights symmetric in time, NaN where a
+        flight is not the first to end. On distance, from the middle of the curve at the first
+        energy along its normal: derivative_touched, derivative_missed, the largest singular value
+        of the map's Jacobian in (x, y), on the side where the flight meets the floor and on the
+        side where it just misses it; NaN where there is no curve, and outside the section.
+        Attribute first_energy: g^2 (1 + k/2), above which there are such curves.
 
     Raises
     ------
     ValueError
-        A number of sides that four does not divide, or an energy below the lowest.
+        `sides` is no multiple of four, or an energy is below the lowest.
 
     References
     ----------
@@ -79,7 +81,7 @@ def jumps(ball, energy, energies, sides):
     curves, gaps = np.stack(arcs, axis=1), np.array(gaps)
     fine, middle, coarse = (_lengths(curves[2:], gaps, step) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
-    error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _LEFT_OUT * length
+    error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _MARGIN * length
     radii = [ball.section(level)[1] for level in levels]
     flight_x, flight_y = _symmetric_flights(ball, energy, sides)
     touched, missed = _derivatives(ball, energy, curves[2:, 0])
@@ -104,18 +106,15 @@ def jumps(ball, energy, energies, sides):
     return xr.Dataset(described(data), attrs={"first_energy": first})
 
 
-def _lengths(curves, gaps, every):
-    """Lengths (n,) of polylines (2, n, vertices) without their gaps, 0 for those of NaN.
-
-    Of the vertices only each `every`th counts.
-    """
+def _lengths(curves: np.ndarray, gaps: np.ndarray, every: int) -> np.ndarray:
+    """Return lengths of polylines (2, n, points) of every so many points, without their gaps."""
     steps = np.diff(curves[:, :, ::every], axis=2)
     gaps = gaps.reshape(gaps.shape[0], -1, every).any(axis=2)
     return np.nansum(np.where(gaps, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
 
 
-def _arc(ball, energy, points):
-    """x, y of the arc of the rim with x < -g and of its image, (4, points); the image's gaps."""
+def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return x, y of the rim's arc with x < -g and of its image (4, points), and the gaps of it."""
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
     if not centre - radius < -g:
@@ -124,7 +123,7 @@ def _arc(ball, energy, points):
     high = math.sqrt(k * (1.0 + k)) * radius
     depth = (centre + g) / radius
     end = math.sqrt((1.0 - depth) / (1.0 + depth))
-    t = end * (1.0 - _LEFT_OUT) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
+    t = end * (1.0 - _MARGIN) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
 
     def rim(t):
         return (
@@ -136,71 +135,70 @@ def _arc(ball, energy, points):
         x, y = rim(t)
         return np.stack(chart(k, *ball.impact(x, y / (1.0 + k), -y / (1.0 + k))[:3]))
 
-    return np.stack([*rim(t), *image(t)]), _parted(image, t)
+    return np.stack([*rim(t), *image(t)]), _gaps(image, t)
 
 
-def _parted(image, at):
-    """Which sides of a curve's image are no part of it, since the map jumps between their ends.
-
-    The curve's parameters (n,) are taken to points (2, n) by `image`; its vertices are `at`.
-    """
-    low, high = at[:-1], at[1:]
+def _gaps(image: Callable, parameters: np.ndarray) -> np.ndarray:
+    """Return across which sides of the curve `image` of parameters (n,) the map jumps."""
+    low, high = parameters[:-1], parameters[1:]
     start, end = image(low), image(high)
-    sides = _apart(start, end)
+    sides = _distance(start, end)
     extent = np.max(np.ptp(start, axis=1))
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         point = image(middle)
-        first = _apart(start, point) > _apart(point, end)
+        first = _distance(start, point) > _distance(point, end)
         low, high = np.where(first, low, middle), np.where(first, middle, high)
         start, end = np.where(first, start, point), np.where(first, point, end)
-    return _apart(start, end) > np.maximum(_LEFT * sides, _LEAST * extent)
+    smallest_jump = np.maximum(_MIN_SIDE_SHARE * sides, _MIN_TOTAL_SHARE * extent)
+    return _distance(start, end) > smallest_jump
 
 
-def _apart(one, other):
-    return np.max(np.abs(one - other), axis=0)
+def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the distances of points (2, n) in the maximum norm."""
+    return np.max(np.abs(a - b), axis=0)
 
 
-def _derivatives(ball, energy, curve):
-    """Largest derivatives beside the middle of the curve (2, n) where the inverse jumps: (2, m).
+def _derivatives(ball: Ball, energy: float, curve: np.ndarray) -> np.ndarray:
+    """Return the map's largest derivatives beside the middle of the curve (2, n).
 
-    In rows: where the flight meets the floor, and where it just misses it.
+    The first row is for the side where the flight meets the floor, the second for the other side.
     """
     middle = curve.shape[1] // 2
     if math.isnan(curve[0, middle]):
         return np.full((2, len(_DISTANCES)), math.nan)
-    # the map itself jumps on the mirror image
-    place, (dx, dy) = curve[:, middle], curve[:, middle + 1] - curve[:, middle - 1]
-    x, y = float(place[0]), -float(place[1])
+    # the inverse jumps on the curve, the map on its mirror image
+    point, (dx, dy) = curve[:, middle], curve[:, middle + 1] - curve[:, middle - 1]
+    x, y = float(point[0]), -float(point[1])
     length = math.sqrt(dx * dx + dy * dy)
-    across = dy / length, dx / length
-    found = []
+    normal = dy / length, dx / length
+    rows = []
     for sign in (1.0, -1.0):
-        norms, tau = [], math.inf
+        derivatives, tau = [], math.inf
         for h in _DISTANCES:
             try:
-                state = ball.state_xy(x + sign * h * across[0], y + sign * h * across[1], energy)
+                state = ball.state_xy(x + sign * h * normal[0], y + sign * h * normal[1], energy)
             except ValueError:  # outside the section
-                norms.append(math.nan)
+                derivatives.append(math.nan)
                 continue
-            norms.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            derivatives.append(_largest_singular_value(ball.chart_jacobian(*state)))
             tau = ball.time_to_impact(*state)
-        found.append((tau, norms))
-    return np.array([norms for _, norms in sorted(found)])
+        rows.append((tau, derivatives))
+    return np.array([derivatives for _, derivatives in sorted(rows)])
 
 
-def _largest_singular_value(matrix):
+def _largest_singular_value(matrix: np.ndarray) -> float:
     (a, b), (c, d) = matrix
     square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
     return math.sqrt(square + math.sqrt(max(square * square - det * det, 0.0)))
 
 
-def _symmetric_flights(ball, energy, points):
-    """(x, y) of the states whose flight is symmetric in time, (2, points, 2).
+def _symmetric_flights(ball: Ball, energy: float, points: int) -> np.ndarray:
+    """Return (x, y) of the states whose flight is symmetric in time: (2, points, 2).
 
     A flight of length 2 theta has b = -g theta, x = a cos theta, c = -a sin theta, where a solves
-    E = g^2 theta^2/2 + k a^2/2 - g a cos theta; NaN where it has no solution, where the state is
-    off the section or where the floor ends the flight before.
+    E = g^2 theta^2/2 + k a^2/2 - g a cos theta. The state is NaN if there is no solution, if it is
+    off the section or if the floor ends the flight before.
     """
     _, radius = ball.section(energy)
     k, g = ball.k, ball.g
@@ -208,14 +206,14 @@ def _symmetric_flights(ball, energy, points):
     sine, cosine = sincos_each(theta)
     square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
     root = np.sqrt(np.where(square >= 0.0, square, math.nan))
-    found = []
+    lines = []
     for sign in (1.0, -1.0):
         a = (g * cosine + sign * root) / k
         v, w, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
-        good = v + w >= 0.0
-        state = [np.where(good, column, math.nan) for column in (a * cosine, v, w)]
+        on_section = v + w >= 0.0
+        state = [np.where(on_section, column, math.nan) for column in (a * cosine, v, w)]
         tau = ball.time_to_impact(*state)
-        # no earlier impact has ended the flight; where it grazes tau is good to 1e-8
+        # no earlier impact has ended the flight; where it grazes, tau is good to 1e-8
         first = np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta)
-        found.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
-    return np.array(found).transpose(1, 2, 0)
+        lines.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
+    return np.array(lines).transpose(1, 2, 0)

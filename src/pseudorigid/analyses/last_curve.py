@@ -1,32 +1,36 @@
 """The edge of the main island: Greene's residues of the convergents of noble rotation numbers.
 
-A curve whose rotation number is noble exists if the residues of the periodic orbits whose rotation
-numbers are its convergents go to zero, and is broken if they grow without bound (Greene, J. Math.
-Phys. 20, 1979). The residue is (2 - trace)/4 of the orbit's Jacobian on the energy surface.
+An invariant curve with a noble rotation number exists if the residues of the periodic orbits whose
+rotation numbers are its convergents go to zero, and is broken if they grow without bound (Greene,
+J. Math. Phys. 20, 1979). The residue is (2 - trace)/4 of the orbit's Jacobian on the energy
+surface.
 """
 
 import math
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
 
+from ..dynamics.ball import Ball
 from ..dynamics.orbits import orbit
 from ..dynamics.tangent_orbits import angle
 from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
-from .rotation import LOCKED, regular
-from .winding import fixed, winding
+from .regularity import regular
+from .rotation import LOCKED
+from .winding import symmetric_fixed_point, winding
 
-# A bracket of the symmetric flight begins so wide, in section radii, a thousand roundings, and
-# grows up to the other.
-_NARROW, _WIDE = 1e-13, 1e-3
-# Where nobles are chosen: the starts over `between`, how long their orbits are, the longest period
-# of a chain of islands that is told from curves, and how many curves back from the last one
+# Half widths, in section radii, of the first and the last bracket of a symmetric flight: a thousand
+# rounding errors, doubled until it is as wide as the other.
+_MIN_HALF_WIDTH, _MAX_HALF_WIDTH = 1e-13, 1e-3
+# How nobles are chosen: the number of starts over `between` and of impacts of their orbits, the
+# longest chain of islands that is told from curves, and how many curves back from the last one
 # rotation numbers are compared.
-_STARTS, _IMPACTS, _LOCKED_TO, _BACK = 400, 16_000, 200, 8
-_CELLS = 64  # of `between`, where no orbit is found between its ends
-_CLOSED = 1e-6  # section radii; an orbit that misses its start by more is a jump of the turns
+_STARTS, _IMPACTS, _MAX_ISLANDS, _CURVES_BACK = 400, 16_000, 200, 8
+_CELLS = 64  # of `between`, searched if no orbit is found between its ends
+_MAX_CLOSURE = 1e-6  # section radii; an orbit that misses its start by more is a jump of the turns
 _CONVERGENT = ("noble", "convergent")
 _VARIABLES = {
     "turns": (_CONVERGENT, "turns around the fixed point"),
@@ -42,8 +46,8 @@ _VARIABLES = {
 }
 
 
-def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None):
-    """Residues of the convergents of noble rotation numbers, and orbits where curves would be.
+def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) -> xr.Dataset:
+    """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
     Parameters
     ----------
@@ -51,15 +55,15 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None):
     energy : float
         In m omega^2 R^2.
     convergents : int
-        How many of each noble number, from the one that ends with its last given quotient on.
+        How many of each noble number, beginning with that of its given quotients.
     between : (float, float)
-        Part of y = 0, in section radii, where the orbits are looked for; the first end is nearer
-        to the fixed point.
+        Part of y = 0, in section radii, in which orbits are searched; its first end is nearer to
+        the fixed point.
     impacts, drawn : int
-        Length of the orbit that starts at the last convergent's point, and how much of it is kept.
+        Length of the orbit that starts at the last convergent's point, and of the part kept.
     nobles : sequence of sequences of int, optional
-        Continued fractions up to where nothing but ones follows, [0, a1, a2, ...]; by default those
-        of `edge_nobles`.
+        Continued fractions [0, a1, a2, ...], after which all quotients are 1; by default those of
+        `edge_nobles`.
 
     Returns
     -------
@@ -72,8 +76,8 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None):
     Raises
     ------
     ValueError
-        A convergent with no orbit between the two places, or, where nobles are chosen, no edge of
-        an island there.
+        There is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an
+        island.
 
     References
     ----------
@@ -83,44 +87,28 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None):
     --------
     >>> from pseudorigid import Ball
     >>> between, nobles = (-0.2, -0.03), [[0, 5, 1, 15]]
-    >>> found = last_curve(Ball(k=0.2, g=0.04), 0.01, 0, between, 100, 10, nobles)
-    >>> found["period"].values.tolist()
+    >>> data = last_curve(Ball(k=0.2, g=0.04), 0.01, 0, between, 100, 10, nobles)
+    >>> data["period"].values.tolist()
     [[95.0]]
     """
-    given = nobles is not None
-    chosen, rows = nobles if given else edge_nobles(ball, energy, between), []
-    for i, noble in enumerate(chosen):
+    rows = []
+    for i, noble in enumerate(edge_nobles(ball, energy, between) if nobles is None else nobles):
         quotients = [int(a) for a in noble]
         try:
-            rows.append(_one(ball, energy, quotients, convergents, between, impacts, drawn))
+            rows.append(_row(ball, energy, quotients, convergents, between, impacts, drawn))
         except ValueError:
-            if given or i == 0:
+            if nobles is not None or i == 0:
                 raise
     return xr.Dataset(of_rows(_VARIABLES, rows), attrs={"impacts": impacts})
 
 
-def edge_nobles(ball, energy, between):
-    """Noble rotation numbers on either side of the edge of the island at the first of two places.
+def edge_nobles(ball: Ball, energy: float, between: tuple[float, float]) -> list[list[int]]:
+    """Choose two noble rotation numbers, on either side of the edge of an island.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    between : (float, float)
-        Part of y = 0, in section radii; the first end is in the island, the second outside.
-
-    Returns
-    -------
-    list of list of int
-        Two continued fractions, each followed by ones. The first number is next to that of the
-        last curve, on its inner side, the second as far beyond it. Chains of islands, whose
-        rotation numbers are fractions, are no curves.
-
-    Raises
-    ------
-    ValueError
-        No edge between the two places.
+    `between` is a part of y = 0, in section radii, that begins in the island and ends outside; a
+    ValueError is raised if no edge lies in it. The first number is next to that of the last curve,
+    on its inner side, the second as far beyond it. Orbits in chains of islands, whose rotation
+    numbers are fractions, do not count as curves.
 
     Examples
     --------
@@ -128,40 +116,32 @@ def edge_nobles(ball, energy, between):
     >>> edge_nobles(Ball(k=0.2, g=0.04), 0.011, (-0.2, 0.1))
     [[0, 5, 1, 4], [0, 5, 1, 6]]
     """
-    place = between[0] + (between[1] - between[0]) * (np.arange(_STARTS) + 0.5) / _STARTS
-    turns, grown = winding(ball, energy, place, _IMPACTS)
-    good = regular(grown, _IMPACTS)
-    periods = np.arange(1, _LOCKED_TO + 1)[:, None]
+    start = between[0] + (between[1] - between[0]) * (np.arange(_STARTS) + 0.5) / _STARTS
+    turns, exponent = winding(ball, energy, start, _IMPACTS)
+    good = regular(exponent, _IMPACTS)
+    periods = np.arange(1, _MAX_ISLANDS + 1)[:, None]
     locked = np.any(np.abs(turns - np.rint(turns * periods) / periods) < LOCKED, axis=0)
     (curves,) = np.nonzero(good & ~locked)
-    if curves.size < _BACK or good[curves[-1] :].all():
-        what = "no curves around the fixed point and sea beyond them are seen there"
-        raise ValueError(f"between = {list(between)} is not allowed: {what}")
-    last, back = turns[curves[-1]], turns[curves[-_BACK]]
+    if curves.size < _CURVES_BACK or good[curves[-1] :].all():
+        reason = "no curves around the fixed point and sea beyond them are seen there"
+        raise ValueError(f"between = {list(between)} is not allowed: {reason}")
+    last, back = turns[curves[-1]], turns[curves[-_CURVES_BACK]]
     return [noble_between(last, back), noble_between(last, 2.0 * last - back)]
 
 
-def noble_between(one, other):
-    """The continued fraction of a noble number between two numbers, the simplest that is found.
+def noble_between(first: float, second: float) -> list[int]:
+    """Return the continued fraction of a simple noble number between two positive numbers.
 
-    Parameters
-    ----------
-    one, other : float
-        Above 0 and not equal.
-
-    Returns
-    -------
-    list of int
-        To be followed by ones.
+    All quotients after the returned ones are 1.
 
     Examples
     --------
     >>> noble_between(0.16, 0.17)
     [0, 6, 5]
     """
-    low, high = sorted((one, other))
+    low, high = sorted((first, second))
     while True:
-        quotients = _simplest(low, high)
+        quotients = _simplest_between(low, high)
         *head, last = quotients
         for noble in (quotients, [*head, last - 1, 1] if last > 1 else quotients):
             if low < value(noble) < high:
@@ -174,149 +154,127 @@ def noble_between(one, other):
             high = cut - 0.01 * (cut - low)
 
 
-def _simplest(low, high):
-    """The continued fraction of the fraction with the smallest denominator between two numbers."""
+def _simplest_between(low: float, high: float) -> list[int]:
+    """Return the continued fraction of the fraction with the smallest denominator in between."""
     whole = math.floor(low)
     if whole + 1 < high:
         return [whole + 1]
-    return [
-        whole,
-        *_simplest(1.0 / (high - whole), 1.0 / (low - whole) if low > whole else math.inf),
-    ]
+    upper = 1.0 / (low - whole) if low > whole else math.inf
+    return [whole, *_simplest_between(1.0 / (high - whole), upper)]
 
 
-def _one(ball, energy, noble, convergents, between, impacts, drawn):
-    """Of one noble number what _VARIABLES says, in that order."""
-    search = _Search(ball, energy, between)
-    found = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
-    place = found[-1][2]
-    (turns,), (grown,) = winding(ball, energy, np.array([place]), impacts)
+def _row(ball, energy, noble, convergents, between, impacts, drawn) -> tuple:
+    """Return the values of _VARIABLES for one noble number."""
+    search = _OrbitSearch(ball, energy, between)
+    orbits = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
+    place = orbits[-1][2]
+    (turns,), (exponent,) = winding(ball, energy, np.array([place]), impacts)
     path = chart(ball.k, *states_of(orbit(ball, ball.start(place, energy), drawn)))
-    return *np.array(found, dtype=float).T, value(noble), turns, grown, *path
+    return *np.array(orbits, dtype=float).T, value(noble), turns, exponent, *path
 
 
-def fractions(noble, count):
-    """Convergents of a noble number, from that of the given quotients on.
+def fractions(noble: Sequence[int], count: int) -> list[tuple[int, int]]:
+    """Return convergents (p, q) of a noble number, beginning with that of the given quotients.
 
-    Parameters
-    ----------
-    noble : sequence of int
-        [a0, a1, ...], followed by ones.
-    count : int
-        How many, at least one.
-
-    Returns
-    -------
-    list of (int, int)
-        p, q of p/q.
+    At least one is returned.
     """
-    found = [(1, 0), (noble[0], 1)]
+    convergents = [(1, 0), (noble[0], 1)]
     for quotient in [*noble[1:], *[1] * (count - 1)]:
-        (p, q), (r, s) = found[-2:]
-        found.append((p + quotient * r, q + quotient * s))
-    return found[len(noble) :]
+        (p, q), (r, s) = convergents[-2:]
+        convergents.append((p + quotient * r, q + quotient * s))
+    return convergents[len(noble) :]
 
 
-def value(noble):
-    """The number [a0, a1, ..., 1, 1, 1, ...].
-
-    Parameters
-    ----------
-    noble : sequence of int
-        [a0, a1, ...].
-
-    Returns
-    -------
-    float
-    """
+def value(noble: Sequence[int]) -> float:
+    """Return the number with the continued fraction [a0, a1, ..., 1, 1, 1, ...]."""
     number = 0.5 * (math.sqrt(5.0) + 1.0)
     for quotient in reversed(noble):
         number = quotient + 1.0 / number
     return number
 
 
-class _Search:
-    """Symmetric orbits by their turns around the fixed point, from starts on y = 0.
+class _OrbitSearch:
+    """Search on y = 0 for symmetric periodic orbits with a given number of turns.
 
-    With m = period // 2 the orbit is symmetric if after m impacts it is on y = 0 (even periods) or
-    its next flight is symmetric in time (odd ones). Which of the many zeros belongs to a rotation
-    number is decided by the turns around the fixed point in that time.
+    With m = period // 2 an orbit is symmetric if after m impacts it is on y = 0 (even periods) or
+    its next flight is symmetric in time (odd periods). The turns around the fixed point by then
+    select one of the many solutions.
     """
 
     def __init__(self, ball, energy, between):
         self.ball, self.energy, self.between = ball, energy, between
-        middle, self.radius = ball.section(energy)
-        at, self.expected = fixed(ball, energy)
-        self.centre = middle + self.radius * at
+        centre, self.radius = ball.section(energy)
+        fixed_place, self.fixed_rotation = symmetric_fixed_point(ball, energy)
+        self.fixed_x = centre + self.radius * fixed_place
 
-    def orbit(self, turns, period):
-        """(place, residue, closure) of the orbit that makes so many turns in a period."""
+    def orbit(self, turns: int, period: int) -> tuple[float, float, float]:
+        """Return place, residue and closure of the orbit with so many turns in a period."""
         half, odd = divmod(period, 2)
 
-        def excess(place):
-            before, last, _ = self._half(place, half)
+        def excess_turns(place):
+            before, last, _ = self._half_orbit(place, half)
             return 2.0 * before + odd * last - turns
 
-        for bracket in self._brackets(excess):
-            place = _bisect(excess, *bracket)
+        for bracket in self._brackets(excess_turns):
+            place = _bisect(excess_turns, *bracket)
             if odd:
                 place = self._symmetric_flight(place, half)
             if place is not None:
-                residue, closure = self._closes(place, period)
-                if closure < _CLOSED:
+                residue, closure = self._residue_and_closure(place, period)
+                if closure < _MAX_CLOSURE:
                     return place, residue, closure
-        one, other = self.between
-        near, _ = winding(self.ball, self.energy, np.linspace(one, other, _CELLS), _IMPACTS)
+        first, last = self.between
+        nearby, _ = winding(self.ball, self.energy, np.linspace(first, last, _CELLS), _IMPACTS)
         raise ValueError(
             f"no symmetric orbit of rotation number {turns}/{period} = {turns / period:.6f} is "
-            f"found on the part of y = 0 between {one:g} and {other:g}, where orbits have "
-            f"{near.min():.6f} to {near.max():.6f}: choose other nobles, or leave nobles out"
+            f"found on the part of y = 0 between {first:g} and {last:g}, where orbits have "
+            f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
 
-    def _closes(self, place, period):
-        """The residue at a place, and by how much the orbit misses its start."""
+    def _residue_and_closure(self, place: float, period: int) -> tuple[float, float]:
         state = self.ball.start(place, self.energy)
         jacobian = self.ball.jacobian(*state, impacts=period)
         trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
         after = states_of(orbit(self.ball, state, period, keep="last"))
         return 0.25 * (2.0 - trace), np.max(np.abs(after - state)) / self.radius
 
-    def _brackets(self, excess):
-        """Pairs of places, a rotation number above the wanted one at the first, below at the other.
+    def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
+        """Yield pairs of places, the first with too many turns and the second with too few.
 
-        The ends of the part searched, then those of its cells: where the rotation number jumps
+        The ends of `between` come first, then those of its cells: where the rotation number jumps
         there is no orbit.
         """
-        one, other = self.between
-        if excess(one) > 0.0 > excess(other):
-            yield one, other
-        places = one + (other - one) * np.arange(_CELLS + 1) / _CELLS
-        signs = np.sign([excess(place) for place in places])
+        first, last = self.between
+        if excess_turns(first) > 0.0 > excess_turns(last):
+            yield first, last
+        places = first + (last - first) * np.arange(_CELLS + 1) / _CELLS
+        signs = np.sign([excess_turns(place) for place in places])
         for i in np.flatnonzero(signs[1:] * signs[:-1] < 0.0):
-            pair = places[i : i + 2].tolist()
-            yield pair if signs[i] > 0.0 else pair[::-1]
+            low, high = places[i : i + 2].tolist()
+            yield (low, high) if signs[i] > 0.0 else (high, low)
 
-    def _half(self, place, half):
-        ball, about = self.ball, (self.centre, self.expected)
-        return _turned(*ball.start(place, self.energy), ball.k, ball.g, *about, half)
+    def _half_orbit(self, place: float, half: int) -> tuple[float, float, float]:
+        """Return `_turns` of the orbit from a place on y = 0."""
+        ball, state = self.ball, self.ball.start(place, self.energy)
+        return _turns(*state, ball.k, ball.g, self.fixed_x, self.fixed_rotation, half)
 
-    def _symmetric_flight(self, place, half):
-        """The place next to this one whose flight after `half` impacts is symmetric, or None."""
+    def _symmetric_flight(self, place: float, half: int) -> float | None:
+        """Return the nearby place whose flight after `half` impacts is symmetric, or None."""
 
-        def defect(at):
-            return self._half(at, half)[2]
+        def asymmetry(at):
+            return self._half_orbit(at, half)[2]
 
-        room = _NARROW
-        while room < _WIDE:
-            for above, below in ((place - room, place + room), (place + room, place - room)):
-                if defect(above) > 0.0 > defect(below):
-                    return _bisect(defect, above, below)
-            room *= 2.0
+        width = _MIN_HALF_WIDTH
+        while width < _MAX_HALF_WIDTH:
+            for above, below in ((place - width, place + width), (place + width, place - width)):
+                if asymmetry(above) > 0.0 > asymmetry(below):
+                    return _bisect(asymmetry, above, below)
+            width *= 2.0
         return None
 
 
-def _bisect(function, above, below):
-    """Where a function that is above 0 at one place and below at another changes, to a double."""
+def _bisect(function: Callable, above: float, below: float) -> float:
+    """Return where a function changes from positive, at `above`, to not positive, to a double."""
     while (middle := 0.5 * (above + below)) not in (above, below):
         if function(middle) > 0.0:
             above = middle
@@ -326,11 +284,11 @@ def _bisect(function, above, below):
 
 
 @jit
-def _turned(x, v, w, k, g, centre, expected, impacts):
-    """(turns, turns of one impact more, b + g tau/2 of that one's flight) around x = centre."""
+def _turns(x, v, w, k, g, centre, expected, impacts):
+    """Return turns around x = centre in `impacts`, in one impact more, and b + g tau/2 of that."""
     coefficients = kernel.impact_coefficients(k)
     round_y = 1.0 / math.sqrt(k * (1.0 + k))
-    total, turn, defect = 0.0, 0.0, 0.0
+    total, turn, asymmetry = 0.0, 0.0, 0.0
     p, q = x - centre, round_y * (v - k * w)
     for i in range(impacts + 1):
         total += turn if i else 0.0
@@ -341,6 +299,6 @@ def _turned(x, v, w, k, g, centre, expected, impacts):
             turn += 1.0
         elif turn > expected + 0.5:
             turn -= 1.0
-        defect = v - 0.5 * g * tau
+        asymmetry = v - 0.5 * g * tau
         p, q = r, s
-    return total, turn, defect
+    return total, turn, asymmetry

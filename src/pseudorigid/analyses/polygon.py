@@ -1,25 +1,23 @@
-"""Which points lie inside a polygon of many sides."""
+"""Polygons with many sides: their area, and which points they contain."""
 
 import numpy as np
 
 from ..kernel.compiled import jit
 
-_SLABS = 2048  # a point is held against the sides of its slab alone
+_SLABS = 2048  # bands of equal height; a point is compared with the sides in its band only
 
 
 class Polygon:
-    """A closed polygon, its sides sorted into slabs by height.
+    """A closed polygon, with its sides sorted into horizontal slabs.
 
-    Parameters
-    ----------
-    vertices : ndarray, shape (2, n)
-        x and y, in order; the last is joined to the first.
+    `vertices` is an array of shape (2, n) with x and y in order; the last vertex is joined to the
+    first.
     """
 
-    def __init__(self, vertices):
+    def __init__(self, vertices: np.ndarray):
         self.x, self.y = vertices
-        self.after_x, self.after_y = np.roll(self.x, -1), np.roll(self.y, -1)
-        low, high = np.minimum(self.y, self.after_y), np.maximum(self.y, self.after_y)
+        self.next_x, self.next_y = np.roll(self.x, -1), np.roll(self.y, -1)
+        low, high = np.minimum(self.y, self.next_y), np.maximum(self.y, self.next_y)
         self.bottom, self.top = float(low.min()), float(high.max())
         first, last = self._slab(low), self._slab(high)
         sides = np.repeat(np.arange(low.size), last - first + 1)
@@ -29,36 +27,25 @@ class Polygon:
         self.sides = sides[order]
         self.begin = np.searchsorted(slabs[order], np.arange(_SLABS + 1))
 
-    def _slab(self, y):
-        place = (y - self.bottom) / (self.top - self.bottom) * _SLABS
-        return np.clip(place.astype(np.int64), 0, _SLABS - 1)
+    def _slab(self, y: np.ndarray) -> np.ndarray:
+        slab = (y - self.bottom) / (self.top - self.bottom) * _SLABS
+        return np.clip(slab.astype(np.int64), 0, _SLABS - 1)
 
-    def area(self):
-        """The area inside."""
-        return abs(0.5 * float(np.sum(self.x * self.after_y - self.after_x * self.y)))
+    def area(self) -> float:
+        """Area inside the polygon."""
+        return abs(0.5 * float(np.sum(self.x * self.next_y - self.next_x * self.y)))
 
-    def holds(self, x, y):
-        """Which points are inside.
-
-        Parameters
-        ----------
-        x, y : ndarray
-            Of one shape.
-
-        Returns
-        -------
-        ndarray of bool
-            Of that shape.
-        """
+    def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which points are inside; x, y and the result have one shape."""
         inside = np.zeros(np.shape(x), dtype=np.bool_)
         slabs = self._slab(y).ravel()
-        shape = self.x, self.y, self.after_x, self.after_y, self.sides, self.begin
-        _crossings(np.ravel(x), np.ravel(y), slabs, *shape, inside.reshape(-1))
+        shape = self.x, self.y, self.next_x, self.next_y, self.sides, self.begin
+        _count_crossings(np.ravel(x), np.ravel(y), slabs, *shape, inside.reshape(-1))
         return inside
 
 
 @jit
-def _crossings(x, y, slabs, x0, y0, x1, y1, sides, begin, inside):
+def _count_crossings(x, y, slabs, x0, y0, x1, y1, sides, begin, inside):
     for i in range(x.size):
         for j in range(begin[slabs[i]], begin[slabs[i] + 1]):
             side = sides[j]

@@ -4,12 +4,11 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.variables import ENERGY, RADIUS, described, variables
-from .winding import fixed, winding
+from .regularity import regular
+from .winding import symmetric_fixed_point, winding
 
-# ln of a tangent vector's growth over a chaotic orbit's second half, at least; over a regular one's
-# it about doubles, ln 2.
-GROWN = 6.0
-LOCKED = 3e-9  # turns an impact; so near to a fraction a rotation number is taken for it
+LOCKED = 3e-9  # turns an impact; rotation numbers as near to a fraction are taken for it
+_MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports
 _ORBITS = {
     "place": ("start along y = 0, in section radii from the centre", RADIUS),
     "rotation": "rotation number around the fixed point",
@@ -17,8 +16,8 @@ _ORBITS = {
 }
 
 
-def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
-    """Rotation number around the fixed point, and exponent, of starts along y = 0.
+def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) -> xr.Dataset:
+    """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
 
     Parameters
     ----------
@@ -26,25 +25,23 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     energy : float
         The first of the energies (m omega^2 R^2).
     energies : sequence of float
-        The others.
-    starts : int
-        How many starts at each energy, evenly from the fixed point to the section's rim.
-    impacts : int
-        Of each orbit.
+        The other energies.
+    starts, impacts : int
+        Number of starts at each energy, evenly from the fixed point to the section's rim, and of
+        impacts of each orbit.
     detail : (float, float)
-        As many starts again lie evenly over this part of y = 0, in section radii, at the first
-        energy.
+        Part of y = 0, in section radii, with as many starts again at the first energy.
     detail_impacts : int
-        Of each of these.
+        Number of impacts of each orbit of the detail.
 
     Returns
     -------
     xarray.Dataset
         On (energy, start): place, the start in section radii from the centre; rotation, turns an
         impact around the fixed point, a weighted Birkhoff average; exponent, over the second half
-        of the orbit. detail_place, detail_rotation, detail_exponent (detail): the same of the
-        detail. On energy: fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes
-        impacts and detail_impacts.
+        of the orbit. On (detail): detail_place, detail_rotation, detail_exponent. On energy:
+        fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes impacts and
+        detail_impacts.
 
     References
     ----------
@@ -54,99 +51,56 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts):
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> found = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)
-    >>> found.sizes["start"]
+    >>> data = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)
+    >>> data.sizes["start"]
     10
     """
     levels = [float(energy), *map(float, energies)]
     middle = (np.arange(starts) + 0.5) / starts
-    centres, orbits = [fixed(ball, level) for level in levels], []
-    for level, (at, _) in zip(levels, centres, strict=True):
-        place = at + (1.0 - at) * middle
+    fixed_points = [symmetric_fixed_point(ball, level) for level in levels]
+    orbits = []
+    for level, (fixed_place, _) in zip(levels, fixed_points, strict=True):
+        place = fixed_place + (1.0 - fixed_place) * middle
         orbits.append((place, *winding(ball, level, place, impacts)))
     data = variables(("energy", "start"), zip(*orbits, strict=True), _ORBITS)
-    at, about = zip(*centres, strict=True)
+    fixed_places, fixed_rotations = zip(*fixed_points, strict=True)
+    meaning = "the fixed point, in section radii from the centre"
     data |= described(
         {
             "energy": ("energy", levels, "energy", ENERGY),
-            "fixed_place": (
-                "energy",
-                at,
-                "the fixed point, in section radii from the centre",
-                RADIUS,
-            ),
-            "fixed_rotation": ("energy", about, "rotation number of the fixed point"),
+            "fixed_place": ("energy", fixed_places, meaning, RADIUS),
+            "fixed_rotation": ("energy", fixed_rotations, "rotation number of the fixed point"),
         }
     )
     place = detail[0] + (detail[1] - detail[0]) * middle
-    found = place, *winding(ball, energy, place, detail_impacts)
-    data |= variables("detail", found, {f"detail_{name}": text for name, text in _ORBITS.items()})
+    values = place, *winding(ball, energy, place, detail_impacts)
+    data |= variables("detail", values, {f"detail_{name}": text for name, text in _ORBITS.items()})
     return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
 
 
-def regular(exponent, impacts):
-    """Which orbits are regular, by the growth of a tangent vector over their second half.
+def island(dataset: xr.Dataset, row: int) -> int:
+    """Return how many starts, from the fixed point on, lie in the main island at one energy.
 
-    The exponent of a regular one is about ln 2 over half their number of impacts, or less.
-
-    Parameters
-    ----------
-    exponent : ndarray
-        Nats an impact, as from `rotation`.
-    impacts : int
-        Of each orbit.
-
-    Returns
-    -------
-    ndarray of bool
-    """
-    return exponent * (0.5 * impacts) < GROWN
-
-
-def island(dataset, row):
-    """How many starts from the fixed point on lie in the main island.
-
-    It ends where two neighbouring starts are chaotic: a layer inside it may hold one.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        As from `rotation`.
-    row : int
-        Of its energies.
-
-    Returns
-    -------
-    int
+    The island ends where two neighbouring starts are chaotic: a layer inside it may hold one.
     """
     chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
     both = chaotic[:-1] & chaotic[1:]
     return int(np.argmax(both)) if both.any() else chaotic.size
 
 
-def plateaus(place, turns, most=100, few=3):
-    """Gaps between the curves around the fixed point: starts in one chain of islands.
+def plateaus(place: np.ndarray, turns: np.ndarray) -> list[tuple[int, int, float, float]]:
+    """Find chains of islands: neighbouring regular starts with one rotation number p/q.
 
-    Parameters
-    ----------
-    place, turns : ndarray, shape (n,)
-        Starts and rotation numbers of regular orbits, in order.
-    most : int
-        Islands in a chain, at most.
-    few : int
-        Neighbouring starts with one rotation number, at least.
-
-    Returns
-    -------
-    list of (int, int, float, float)
-        p, q and the first and last place of starts with the rotation number p/q, in lowest terms.
+    `place` and `turns` are the starts, in order, and their rotation numbers. A chain is returned as
+    p, q in lowest terms and its first and last start.
     """
-    found = []
-    for q in range(2, most + 1):
+    chains = []
+    for q in range(2, _MAX_ISLANDS + 1):
         p = np.rint(turns * q).astype(np.int64)
-        hit = np.abs(turns - p / q) < LOCKED
-        for number in sorted(set(p[hit].tolist())):
-            (at,) = np.nonzero(hit & (p == number))
-            if at.size >= few and at[-1] - at[0] == at.size - 1 and np.gcd(number, q) == 1:
-                found.append((number, q, float(place[at[0]]), float(place[at[-1]])))
-    return found
+        locked = np.abs(turns - p / q) < LOCKED
+        for number in sorted(set(p[locked].tolist())):
+            (at,) = np.nonzero(locked & (p == number))
+            neighbours = at.size >= _MIN_STARTS and at[-1] - at[0] == at.size - 1
+            if neighbours and np.gcd(number, q) == 1:
+                chains.append((number, q, float(place[at[0]]), float(place[at[-1]])))
+    return chains

@@ -1,8 +1,8 @@
-"""How the Lyapunov exponents of many orbits spread, and how the spread shrinks with their length.
+"""Lyapunov exponents of many orbits: how they spread, and how the spread falls with the length.
 
-Orbits start uniformly over the whole section; the exponents decide which of them are chaotic. They
-are kept as means over blocks; means over longer stretches follow from them. So one run gives the
-long-run value, its error, and the distribution of the short runs that it is made of.
+Orbits start uniformly over the whole section, and their exponents decide which of them are chaotic.
+The dataset holds means over blocks, from which means over longer stretches follow. So one run gives
+the long-run value, its error, and the distribution of the short runs that it consists of.
 """
 
 import numpy as np
@@ -10,35 +10,31 @@ import xarray as xr
 
 from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
-from ..kernel.arithmetic import log
+from .regularity import regular_bound
 from .sea import section_points
 
-# Impacts of each orbit that are held in memory at once: 8 MB of 64 orbits.
-_CHUNK = 4000
+_CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 
 
 def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
-    """Exponents of many orbits, block by block, and what part of the sea each chaotic one enters.
+    """Compute the exponents of many orbits by blocks, and the cells that chaotic orbits enter.
 
     Parameters
     ----------
     ball : Ball
     energy : float
         In m omega^2 R^2.
-    orbits, length : int
-        How many orbits, and how many impacts each has. They start uniformly over the section, in
-        islands as well as in the sea.
-    blocks : int
-        Into how many equal blocks an orbit is divided.
+    orbits, length, blocks : int
+        Number of orbits, of impacts of each, and of equal blocks into which each is divided. The
+        orbits start uniformly over the section, in islands as well as in the sea.
     regular : sequence of float
         Starts of regular orbits on y = 0, in section radii.
     regular_impacts : int
-        Their length; the exponents so far are kept at that number and its halves.
+        Length of the regular orbits; their exponents so far are kept at it and its halves.
     cells : int
-        The section's bounding rectangle has cells x cells cells.
+        The section's bounding rectangle is divided into cells x cells cells.
     visits : int
-        Impacts of each chaotic orbit of which the cells they are in are kept; counts at this
-        number and its halves.
+        Number of impacts of each chaotic orbit whose cells are counted, at it and its halves.
 
     Returns
     -------
@@ -53,7 +49,7 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     Raises
     ------
     ValueError
-        A length that is no multiple of blocks, no chaotic orbit, or a start beyond the section.
+        `blocks` does not divide `length`, no orbit is chaotic, or a start is beyond the section.
 
     References
     ----------
@@ -62,8 +58,8 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> found = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
-    >>> in_sea(found)
+    >>> data = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
+    >>> in_sea(data)
     array([ True,  True,  True,  True, False])
     """
     if length % blocks:
@@ -74,7 +70,7 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
-    chaotic = _chaotic(so_far[-1].max(axis=-1), length)
+    chaotic = so_far[-1].max(axis=-1) > regular_bound(length)
     if not chaotic.any():
         raise ValueError(f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic")
     data = {
@@ -82,75 +78,55 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
     }
-    data |= _regular(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
-    data |= _entered(ball, energy, [a[chaotic] for a in states], cells, visits)
+    data |= _regular_exponents(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
+    data |= _entered_cells(ball, energy, [a[chaotic] for a in states], cells, visits)
     return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
 
 
-def regular_bound(length):
-    """A bound that the exponents of regular orbits of so many impacts keep, 3 ln n/n.
+def in_sea(dataset: xr.Dataset) -> np.ndarray:
+    """Return which orbits of a dataset of `spread` are chaotic.
 
-    Their tangent vectors grow in proportion to the number of impacts.
-    """
-    return 3.0 * log(float(length)) / length
-
-
-def _chaotic(exponent, length):
-    """Which orbits of so many impacts are chaotic, by their largest exponents."""
-    return exponent > regular_bound(length)
-
-
-def in_sea(dataset):
-    """Which of the orbits that start over the section are chaotic.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        As from `spread`.
-
-    Returns
-    -------
-    ndarray of bool, shape (orbits,)
-        Those whose largest exponent exceeds `regular_bound`.
+    These are the ones whose largest exponent exceeds `regularity.regular_bound`.
     """
     length = int(dataset.attrs["block_impacts"]) * dataset.sizes["block"]
-    return _chaotic(dataset["exponent"].values.mean(axis=0).max(axis=-1), length)
+    return dataset["exponent"].values.mean(axis=0).max(axis=-1) > regular_bound(length)
 
 
-def _halves(number):
-    """number, number/2, ... above 0, in rising order."""
+def _halves(number: int) -> np.ndarray:
+    """Return number, number/2, ... above 0, in rising order."""
     return np.array([number >> i for i in reversed(range(int(number).bit_length()))])
 
 
-def _regular(ball, energy, starts, impacts):
+def _regular_exponents(ball, energy, starts, impacts):
     lengths = _halves(impacts)
     states = ball.start(starts, energy)
-    found = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
+    exponents = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
+    dims = ("length", "island", "index")
     return {
         "length": ("length", lengths, "number of impacts"),
         "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
-        "regular_exponent": (("length", "island", "index"), found, "exponent of a regular orbit"),
+        "regular_exponent": (dims, exponents, "exponent of a regular orbit"),
     }
 
 
-def _entered(ball, energy, states, cells, visits):
-    """Counts of cells of the chart that orbits enter, at `visits` impacts and its halves."""
+def _entered_cells(ball, energy, states, cells, visits):
+    """Count the cells of the chart that orbits enter, at `visits` impacts and its halves."""
     centre, radius = ball.section(energy)
     high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
     states = [a.copy() for a in states]
-    seen = np.zeros((states[0].size, cells * cells), dtype=bool)
+    entered = np.zeros((states[0].size, cells * cells), dtype=bool)
     lengths, done, counts = _halves(visits), 0, []
     for length in lengths.tolist():
         while done < length:
-            out = np.empty((len(seen), min(_CHUNK, length - done), 4))
+            out = np.empty((len(entered), min(_CHUNK, length - done), 4))
             ball.map.history(*states, ball.k, ball.g, out)
             done += out.shape[1]
             x, y = chart(ball.k, *np.moveaxis(out[..., :3], -1, 0))
             across, up = _cell((x - centre) / radius, cells), _cell(y / high, cells)
-            for orbit, places in enumerate(up * cells + across):
-                seen[orbit, places] = True
-        each = seen.sum(axis=1)
-        counts.append((int(seen.any(axis=0).sum()), int(seen.all(axis=0).sum()), int(each.min())))
+            for orbit, numbers in enumerate(up * cells + across):
+                entered[orbit, numbers] = True
+        least = entered.sum(axis=1).min()
+        counts.append((entered.any(axis=0).sum(), entered.all(axis=0).sum(), least))
     any_of, all_of, least = np.array(counts, dtype=np.int64).T
     return {
         "visit": ("visit", lengths, "number of impacts of each chaotic orbit"),
@@ -160,25 +136,15 @@ def _entered(ball, energy, states, cells, visits):
     }
 
 
-def _cell(place, cells):
-    """The cell, 0 to cells - 1, of places between -1 and 1."""
-    return np.clip((0.5 * (place + 1.0) * cells).astype(np.int64), 0, cells - 1)
+def _cell(coordinate: np.ndarray, cells: int) -> np.ndarray:
+    """Return the cell, 0 to cells - 1, of coordinates between -1 and 1."""
+    return np.clip((0.5 * (coordinate + 1.0) * cells).astype(np.int64), 0, cells - 1)
 
 
-def stretches(dataset, length):
-    """The largest exponent of each stretch of `length` impacts of the chaotic orbits.
+def stretches(dataset: xr.Dataset, length: int) -> np.ndarray:
+    """Return the largest exponent of each stretch of `length` impacts of the chaotic orbits.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        As from `spread`.
-    length : int
-        A multiple of its block_impacts.
-
-    Returns
-    -------
-    ndarray, shape (stretches,)
-        Nats an impact.
+    `length` is a multiple of the dataset's block_impacts; the exponents are in nats an impact.
     """
     block = dataset["exponent"].values[:, in_sea(dataset)]
     count = length // int(dataset.attrs["block_impacts"])

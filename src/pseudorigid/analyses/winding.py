@@ -1,4 +1,4 @@
-"""How orbits that start on y = 0 wind round the fixed point, and how fast neighbours part."""
+"""Rotation numbers around the fixed point, and exponents, of orbits that start on y = 0."""
 
 import numpy as np
 
@@ -7,30 +7,22 @@ from ..dynamics.ball import Ball
 from ..dynamics.tangent_orbits import begin, propagate_with_tangent, weight
 
 
-def fixed(ball, energy):
-    """Place and rotation number of the symmetric fixed point.
+def symmetric_fixed_point(ball: Ball, energy: float) -> tuple[float, float]:
+    """Return the fixed point's place on y = 0, in section radii, and its rotation number.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-
-    Returns
-    -------
-    place : float
-        Where it is on y = 0, in section radii from the centre.
-    rotation : float
-        Its rotation number, NaN where it is not elliptic.
+    The place is counted from the section's centre. The rotation number is NaN if the fixed point is
+    not elliptic.
     """
     e = energy / (ball.g * ball.g)
-    middle, radius = Ball(ball.k, 1.0).section(e)
-    place, _, rotation = fixed_point.numbers(ball.k, e)
-    return (place - middle) / radius, rotation
+    centre, radius = Ball(ball.k, 1.0).section(e)
+    x, _, rotation = fixed_point.numbers(ball.k, e)
+    return (x - centre) / radius, rotation
 
 
-def winding(ball, energy, place, impacts):
-    """Rotation numbers around the fixed point, and exponents.
+def winding(
+    ball: Ball, energy: float, place: np.ndarray, impacts: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return rotation numbers around the fixed point, and exponents, of orbits.
 
     Parameters
     ----------
@@ -40,25 +32,26 @@ def winding(ball, energy, place, impacts):
     place : ndarray, shape (n,)
         Starts on y = 0, in section radii from the centre.
     impacts : int
-        Of each orbit.
+        Number of impacts of each orbit.
 
     Returns
     -------
     rotation : ndarray, shape (n,)
-        Turns an impact, a weighted Birkhoff average.
+        Turns an impact, a weighted Birkhoff average with the weights (t (1 - t))^3.
     exponent : ndarray, shape (n,)
-        Of a tangent vector, nats an impact, between the middles of the second and the last quarter.
+        Growth rate of a tangent vector in nats an impact, from the middle of the second quarter to
+        the middle of the last.
 
     References
     ----------
-    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017); the
-    weights here are (t (1 - t))^3.
+    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017).
     """
-    unit = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
+    unit_ball = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
     e = energy / (ball.g * ball.g)
-    middle, radius = unit.section(e)
-    at, about = fixed(ball, energy)
-    orbits = begin(ball.k, unit.start(place, e), middle + radius * at, about)
+    centre, radius = unit_ball.section(e)
+    fixed_place, fixed_rotation = symmetric_fixed_point(ball, energy)
+    states = unit_ball.start(place, e)
+    orbits = begin(ball.k, states, centre + radius * fixed_place, fixed_rotation)
     quarter = impacts // 4
     turning = np.array([(0, impacts)])
     growing = np.array([(quarter, quarter), (impacts - quarter, quarter)])

@@ -25,7 +25,7 @@ from .machine import machine
 from .methods import counted_methods as own
 from .methods import full_length_cell, pynamicalsys_lyapunov, scipy_events, taylor
 from .timing import interleaved
-from .verdicts import places
+from .verdicts import random_cells
 
 REPETITIONS = 9
 IMPACTS = 200_000
@@ -110,7 +110,7 @@ def run(repetitions=REPETITIONS):
 
 def _whole():
     """Calls of whole cells, branches and searches, as those of `run`."""
-    drawn = places(math.prod(CELLS), 2)
+    drawn = random_cells(math.prod(CELLS), 2)
     rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
     saddle = of_type(symmetric_orbits(states.BALL, WEAK, 10), "hyperbolic")

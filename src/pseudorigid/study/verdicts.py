@@ -1,20 +1,18 @@
-"""How often a verdict on an orbit, regular or chaotic, is wrong, and what it costs.
+"""Errors and costs of methods that classify orbits as regular or chaotic.
 
-Cells are drawn over the whole plane of the atlas. The truth on an orbit is the growth of a tangent
-vector over LONG impacts, a hundred times as many as the 4,000 of the sweeps before; an orbit whose
-vector has grown beyond DOUBT after EARLY impacts is chaotic, and is followed no further. Compared
-are:
+Cells are drawn over the whole plane of the atlas. The true verdict on an orbit follows from the
+growth of a tangent vector over LONG impacts; an orbit whose growth exceeds SURELY_CHAOTIC after
+EARLY impacts is chaotic and is followed no further. The methods are:
 
-    growth below 3            over a fixed number of impacts: the sweeps' verdict before
-    growth                    the same with the best threshold
+    growth below 3            after a fixed number of impacts: an earlier rule of the sweeps
+    growth, best threshold    after a fixed number of impacts
     SALI                      the smaller alignment index of two tangent vectors (Skokos 2001); in
-                              two dimensions GALI_2 is the same up to a factor
-    weighted Birkhoff average of the turns around the fixed point: how far apart the winding numbers
-                              of the two halves are (Das et al. 2017)
+                              two dimensions GALI_2 equals it up to a factor
+    weighted Birkhoff average of the turns around the fixed point: the difference between the
+                              winding numbers of the two halves (Das et al. 2017)
     as soon as safe           `sweep.verdict`, with at most that many impacts
 
-The best thresholds are those with the fewest wrong verdicts on the first set of cells; the second
-set is unseen.
+A best threshold gives the fewest wrong verdicts on the first set of cells; the second is unseen.
 """
 
 import math
@@ -23,17 +21,18 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import xarray as xr
 
+from ..analyses.regularity import GROWTH_THRESHOLD
 from ..dynamics import fixed_point
 from ..dynamics.ensemble import threads
 from ..dynamics.tangent_orbits import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
 from ..dynamics.variables import described, of_rows
 from ..sweep.blocks import AXES
 from ..sweep.cell import sunflower_points
-from ..sweep.verdict import THRESHOLD, classify_orbits, means, windows
+from ..sweep.verdict import classify_orbits, means, windows
 
-LONG, EARLY = 400_000, 20_000
-DOUBT = 10 * THRESHOLD  # a regular orbit's growth is about 0.85 whatever its length
-LENGTHS = (250, 500, 1000, 2000, 4000, 8000)
+LONG, EARLY = 400_000, 20_000  # impacts
+SURELY_CHAOTIC = 10 * GROWTH_THRESHOLD  # a regular orbit's growth is about 0.85 at any length
+LENGTHS = (250, 500, 1000, 2000, 4000, 8000)  # impacts after which the methods decide
 METHODS = {
     "growth below 3": "growth",
     "growth, best threshold": "growth",
@@ -42,18 +41,23 @@ METHODS = {
     "as soon as safe": "safe",
 }
 SETS = ("cells on which thresholds were chosen", "unseen cells")
-K, ENERGY = (0.012, 0.332), (0.1, 40.0)
+K, ENERGY = (0.012, 0.332), (0.1, 40.0)  # ranges of k and E/g^2
+
+_EACH = ("set", "method", "length")
+_CELL = {
+    "k": (("set", "cell"), *AXES["k"]),
+    "energy": (("set", "cell"), *AXES["energy"]),
+    "regular": (("set", "cell"), "true share of regular orbits"),
+    "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
+    "exponent_error": (("set", "cell"), "its standard error"),
+    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts that were followed"),
+}
 
 
-def verdicts(cells=36, orbits=128):
-    """Errors and costs of the methods.
+def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
+    """Compute errors and costs of the methods on `cells` random cells in each set.
 
-    Parameters
-    ----------
-    cells : int
-        How many in each set, at random over the plane.
-    orbits : int
-        Of each cell, evenly over its section as in a sweep.
+    The orbits of a cell start evenly over its section, as in a sweep.
 
     Returns
     -------
@@ -70,10 +74,10 @@ def verdicts(cells=36, orbits=128):
     orbits, J. Phys. A 34 (2001). Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity,
     Nonlinearity 30 (2017).
     """
-    drawn = [place for number in range(len(SETS)) for place in places(cells, number)]
+    drawn = [cell for number in range(len(SETS)) for cell in random_cells(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
-        found = list(pool.map(lambda place: _cell(*place, orbits), drawn))
-    sets = [_joined(found[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
+        results = list(pool.map(lambda cell: _cell(*cell, orbits), drawn))
+    sets = [_joined(results[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
     shape = len(SETS), len(METHODS), len(LENGTHS)
     missed, alarms, cost = np.empty((3, *shape))
     threshold = np.full(shape[1:], np.nan)
@@ -81,7 +85,7 @@ def verdicts(cells=36, orbits=128):
     for m, key in enumerate(METHODS.values()):
         for j, length in enumerate(LENGTHS):
             if m and key != "safe":
-                threshold[m, j] = _best(sets[0][key][j], sets[0]["truth"])
+                threshold[m, j] = _best_threshold(sets[0][key][j], sets[0]["truth"])
             for i, orbit in enumerate(sets):
                 regular = orbit[key][j] < threshold[m, j] if key != "safe" else orbit[key][j]
                 missed[i, m, j] = np.mean(regular & ~orbit["truth"])
@@ -97,26 +101,16 @@ def verdicts(cells=36, orbits=128):
         "cells": ("set", SETS, "set of cells"),
         "length": ("length", LENGTHS, "largest number of impacts"),
     }
-    numbers = np.array([_exponents(one) for one in found]).reshape(len(SETS), cells, len(_CELL))
-    variables = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
-    return xr.Dataset(variables, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
+    numbers = np.array([_summary(cell) for cell in results])
+    numbers = numbers.reshape(len(SETS), cells, len(_CELL))
+    data = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
+    return xr.Dataset(data, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
 
 
-_EACH = ("set", "method", "length")
-_CELL = {
-    "k": (("set", "cell"), *AXES["k"]),
-    "energy": (("set", "cell"), *AXES["energy"]),
-    "regular": (("set", "cell"), "true share of regular orbits"),
-    "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
-    "exponent_error": (("set", "cell"), "its standard error"),
-    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts that were followed"),
-}
-
-
-def places(count, number):
-    """(k, e) of the cells of a set: energies evenly in their logarithm, to six digits."""
+def random_cells(count: int, number: int) -> list[tuple[float, float]]:
+    """Return (k, E/g^2) of the cells of a set, to six digits; the logarithm of E/g^2 is uniform."""
     random = np.random.default_rng([7, number])
-    found = []
+    cells = []
     for _ in range(count):
         k = random.uniform(*K)
         # evenly in the logarithm, by halving: a power would depend on the machine
@@ -124,30 +118,30 @@ def places(count, number):
         for half in random.random(40) < 0.5:
             middle = math.sqrt(low * high)
             low, high = (low, middle) if half else (middle, high)
-        found.append((float(f"{k:.6g}"), float(f"{low:.6g}")))
-    return found
+        cells.append((float(f"{k:.6g}"), float(f"{low:.6g}")))
+    return cells
 
 
-def _cell(k, e, count):
-    """What each method has to say about the orbits of a cell, and the truth."""
-    place, _, rotation = fixed_point.numbers(k, e)
-    about = (
-        k,
-        np.stack(sunflower_points(k, e, count)),
-        np.full(count, place),
-        np.full(count, rotation),
+def _cell(k: float, e: float, count: int) -> dict:
+    """Return the quantities by which each method decides on a cell's orbits, and the truth."""
+    x, _, rotation = fixed_point.numbers(k, e)
+    states = np.stack(sunflower_points(k, e, count))
+    orbits = k, states, np.full(count, x), np.full(count, rotation)
+    safe = [classify_orbits(*orbits, length) for length in LENGTHS]
+    return (
+        {"k": k, "energy": e}
+        | _growth_and_truth(*orbits)
+        | {
+            "alignment": _alignment(*orbits),
+            "safe": np.array([verdicts.regular for verdicts in safe]),
+            "followed": np.array([verdicts.followed for verdicts in safe]),
+            "exponent": safe[-1].exponent,
+        }
     )
-    found = {"k": k, "energy": e} | _watched(*about)
-    found["alignment"] = _alignment(*about)
-    safe = [classify_orbits(*about, length) for length in LENGTHS]
-    found["safe"] = np.array([one.regular for one in safe])
-    found["followed"] = np.array([one.followed for one in safe])
-    found["exponent"] = safe[-1].exponent
-    return found
 
 
-def _watched(k, states, centre, expected):
-    """Growth and how unsettled the winding number is after each of LENGTHS, and the truth."""
+def _growth_and_truth(k, states, centre, expected) -> dict:
+    """Return growth and difference of winding numbers after each of LENGTHS, and the truth."""
     turning, growing = windows((*LENGTHS, EARLY, LONG))
     turning = turning[: 3 * len(LENGTHS)]
     orbits = begin(k, states, centre, expected)
@@ -156,13 +150,13 @@ def _watched(k, states, centre, expected):
     propagate_with_tangent(orbits, k, 0, EARLY, turning, growing, turned, sums)
     winding, growth = means(turning, growing, turned, sums)
     exponent = orbits[SIZE] / EARLY
-    rest = ~(growth[-2] > DOUBT)  # NaN, of orbits that graze, goes on
+    rest = ~(growth[-2] > SURELY_CHAOTIC)  # includes NaN, of orbits with a grazing impact
     truth = np.zeros(centre.size, bool)
     if rest.any():
         orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
         propagate_with_tangent(orbits, k, EARLY, LONG, turning, growing, turned, sums)
         exponent[rest] = orbits[SIZE] / LONG
-        truth[rest] = means(turning, growing, turned, sums)[1][-1] < THRESHOLD
+        truth[rest] = means(turning, growing, turned, sums)[1][-1] < GROWTH_THRESHOLD
     return {
         "growth": growth[: len(LENGTHS)],
         "unsettled": np.array([np.abs(a - b) for _, a, b in winding]),
@@ -171,36 +165,37 @@ def _watched(k, states, centre, expected):
     }
 
 
-def _alignment(k, states, centre, expected):
-    """SALI of two tangent vectors of the energy surface after each of LENGTHS."""
-    one, other = (begin(k, states, centre, expected) for _ in range(2))
+def _alignment(k, states, centre, expected) -> np.ndarray:
+    """Return minus SALI of two tangent vectors of the energy surface after each of LENGTHS."""
+    first, second = (begin(k, states, centre, expected) for _ in range(2))
     x, v, w = states
     length = np.sqrt(v * v + (k * w) * (k * w))
-    # the second one up the slope of the kinetic energy, x with it
-    other[VECTOR], other[VECTOR + 1] = 1.0, (1.0 - k * x) * v / (length * length)
-    other[VECTOR + 2] = (1.0 - k * x) * w * k / (length * length)
-    nothing, sums = np.zeros((0, 2), np.int64), np.zeros((0, centre.size))
-    found, start = [], 0
+    # the second vector points up the slope of the kinetic energy, and along x
+    second[VECTOR], second[VECTOR + 1] = 1.0, (1.0 - k * x) * v / (length * length)
+    second[VECTOR + 2] = (1.0 - k * x) * w * k / (length * length)
+    no_windows, no_sums = np.zeros((0, 2), np.int64), np.zeros((0, centre.size))
+    alignment, start = [], 0
     for stop in LENGTHS:
-        for orbits in (one, other):
-            propagate_with_tangent(orbits, k, start, stop, nothing, nothing, sums, sums)
-        a, b = (orbits[VECTOR:CENTRE][:3] for orbits in (one, other))
+        for orbits in (first, second):
+            propagate_with_tangent(orbits, k, start, stop, no_windows, no_windows, no_sums, no_sums)
+        a, b = (orbits[VECTOR:CENTRE][:3] for orbits in (first, second))
         a, b = (c / np.sqrt((c[0] * c[0] + c[1] * c[1]) + c[2] * c[2]) for c in (a, b))
         gaps = [np.sqrt(np.sum((a + sign * b) ** 2, axis=0)) for sign in (1.0, -1.0)]
-        found.append(-np.minimum(*gaps))  # small where vectors point apart: regular
+        alignment.append(-np.minimum(*gaps))  # low for vectors that point apart: regular
         start = stop
-    return np.array(found)
+    return np.array(alignment)
 
 
-def _joined(cells):
+def _joined(cells: list[dict]) -> dict:
+    """Join the orbits of several cells."""
     return {
         key: np.concatenate([cell[key] for cell in cells], axis=-1)
         for key in ("growth", "unsettled", "alignment", "safe", "followed", "truth")
     }
 
 
-def _best(values, truth):
-    """The threshold below which to call orbits regular, with the fewest wrong verdicts."""
+def _best_threshold(values: np.ndarray, truth: np.ndarray) -> float:
+    """Return the threshold, below which orbits are called regular, with fewest wrong verdicts."""
     order = np.argsort(values, kind="stable")
     values, truth = values[order], truth[order]
     below = np.concatenate([[0], np.cumsum(~truth)])  # chaotic ones called regular
@@ -209,16 +204,12 @@ def _best(values, truth):
     return float(values[min(at, values.size - 1)])
 
 
-def _exponents(cell):
-    """k, energy and so on of a cell, in the order of _CELL."""
+def _summary(cell: dict) -> tuple[float, ...]:
+    """Return the values of _CELL for one cell."""
     sea = ~cell["truth"] & ~np.isnan(cell["exponent"])
-    own, long = cell["exponent"][sea], cell["exponent_long"][sea]
-    some = own.size > 1
-    return (
-        cell["k"],
-        cell["energy"],
-        np.mean(cell["truth"]),
-        np.mean(own) if some else math.nan,
-        np.std(own, ddof=1) / math.sqrt(own.size) if some else math.nan,
-        np.mean(long) if some else math.nan,
-    )
+    shared, long = cell["exponent"][sea], cell["exponent_long"][sea]
+    numbers = cell["k"], cell["energy"], np.mean(cell["truth"])
+    if shared.size < 2:
+        return *numbers, math.nan, math.nan, math.nan
+    error = np.std(shared, ddof=1) / math.sqrt(shared.size)
+    return *numbers, np.mean(shared), error, np.mean(long)

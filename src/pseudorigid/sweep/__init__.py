@@ -1,9 +1,8 @@
-"""A grid over k and E/g^2, the two numbers that decide what is free of the unit of length.
+"""A sweep: regular and chaotic motion over a grid of k and E/g^2.
 
-The map commutes with a change of the unit of length, so here lengths are in units of g R: then
-g = 1 and the energy is E/g^2. A cell holds for every ball with this k, whatever its g, as long as
-eq. (31) lets it bounce at that energy.
+The map commutes with a change of the unit of length. A sweep takes g R as this unit, so that g = 1
+and the energy is E/g^2: a cell holds for every g at which eq. (31) admits its energy.
 
-`grid` knows the cells and how they are cut into blocks, `verdict` judges orbits, `cell` computes
-one cell, `blocks` computes a block and joins them.
+`grid` lists the cells and cuts them into blocks, `verdict` classifies orbits, `cell` computes the
+numbers of a cell, and `blocks` computes a block and joins blocks to one dataset.
 """

@@ -1,5 +1,6 @@
-"""Blocks of cells, and the dataset that they are joined into: the same whatever the blocks."""
+"""Datasets of blocks of cells, and the dataset of a sweep, which does not depend on the blocks."""
 
+from collections.abc import Iterable
 from itertools import groupby
 
 import numpy as np
@@ -11,55 +12,30 @@ from .cell import PERIODS, VARIABLES, cells
 AXES = {"k": ("Euler inertia", "m R^2"), "energy": ("energy over g^2", "m (gravity/omega)^2")}
 
 
-def compute(block):
-    """Regular and chaotic motion in some cells of a grid over k and E/g^2.
+def compute(block: dict) -> xr.Dataset:
+    """Compute regular and chaotic motion in the cells of a block, as from `grid.block`.
 
-    Parameters
-    ----------
-    block : dict
-        As from `grid.block`.
-
-    Returns
-    -------
-    xarray.Dataset
-        On `cell` the variables of `cell.VARIABLES`, k and energy, E/g^2; chains on (cell, period).
+    The variables of `cell.VARIABLES`, k and energy (E/g^2) are on `cell`, chains on (cell, period).
     """
-    found = []
+    rows = []
     for k, row in groupby(block["cells"], key=lambda pair: pair[0]):
-        found += cells(k, [e for _, e in row], block["starts"], block["impacts"])
+        rows += cells(k, [e for _, e in row], block["starts"], block["impacts"])
     data = {
         name: (
             ("cell", "period") if name == "chains" else "cell",
-            np.array([one[name] for one in found], kind),
+            np.array([row[name] for row in rows], kind),
             attributes_of(text),
         )
         for name, (text, kind) in VARIABLES.items()
     }
-    for i, (name, text) in enumerate(AXES.items()):
-        data[name] = (
-            "cell",
-            np.array([one[i] for one in block["cells"]], float),
-            attributes_of(*text),
-        )
+    for axis, values in zip(AXES, np.array(block["cells"], float).T, strict=True):
+        data[axis] = ("cell", values, attributes_of(*AXES[axis]))
     data["period"] = ("period", np.arange(1, PERIODS + 1), attributes_of("islands of a chain"))
     return xr.Dataset(data)
 
 
-def join(sweep, blocks):
-    """Regular and chaotic motion over a grid of k and E/g^2, joined from its blocks.
-
-    Parameters
-    ----------
-    sweep : dict
-        Of the config: k and energy are lists of numbers.
-    blocks : iterable of xarray.Dataset
-        As from `compute`, in the order of their cells.
-
-    Returns
-    -------
-    xarray.Dataset
-        On (k, energy), the same whatever the blocks.
-    """
+def join(sweep: dict, blocks: Iterable[xr.Dataset]) -> xr.Dataset:
+    """Join blocks, in the order of their cells, to the dataset of a sweep on (k, energy)."""
     joined = xr.concat(
         list(blocks), "cell", data_vars="minimal", coords="minimal", compat="override"
     )

@@ -1,22 +1,23 @@
-"""One cell of a sweep: what share of the section is regular, how chaotic the rest is, and why."""
+"""One cell of a sweep: the share of regular orbits, their chains of islands, the sea's exponent."""
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..dynamics import fixed_point
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from .verdict import classify_orbits
+from .verdict import Verdicts, classify_orbits
 
-PERIODS = 24  # chains of more islands are not told from curves around the fixed point
-LOCKED = 1e-5  # turns an impact; that far from a fraction a winding number is taken for it
-NORMAL = 1.959964  # standard deviations either way that hold 95 %
-BATCH = 40_000  # orbits that are followed together: lanes stay full, and memory small
-_GOLDEN = 0.6180339887498949
+PERIODS = 24  # islands of the longest chain that is told from curves around the fixed point
+LOCKED = 1e-5  # turns an impact; winding numbers as near to a fraction are taken for it
+NORMAL_95 = 1.959964  # standard deviations on either side of the mean that hold 95 %
+BATCH_SIZE = 40_000  # orbits followed together: SIMD lanes stay full, and memory small
+_GOLDEN_RATIO = 0.6180339887498949  # the smaller one
 
-# Variable -> (long name, type); each is a number a cell, but `chains`, one a cell and period.
+# Variable -> (long name, type), a number for each cell; `chains` has one for each period as well.
 VARIABLES = {
     "trace": ("trace of the fixed point's Jacobian", "f8"),
     "rotation": ("rotation number of the fixed point, NaN where it is not elliptic", "f8"),
@@ -37,38 +38,31 @@ VARIABLES = {
 }
 
 
-def cell(k, e, starts, impacts):
-    """The numbers of one cell.
+def cell(k: float, e: float, starts: int, impacts: int) -> dict:
+    """Compute the numbers of one cell, with the keys of VARIABLES.
 
-    Which orbits are regular is decided by `verdict.judge`. The interval of their share goes from
-    the lower end of Wilson's interval with half the threshold to the upper end of that with twice
-    the threshold.
+    `verdict.classify_orbits` classifies the orbits. The interval of their regular share goes from
+    the lower end of Wilson's interval with half the threshold to the upper end of the one with
+    twice the threshold.
 
-    The sea's exponent is the growth of a tangent vector, all other orbits together, over the
-    impacts that all have in common: so it does not depend on when the verdict on an orbit was safe.
+    The sea's exponent is the growth rate of tangent vectors over the impacts that all orbits have.
+    So it does not depend on when the verdict on an orbit was safe.
 
-    A regular orbit belongs to a chain of q islands where its winding number around the fixed point
-    is within LOCKED of a fraction p/q, q <= PERIODS: on curves around the fixed point the winding
-    number changes from one to the next, in islands it does not; one within LOCKED of the fixed
-    point's own is not told from it. A chain inside the main island counts too, islands around an
-    island count with it, and so do those of a second orbit of that period.
+    A regular orbit belongs to a chain of q islands if its winding number around the fixed point is
+    within LOCKED of a fraction p/q, q <= PERIODS, but not of the fixed point's own rotation number.
+    On curves around the fixed point the winding number changes from curve to curve; in islands it
+    does not. Chains inside the main island, islands around islands, and a second orbit of the same
+    period count as well.
 
     Parameters
     ----------
-    k : float
-        Euler inertia, eq. (5).
-    e : float
-        E/g^2, above -1/(2k).
+    k, e : float
+        Euler inertia, eq. (5), and E/g^2, above -1/(2k).
     starts : int
-        How many orbits. They start evenly over one half, y >= 0, of the section's area;
-        the reversor maps regular orbits of the one half to those of the other.
+        Number of orbits. They start evenly over one half, y >= 0, of the section's area; the
+        reversor maps regular orbits of this half to those of the other half.
     impacts : int
-        At most so many of each, at least 4.
-
-    Returns
-    -------
-    dict
-        With the keys of VARIABLES.
+        Largest number of impacts of an orbit, at least 4.
 
     References
     ----------
@@ -78,47 +72,33 @@ def cell(k, e, starts, impacts):
     return cells(k, [e], starts, impacts)[0]
 
 
-def cells(k, energies, starts, impacts):
-    """What `cell` returns for each of several energies: the same bits, in less time.
-
-    Parameters
-    ----------
-    k : float
-        Euler inertia, eq. (5).
-    energies : sequence of float
-        E/g^2 of each.
-    starts, impacts : int
-        As for `cell`.
-
-    Returns
-    -------
-    list of dict
-    """
-    step = max(1, BATCH // starts)
+def cells(k: float, energies: Sequence[float], starts: int, impacts: int) -> list[dict]:
+    """Compute the numbers of several cells with one k, with the bits of `cell` but in less time."""
+    step = max(1, BATCH_SIZE // starts)
     batches = (energies[first : first + step] for first in range(0, len(energies), step))
-    return [one for batch in batches for one in _batch(k, batch, starts, impacts)]
+    return [numbers for batch in batches for numbers in _batch(k, batch, starts, impacts)]
 
 
-def _batch(k, energies, starts, impacts):
-    fixed = [fixed_point.numbers(k, e) for e in energies]
-    places, traces, rotations = zip(*fixed, strict=True)
+def _batch(k: float, energies: Sequence[float], starts: int, impacts: int) -> list[dict]:
+    fixed_points = [fixed_point.numbers(k, e) for e in energies]
+    places, traces, rotations = zip(*fixed_points, strict=True)
     states = np.concatenate([sunflower_points(k, e, starts) for e in energies], axis=1)
-    about = np.repeat(places, starts), np.repeat(rotations, starts)
-    verdicts = classify_orbits(k, states, *about, impacts)
+    centre, expected = np.repeat(places, starts), np.repeat(rotations, starts)
+    verdicts = classify_orbits(k, states, centre, expected, impacts)
     return [
         {"trace": trace, "rotation": rotation}
-        | _numbers(verdicts[i * starts : (i + 1) * starts], rotation)
+        | _summary(verdicts[i * starts : (i + 1) * starts], rotation)
         for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True))
     ]
 
 
-def _numbers(orbits, rotation):
-    """What the verdicts on the orbits of a cell come to."""
+def _summary(orbits: Verdicts, rotation: float) -> dict:
+    """Return the numbers of a cell that follow from the verdicts on its orbits."""
     starts, regular = orbits.regular.size, orbits.regular
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
     apart = ~(np.abs(orbits.winding - rotation) <= LOCKED)
     turns, periods = fractions(orbits.winding[regular & apart])
-    period, winds, count = _largest(turns, periods)
+    period, winds, count = _largest_chain(turns, periods)
     return {
         "regular": regular.sum() / starts,
         "regular_low": wilson(int(orbits.strict.sum()), starts)[0],
@@ -127,8 +107,8 @@ def _numbers(orbits, rotation):
         "regular_lenient": orbits.lenient.sum() / starts,
         "exponent": np.mean(sea) if sea.size else math.nan,
         "exponent_error": np.std(sea, ddof=1) / math.sqrt(sea.size) if sea.size > 1 else math.nan,
-        "exponent_low": _quantile(sea, 1),
-        "exponent_high": _quantile(sea, 3),
+        "exponent_low": _quartile(sea, 1),
+        "exponent_high": _quartile(sea, 3),
         "followed": np.mean(orbits.followed),
         "chain_period": period,
         "chain_turns": winds,
@@ -137,21 +117,21 @@ def _numbers(orbits, rotation):
     }
 
 
-def wilson(count, of):
-    """The 95 % interval of a share, `count` of `of` found, by Wilson's score.
+def wilson(count: int, total: int) -> tuple[float, float]:
+    """Wilson's 95 % interval of the share count/total, for independent starts.
 
-    For independent starts; evenly spread ones do better.
+    The interval is conservative for evenly spread starts.
     """
-    share, z2 = count / of, NORMAL * NORMAL / of
+    share, z2 = count / total, NORMAL_95 * NORMAL_95 / total
     middle = (share + 0.5 * z2) / (1.0 + z2)
     half = math.sqrt(share * (1.0 - share) * z2 + 0.25 * z2 * z2) / (1.0 + z2)
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def fractions(winding):
-    """(p, q) of the fraction with the smallest q that each winding number (n,) is within LOCKED of.
+def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return p and q of the fraction with the smallest q within LOCKED of each winding number.
 
-    (0, 0) where none with q <= PERIODS is.
+    Both are 0 if there is no such fraction with q <= PERIODS.
     """
     turns, periods = np.zeros(winding.size, np.int64), np.zeros(winding.size, np.int64)
     for q in range(1, PERIODS + 1):
@@ -161,28 +141,30 @@ def fractions(winding):
     return turns, periods
 
 
-def _largest(turns, periods):
-    """(q, p, count) of the fraction p/q that most orbits have, the smallest p and q of several."""
-    found = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
-    # the first of those that are equally many
-    (period, winds), count = (Counter(found).most_common(1) or [((0, 0), 0)])[0]
+def _largest_chain(turns: np.ndarray, periods: np.ndarray) -> tuple[int, int, int]:
+    """Return (q, p, count) of the most frequent fraction p/q, among equals the smallest q and p."""
+    chains = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
+    # of equally frequent elements most_common returns the first
+    (period, winds), count = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
     return period, winds, count
 
 
-def _quantile(values, quarter):
-    """That quarter's value of sorted values, the lower one of two; NaN if there is none."""
-    return float(values[quarter * (values.size - 1) // 4]) if values.size else math.nan
+def _quartile(ascending: np.ndarray, number: int) -> float:
+    """Return a quartile of sorted values, the lower of two candidates, NaN if there is none."""
+    if not ascending.size:
+        return math.nan
+    return float(ascending[number * (ascending.size - 1) // 4])
 
 
 @jit
 def _spiral(e, k, x, v, w):
-    energy = 2.0 * e + 1.0 / k  # twice that above the ball at rest
+    energy = 2.0 * e + 1.0 / k  # twice the energy above that of the ball at rest
     wide = math.sqrt(energy / k)
     high = math.sqrt((1.0 + k) * energy)
     steep = math.sqrt((1.0 + k) * energy / k)
     for i in range(x.size):
-        area = (i + 0.5) / x.size  # the share of the half disk that is nearer to the centre
-        sine, cosine = sincos(math.pi * (i * _GOLDEN - int(i * _GOLDEN)))
+        area = (i + 0.5) / x.size  # share of the half disk that is nearer to the centre
+        sine, cosine = sincos(math.pi * (i * _GOLDEN_RATIO - int(i * _GOLDEN_RATIO)))
         radius = math.sqrt(area)
         y = high * radius * sine
         s = steep * math.sqrt(1.0 - area)
@@ -191,23 +173,10 @@ def _spiral(e, k, x, v, w):
         w[i] = (s - y) / (1.0 + k)
 
 
-def sunflower_points(k, e, count):
-    """States evenly over the half y >= 0 of the section's area.
+def sunflower_points(k: float, e: float, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section's area.
 
-    Radius by equal areas, angle by the golden section.
-
-    Parameters
-    ----------
-    k : float
-        Euler inertia, eq. (5).
-    e : float
-        E/g^2.
-    count : int
-
-    Returns
-    -------
-    x, v, w : ndarray, shape (count,)
-        x, xdot and udot, lengths in g R.
+    Radii divide the area equally; angles advance by the golden section.
     """
     x, v, w = np.empty(count), np.empty(count), np.empty(count)
     _spiral(e, k, x, v, w)

@@ -1,56 +1,23 @@
-"""The grid of a sweep over k and E/g^2: its cells, and the blocks they are computed in.
+"""The grid of a sweep over k and E/g^2: its cells, and the blocks that are computed at once.
 
-Cells are counted along the energies of one k, then the next k. Importing this module is cheap.
+A sweep is a mapping of config.yaml, in which `k` and `energy` are lists of numbers. Cells are
+counted along the energies of one k, then along those of the next k.
 """
 
 
-def cells(sweep) -> int:
-    """How many cells a sweep has.
-
-    Parameters
-    ----------
-    sweep : dict
-        Of the config: k and energy are lists of numbers.
-
-    Returns
-    -------
-    int
-    """
+def cells(sweep: dict) -> int:
+    """Number of cells of a sweep."""
     return len(sweep["k"]) * len(sweep["energy"])
 
 
-def ranges(sweep) -> list[tuple[int, int]]:
-    """How a sweep is cut into blocks.
-
-    Parameters
-    ----------
-    sweep : dict
-        Of the config.
-
-    Returns
-    -------
-    list of (int, int)
-        Of each block, its first cell and the one after its last.
-    """
+def ranges(sweep: dict) -> list[tuple[int, int]]:
+    """First cell of each block of a sweep, and the cell after its last one."""
     count, size = cells(sweep), sweep["block"]
     return [(start, min(start + size, count)) for start in range(0, count, size)]
 
 
-def block(sweep, number) -> dict:
-    """What decides the data of a block.
-
-    Parameters
-    ----------
-    sweep : dict
-        Of the config.
-    number : int
-        Of the block, from 0.
-
-    Returns
-    -------
-    dict
-        Its cells as [k, E/g^2], and starts and impacts, the orbits of each.
-    """
+def block(sweep: dict, number: int) -> dict:
+    """Parameters that decide the data of a block, counted from 0: cells [k, E/g^2] and orbits."""
     start, stop = ranges(sweep)[number]
     across = len(sweep["energy"])
     return {
@@ -62,16 +29,6 @@ def block(sweep, number) -> dict:
     }
 
 
-def whole(sweep) -> dict:
-    """What decides the data of a sweep: not how it is cut into blocks.
-
-    Parameters
-    ----------
-    sweep : dict
-        Of the config.
-
-    Returns
-    -------
-    dict
-    """
+def whole(sweep: dict) -> dict:
+    """Parameters that decide the data of a sweep. The size of its blocks is none of them."""
     return {key: sweep[key] for key in ("k", "energy", "starts", "impacts")}

@@ -1,61 +1,48 @@
-"""Whether orbits are regular: each is followed until that is safe, and no longer.
+"""Classification of orbits as regular or chaotic, as soon as the verdict is safe.
 
-All are followed for FIRST impacts; those still undecided for twice as many, and so on, at most to
-the end. At each of these lengths L, with the tangent vector's length exp(G):
+All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
+on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
+vector (`analyses.regularity`), and the difference between the winding numbers of the two halves.
 
-    growth   the mean of G over the last quarter less that over the second one. On a regular orbit
-             a tangent vector grows like the number of impacts, and growth is ln(7/3) = 0.85 on
-             average; on a chaotic one it is the exponent times L/2.
-    settled  the difference between the winding numbers of the first and the second half: weighted
-             Birkhoff averages, which converge on quasi-periodic orbits faster than any power of
-             1/L that the smoothness of weight and orbit admits (Das et al. 2017).
-
-An orbit is regular where growth is below half of THRESHOLD and the winding number has settled to
-SETTLED; chaotic where growth is above twice THRESHOLD and G above SURE. What is undecided at the
-end is regular where growth is below THRESHOLD. One that grazes exactly, where the map has no
-derivative, is neither.
+Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
+numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and
+the logarithm of the tangent vector's length is above MIN_CHAOTIC_G. At the end an undecided orbit
+is regular if its growth is below GROWTH_THRESHOLD. An orbit with an exactly grazing impact, where
+the map has no derivative, is not regular.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..analyses.regularity import (
+    GROWTH_THRESHOLD,
+    MARGIN_FACTOR,
+    MIN_CHAOTIC_G,
+    WINDING_TOLERANCE,
+)
 from ..dynamics.tangent_orbits import SIZE, begin, propagate_with_tangent, weight
 
-FIRST = 500  # impacts that all orbits have: the exponent is taken from them
-# Of growth: half of it is still above a regular orbit's 0.85. `study.verdicts` holds it against the
-# threshold with the fewest wrong verdicts.
-THRESHOLD = 2.2
-SETTLED = 1e-7  # turns an impact
-MIN_CHAOTIC_GROWTH = 15.0  # a regular orbit's G is about ln 16,000 = 9.7 after as many impacts
+FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
 
 
-def levels(impacts):
-    """The lengths at which orbits are judged, the last one `impacts`."""
-    found = [FIRST]
-    while found[-1] < impacts:
-        found.append(2 * found[-1])
-    return [*found[:-1], impacts]
+def lengths_to_decide(impacts: int) -> list[int]:
+    """Lengths at which orbits are classified, the last one `impacts`."""
+    lengths = [FIRST_LENGTH]
+    while lengths[-1] < impacts:
+        lengths.append(2 * lengths[-1])
+    return [*lengths[:-1], impacts]
 
 
 @dataclass
 class Verdicts:
-    """What was found of each orbit, arrays (n,).
+    """Verdicts on orbits and what they rest on, arrays of shape (n,).
 
-    Attributes
-    ----------
-    regular, strict, lenient : ndarray of bool
-        Whether it is regular; the same with half and with twice the threshold.
-    winding : ndarray
-        Turns around the centre an impact.
-    growth : ndarray
-        What is compared with the threshold.
-    exponent : ndarray
-        The growth of a tangent vector, nats an impact, from a quarter of the first length to the
-        whole of it, the impacts that all orbits have in common.
-    followed : ndarray of int
-        How many impacts.
+    `strict` and `lenient` are the verdicts with half and with twice the threshold. `winding` is
+    in turns an impact. `exponent` is the growth rate of a tangent vector, in nats an impact, over
+    the impacts that all orbits have, without the first quarter of them.
     """
 
     regular: np.ndarray
@@ -64,15 +51,15 @@ class Verdicts:
     winding: np.ndarray
     growth: np.ndarray
     exponent: np.ndarray
-    followed: np.ndarray
+    followed: np.ndarray  # impacts
 
-    def __getitem__(self, part):
-        """The verdicts on some of the orbits."""
+    def __getitem__(self, part: slice) -> "Verdicts":
+        """Verdicts on some of the orbits."""
         return Verdicts(*(getattr(self, field.name)[part] for field in fields(self)))
 
 
-def classify_orbits(k, states, centre, expected, impacts):
-    """Follow orbits for at most `impacts` and judge them.
+def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
+    """Follow orbits for at most `impacts` impacts and classify them.
 
     Parameters
     ----------
@@ -80,74 +67,61 @@ def classify_orbits(k, states, centre, expected, impacts):
         Euler inertia, eq. (5).
     states : (x, v, w), each of shape (n,)
         Just before an impact, lengths in g R.
-    centre : ndarray, shape (n,)
-        The x around which the turns are counted, at y = 0.
-    expected : ndarray, shape (n,)
-        The turn of an impact that is expected, NaN where none is.
+    centre, expected : ndarray, shape (n,)
+        The x of the point at y = 0 around which turns are counted, and the turn that is expected of
+        an impact, NaN if unknown.
     impacts : int
         At least 4.
-
-    Returns
-    -------
-    Verdicts
 
     References
     ----------
     Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017).
     """
-    lengths = levels(impacts)
+    lengths = lengths_to_decide(impacts)
     turning, growing = windows(lengths)
-    ends = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # of the impacts that all have
-    growing = np.concatenate([growing, ends])
+    shared = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # ends of the exponent's impacts
+    growing = np.concatenate([growing, shared])
     orbits = begin(k, states, centre, expected)
     turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
-    found = Verdicts(
+    verdicts = Verdicts(
         *(np.zeros(len(centre), bool) for _ in range(3)),
         *(np.full(len(centre), math.nan) for _ in range(3)),
         np.zeros(len(centre), np.int64),
     )
-    which = np.arange(len(centre))  # those that are still followed
+    undecided = np.arange(len(centre))
     start = 0
     for level, length in enumerate(lengths):
         propagate_with_tangent(orbits, k, start, length, turning, growing, turned, growth)
         turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
         (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
         if not start:
-            found.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
-        strict = grown < 0.5 * THRESHOLD
+            verdicts.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
+        strict = grown < GROWTH_THRESHOLD / MARGIN_FACTOR
         if length < impacts:
-            regular = strict & (np.abs(winding[1] - winding[2]) < SETTLED)
-            chaotic = (grown > 2.0 * THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_GROWTH)
+            regular = strict & (np.abs(winding[1] - winding[2]) < WINDING_TOLERANCE)
+            chaotic = (grown > MARGIN_FACTOR * GROWTH_THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_G)
             decided = regular | chaotic | np.isnan(grown)
             strict = lenient = regular
         else:
-            regular, lenient = grown < THRESHOLD, grown < 2.0 * THRESHOLD
-            decided = np.ones(which.size, bool)
-        found.winding[which], found.growth[which], found.followed[which] = winding[0], grown, length
-        for name, verdict in (("regular", regular), ("strict", strict), ("lenient", lenient)):
-            getattr(found, name)[which[decided]] = verdict[decided]
-        start, which = length, which[~decided]
-        if not which.size:
+            regular, lenient = grown < GROWTH_THRESHOLD, grown < MARGIN_FACTOR * GROWTH_THRESHOLD
+            decided = np.ones(undecided.size, bool)
+        verdicts.winding[undecided], verdicts.growth[undecided] = winding[0], grown
+        verdicts.followed[undecided] = length
+        for name, values in (("regular", regular), ("strict", strict), ("lenient", lenient)):
+            getattr(verdicts, name)[undecided[decided]] = values[decided]
+        start, undecided = length, undecided[~decided]
+        if not undecided.size:
             break
-        # A mask as index would give another order in memory, for which all is compiled again.
+        # Indexing by a mask changes the order in memory, for which all kernels compile again.
         orbits, turned, growth = (np.compress(~decided, a, 1) for a in (orbits, turned, growth))
-    return found
+    return verdicts
 
 
-def windows(lengths):
-    """Return the windows over which sums are taken, as pairs of first impact and length.
+def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the windows, as (first impact, length), over which orbits of m lengths are averaged.
 
-    Parameters
-    ----------
-    lengths : sequence of int
-        At which orbits are judged.
-
-    Returns
-    -------
-    turning : ndarray, shape (3 m, 2)
-        Each of the m lengths and its two halves.
-    growing : ndarray, shape (2 m, 2)
-        The second and the last quarter of each.
+    Turns, shape (3 m, 2), are averaged over each length and its two halves; the logarithm of the
+    tangent vector, shape (2 m, 2), over the second and the last quarter.
     """
     turning, growing = [], []
     for length in lengths:
@@ -157,22 +131,10 @@ def windows(lengths):
     return np.array(turning), np.array(growing)
 
 
-def means(turning, growing, turned, growth):
-    """Winding numbers and growth from the sums of `propagate_with_tangent` over `windows`.
+def means(turning, growing, turned, growth) -> tuple[np.ndarray, np.ndarray]:
+    """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`.
 
-    Parameters
-    ----------
-    turning, growing : ndarray
-        As from `windows`, of m lengths.
-    turned, growth : ndarray
-        The sums for n orbits.
-
-    Returns
-    -------
-    winding : ndarray, shape (m, 3, n)
-        Turns an impact, of each length and of its two halves.
-    growth : ndarray, shape (m, n)
-        Of the mean logarithm of a tangent vector, from the second quarter to the last.
+    `turned` and `growth` are the sums of `propagate_with_tangent` for n orbits.
     """
     weights = np.array([[weight(length)] for _, length in turning])
     late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pseudorigid.analyses.rotation import regular
-from pseudorigid.analyses.spread import in_sea, regular_bound, stretches
+from pseudorigid.analyses.regularity import regular, regular_bound
+from pseudorigid.analyses.spread import in_sea, stretches
 from pseudorigid.dynamics.variables import final_exponents
 
 from .schema import CORRECTED, FALSE, HOLDS, UNDECIDED, formula, verdict_of

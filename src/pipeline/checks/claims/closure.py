@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from pseudorigid.analyses.rotation import island, regular
+from pseudorigid.analyses.regularity import regular
+from pseudorigid.analyses.rotation import island
 
 from .schema import HOLDS, PROVED, UNDECIDED, formula
 

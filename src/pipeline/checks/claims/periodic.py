@@ -5,7 +5,8 @@ import re
 
 import numpy as np
 
-from pseudorigid.analyses.rotation import plateaus, regular
+from pseudorigid.analyses.regularity import regular
+from pseudorigid.analyses.rotation import plateaus
 from pseudorigid.dynamics.ball import Ball
 
 from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, verdict_of

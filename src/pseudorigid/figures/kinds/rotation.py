@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ...analyses.rotation import island, plateaus, regular
+from ...analyses.regularity import regular
+from ...analyses.rotation import island, plateaus
 from ..axes.panel import Axis, Panel, corner, key, vacant
 from ..axes.raster import linear, ticks, wider
 from ..canvas import style
