@@ -1,9 +1,9 @@
-"""The map against every method it might have been computed with, and where those fail.
+"""Comparison of the map with other methods of computing it, and of how these fail.
 
-`methods` has the methods; `states` the states on which they are compared; `work` what accuracy
-costs, `failures` where methods fail, `figure_errors` what that does to each figure, `bench` ratios
-of speed. Each asks `proofs.reference_solver` for the first root, which proves it by none of the
-methods.
+`methods` has the methods and `states` the states on which they are compared. `work` measures
+accuracy and cost, `failures` where methods fail, `figure_errors` what this does to each figure,
+`verdicts` how reliably orbits are classified, and `bench` ratios of speed. The module
+`proofs.reference_solver` proves the true flight times.
 
-Nothing outside this package imports it, and its libraries come from requirements/study.txt.
+No other package of pseudorigid imports this one. Its libraries are in requirements/study.txt.
 """

@@ -1,11 +1,12 @@
-"""Ratios of speed: medians of repetitions taken in turn, in one run.
+"""Ratios of speed: medians of interleaved repetitions, in one run on one core.
 
-`run` returns rows of text; nothing here enters a figure. One core throughout; seconds are the
-processor's, so that other work on the machine shows less.
+`run` returns lines of text for `./reproduce benchmark`; no figure depends on them. Seconds are
+those of the processor, so that other work on the machine shows less.
 """
 
 import math
 import os
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -22,17 +23,17 @@ from ..kernel.compiled import jit
 from ..sweep.cell import cells
 from . import states
 from .machine import machine
-from .methods import counted_methods as own
 from .methods import full_length_cell, pynamicalsys_lyapunov, scipy_events, taylor
+from .methods.counted_methods import scan_method
 from .timing import interleaved
 from .verdicts import random_cells
 
 REPETITIONS = 9
 IMPACTS = 200_000
-LANES = 1024
+LANES = 1024  # orbits of an ensemble
 CELLS = 3, 6  # values of k, and energies of each, at random over the atlas's plane
-WEAK = 0.001  # the energy of a weak saddle of period 10
-MANY = 1e5  # E/g^2 where orbits of period 12 are many
+WEAK_SADDLE_ENERGY = 0.001  # of a saddle of period 10 with a small multiplier
+MANY = 1e5  # E/g^2 with many orbits of period 12
 UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
 BASES = {
     "one sincos": "one dependent sincos",
@@ -43,7 +44,7 @@ BASES = {
     "branch": "that branch here",
     "none": "a search finding none",
 }
-# what, its call, what it is compared with, and the aim
+# row label, name of the call, name of the call it is compared with, aim
 ROWS = (
     ("one orbit, an impact", "orbit", "three sincos", "at most 2.3"),
     ("scan 0.1 and bisection to 1e-12", "scan", "orbit", "at least 5"),
@@ -62,7 +63,7 @@ ROWS = (
 
 @jit
 def _three_sincos(t, count):
-    """A chain of 3 x `count` sincos, each waiting for the one before."""
+    """Compute a chain of 3 x `count` sincos, each of which depends on the one before."""
     total = 0.0
     for _ in range(3 * count):
         sine, cosine = sincos(t)
@@ -71,31 +72,31 @@ def _three_sincos(t, count):
     return total
 
 
-def run(repetitions=REPETITIONS):
-    """The table as lines: what, seconds, ratio; then the machine and the versions."""
+def run(repetitions: int = REPETITIONS) -> list[str]:
+    """Return the table's lines: label, seconds, ratio and aim; then machine and versions."""
     ball = states.BALL
     chaotic = states.chaotic()
-    few, some = _along(chaotic, 20), _along(chaotic, 500)
-    many = ball.start(0.52 + 0.1 * (np.arange(LANES) / LANES), states.ENERGY)
-    room = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
-    scan = own.scan_method(0.1, 1e-12)
-    dop = scipy_events.ivp_method("DOP853", 1e-9)
-    hey = taylor.taylor_method(1e-15, "positive")
-    calls = {  # name: (what is called, how many of what the row counts it does)
+    states_20, states_500 = _along(chaotic, 20), _along(chaotic, 500)
+    ensemble = ball.start(0.52 + 0.1 * (np.arange(LANES) / LANES), states.ENERGY)
+    out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
+    scan = scan_method(0.1, 1e-12)
+    dop853 = scipy_events.ivp_method("DOP853", 1e-9)
+    heyoka = taylor.taylor_method(1e-15, "positive")
+    calls = {  # name: (call, number of impacts or other units that it does)
         "three sincos": (partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
         "orbit": (partial(_steps, chaotic, IMPACTS), IMPACTS),
-        "scan": (partial(scan.solve, ball, *some), 500),
-        "heyoka": (partial(hey.solve, ball, *some), 500),
-        "DOP853": (partial(dop.solve, ball, *few), 20),
+        "scan": (partial(scan.solve, ball, *states_500), 500),
+        "heyoka": (partial(heyoka.solve, ball, *states_500), 500),
+        "DOP853": (partial(dop853.solve, ball, *states_20), 20),
         "spectrum": (partial(lyapunov_spectrum, ball, chaotic, IMPACTS, records=1), IMPACTS),
         "pynamicalsys": (partial(pynamicalsys_lyapunov.spectrum, ball, chaotic, IMPACTS), IMPACTS),
-        "ensemble": (partial(_steps, many, 200), 200 * LANES),
-        "stored": (partial(_history, many, room), 200 * LANES),
-        "vectors": (partial(_vectors, many, 192), 192 * LANES),
-        "spectra": (partial(lyapunov_spectrum, ball, many, 192, records=1), 192 * LANES),
-    } | _whole()
-    found = interleaved({name: call for name, (call, _) in calls.items()}, repetitions)
-    each = {name: tuple(s / calls[name][1] for s in found[name]) for name in calls}
+        "ensemble": (partial(_steps, ensemble, 200), 200 * LANES),
+        "stored": (partial(_history, ensemble, out), 200 * LANES),
+        "vectors": (partial(_with_tangent, ensemble, 192), 192 * LANES),
+        "spectra": (partial(lyapunov_spectrum, ball, ensemble, 192, records=1), 192 * LANES),
+    } | _cells_branches_and_searches()
+    seconds = interleaved({name: call for name, (call, _) in calls.items()}, repetitions)
+    each = {name: tuple(s / calls[name][1] for s in seconds[name]) for name in calls}
     each["one sincos"] = tuple(s / 3.0 for s in each["three sincos"])
     lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
     for text, name, base, aim in ROWS:
@@ -108,13 +109,13 @@ def run(repetitions=REPETITIONS):
     return lines
 
 
-def _whole():
-    """Calls of whole cells, branches and searches, as those of `run`."""
+def _cells_branches_and_searches() -> dict[str, tuple[Callable, int]]:
+    """Return calls that compute cells, branches and periodic orbits, with numbers of units."""
     drawn = random_cells(math.prod(CELLS), 2)
     rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
-    saddle = of_type(symmetric_orbits(states.BALL, WEAK, 10), "hyperbolic")
-    branch = partial(trace_manifold, states.BALL, WEAK, saddle, length=0.5)
+    saddle = of_type(symmetric_orbits(states.BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
+    branch = partial(trace_manifold, states.BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
     ball = Ball(k=states.BALL.k, g=1.0)
 
     def each_to_the_end():
@@ -139,44 +140,44 @@ def _whole():
     }
 
 
-def _spread(seconds):
-    """Median, lowest and highest in a unit that suits them."""
+def _spread(seconds: tuple[float, float, float]) -> str:
+    """Return median, lowest and highest in a suitable unit."""
     size, unit = next((u for u in UNITS if seconds[0] >= u[0]), UNITS[-1])
     middle, low, high = (s / size for s in seconds)
     return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
 
 
-def _steps(start, impacts):
+def _steps(start, impacts: int) -> None:
     ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
     ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size))
 
 
-def _history(start, out):
+def _history(start, out: np.ndarray) -> None:
     columns = [np.array(a, ndmin=1) for a in start]
     states.BALL.map.history(*columns, states.BALL.k, states.BALL.g, out)
 
 
-def _vectors(start, impacts):
-    """An ensemble with a tangent vector each, as a sweep follows it."""
+def _with_tangent(start, impacts: int) -> None:
+    """Follow an ensemble with a tangent vector for each orbit, as a sweep does."""
     ball, lanes = states.BALL, start[0].size
     orbits = begin(ball.k, [a / ball.g for a in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, lanes))
     propagate_with_tangent(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
 
 
-def _along(state, count):
-    """The first `count` states of an orbit, as columns."""
+def _along(state, count: int) -> tuple[np.ndarray, ...]:
+    """Return the first `count` states of an orbit, as columns."""
     out = np.empty((1, count, 4))
     _history(state, out)
     return tuple(a.copy() for a in out[0].T[:3])
 
 
-def on_one_core():
-    """Keep this process on one core: whatever starts threads gains nothing by them."""
+def _use_one_core() -> None:
+    """Keep this process on one core, so that threads gain nothing."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
 if __name__ == "__main__":
-    on_one_core()
+    _use_one_core()
     print("\n".join(run()))

@@ -1,11 +1,15 @@
-"""Where methods fail: near grazing, near misses, on the chaotic orbit, and in energy and agreement.
+"""Failures of methods: near grazing, at near misses, along the chaotic orbit, and in its energy.
 
-`edges` works with any methods; `orbits` with the compiled ones, whose orbits it follows for a
-million impacts. A failure is a wrong root as in `work.is_wrong`.
+`edges` and `missed` work with any methods, `orbits` with the compiled ones, whose orbits it follows
+for a million impacts. A failure is a wrong root, `work.is_wrong`.
 """
 
-import numpy as np
+from collections.abc import Callable, Sequence
 
+import numpy as np
+import xarray as xr
+
+from ..dynamics.ball import Ball
 from ..dynamics.variables import LENGTH
 from ..proofs import reference_solver
 from . import states
@@ -15,12 +19,12 @@ from .work import dataset, is_wrong, proved_times
 
 SIDES = (1, -1)
 DISTANCES = range(13)  # s = 1 ... 1e-12
-DEPTHS = range(2, 15)  # 1e-2 ... 1e-14: below, the height is lost in the gap's own roundings
+DEPTHS = range(2, 15)  # heights 1e-2 ... 1e-14; lower ones are lost in the gap's rounding errors
 MILLION = 1_000_000
-RECORDS = np.array([*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION])
-AGREE_IMPACTS = 170  # by then a rounding has grown to order one in every orbit
-AGREE_STARTS = 15  # of the sea, odd for a median that is one of them
-SEPARATION = 1e-3  # of x: by then the eye sees it
+RECORDS = np.array([*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION])  # impacts
+AGREE_IMPACTS = 170  # by then a rounding error has grown to order one on every orbit
+AGREE_STARTS = 15  # in the sea; odd, so that the median is the value of one of them
+SEPARATION = 1e-3  # of x, which is visible
 
 EDGE_METHODS = OURS, *(scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01)), engine_method(1e-3)
 ORBIT_METHODS = (
@@ -32,21 +36,12 @@ ORBIT_METHODS = (
 )
 
 
-def edges(methods, count=200):
-    """The share of `count` states that fail, no answers and wrong roots alike.
+def edges(methods, count: int = 200) -> xr.Dataset:
+    """Compute the share of wrong or missing roots near grazing and near misses.
 
-    Parameters
-    ----------
-    methods : sequence
-        As described in `methods`.
-    count : int
-        States a distance or height.
-
-    Returns
-    -------
-    xarray.Dataset
-        near (method, side, distance): against s = xdot + udot; touch (method, side, depth):
-        against the height of a maximum of the gap.
+    `count` states are used at each distance from grazing and each height of a maximum. In the
+    dataset near (method, side, distance) is against s = xdot + udot, and touch (method, side,
+    depth) against the height of a maximum of the gap.
     """
     near = _failing(methods, lambda side, e: states.grazing_at(e, side, count), DISTANCES)
     touch = _failing(
@@ -62,26 +57,26 @@ def edges(methods, count=200):
     return dataset(methods, variables, states=count)
 
 
-def _failing(methods, chosen, exponents):
-    """Failing shares (method, side, exponent) over the states chosen(side, exponent)."""
+def _failing(methods, states_at: Callable, exponents: Sequence[int]) -> np.ndarray:
+    """Return failing shares (method, side, exponent) over states_at(side, exponent)."""
     shares = np.empty((len(methods), len(SIDES), len(exponents)))
     for j, side in enumerate(SIDES):
         for i, exponent in enumerate(exponents):
-            columns = chosen(side, exponent)
+            columns = states_at(side, exponent)
             truth = proved_times(BALL, columns)
-            for place, method in enumerate(methods):
-                shares[place, j, i] = is_wrong(method.solve(BALL, *columns)[0], truth).mean()
+            for m, method in enumerate(methods):
+                shares[m, j, i] = is_wrong(method.solve(BALL, *columns)[0], truth).mean()
     return shares
 
 
-def certified_orbit(ball, state, impacts):
-    """(states (3, impacts), flight times) of the certified orbit: each state and what follows."""
+def certified_orbit(ball: Ball, state, impacts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return states (3, impacts) of the certified orbit from `state`, and the flight times."""
     track, _ = OURS.orbit(ball, state, impacts)
     return np.column_stack((state, track[:3, :-1])), track[3]
 
 
-def energy_drift(ball, state, track):
-    """The largest relative error of the energy so far, at each impact of an orbit (4, impacts)."""
+def energy_drift(ball: Ball, state, track: np.ndarray) -> np.ndarray:
+    """Return the largest relative error of the energy so far, at each impact of `track`."""
 
     def energy(x, v, w):
         return (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
@@ -90,13 +85,8 @@ def energy_drift(ball, state, track):
     return np.maximum.accumulate(np.abs(energy(*track[:3]) - first) / abs(first))
 
 
-def orbits(impacts=MILLION):
-    """The compiled methods along the chaotic orbit.
-
-    Parameters
-    ----------
-    impacts : int
-        Of the long orbits; how long orbits agree is seen in AGREE_IMPACTS.
+def orbits(impacts: int = MILLION) -> xr.Dataset:
+    """Compare the methods in this package's arithmetic along the chaotic orbit.
 
     Returns
     -------
@@ -125,51 +115,35 @@ def orbits(impacts=MILLION):
     ]
     tracks = np.array([*tracks, proved])
     apart = np.median(np.abs(tracks[:-1] - tracks[-1]), axis=1)
-    agree = [[_agreement(one, other) for other in tracks] for one in tracks]
+    agree = [[_agreement(a, b) for b in tracks] for a in tracks]
+    distance = "median distance in x from the judge's orbit"
     variables = {
         "missed": ("method", missed, "impacts flown past"),
         "evaluations": ("method", evaluations, "evaluations an impact"),
         "drift": (("method", "record"), drift, "largest relative error of the energy"),
         "record": ("record", records, "number of impacts"),
-        "apart": (
-            ("method", "impact"),
-            apart,
-            "median distance in x from the judge's orbit",
-            LENGTH,
-        ),
+        "apart": (("method", "impact"), apart, distance, LENGTH),
         "impact": ("impact", np.arange(1, AGREE_IMPACTS + 1), "number of impacts"),
         "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
     }
     return dataset(methods, variables, impacts=impacts, apart=SEPARATION)
 
 
-def _agreement(one, other):
-    """The median over starts of the number of impacts before two orbits differ by SEPARATION."""
-    beyond = np.abs(one - other) > SEPARATION
+def _agreement(a: np.ndarray, b: np.ndarray) -> float:
+    """Return the median over starts of the impacts before two orbits differ by SEPARATION."""
+    beyond = np.abs(a - b) > SEPARATION
     first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), beyond.shape[1])
     return float(np.median(first))
 
 
-def missed(methods, impacts=MILLION):
-    """How many of the impacts that the coarsest scan misses others miss as well.
+def missed(methods, impacts: int = MILLION) -> xr.Dataset:
+    """Count the impacts of the certified chaotic orbit that both the coarsest scan and others miss.
 
-    The certified chaotic orbit is followed for `impacts` impacts; where a scan with step 0.5
-    gives a wrong root the methods are asked too. What they miss elsewhere is not counted: a lower
-    bound.
-
-    Parameters
-    ----------
-    methods : sequence
-        As described in `methods`.
-    impacts : int
-
-    Returns
-    -------
-    xarray.Dataset
-        missed (method).
+    The methods solve only the flights for which a scan with step 0.5 gives a wrong root. What they
+    miss elsewhere is not counted, so the count, missed (method), is a lower bound.
     """
-    columns, found = certified_orbit(BALL, states.chaotic(), impacts)
-    hard = is_wrong(scan_method(0.5, 1e-12).solve(BALL, *columns)[0], found)
+    columns, certified = certified_orbit(BALL, states.chaotic(), impacts)
+    hard = is_wrong(scan_method(0.5, 1e-12).solve(BALL, *columns)[0], certified)
     columns = columns[:, hard]
     truth = proved_times(BALL, columns)
     count = [is_wrong(method.solve(BALL, *columns)[0], truth).sum() for method in methods]

@@ -1,18 +1,17 @@
-"""The error of each figure under each compiled method, in pixels, and what the method spends.
+"""The error of each figure under each compiled method, in pixels, and the cost of the method.
 
-What counts as error depends on the kind of picture, which names its measure:
+The kind of picture names its measure of error:
 
-    portrait  the drift of the energy over each orbit, as a change of the section's radius: it moves
-              every curve; along a curve points may slide unseen
+    portrait  the drift of the energy over each orbit, as a change of the section's radius, which
+              moves every curve; points that slide along a curve do not show
     motion    the error of height and time at the impacts, against the proved orbit
     tangle, closeup
-              the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of
-              an impact: across a branch errors shrink by 1/m each impact, along it they do not
-              show
+              the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of an
+              impact: errors across a branch shrink by 1/m each impact, errors along it do not show
     exponents the change of a tangent vector's exponent, averaged over the orbits
 
-A missed impact is a point that is not on the orbit; a picture of orbits shows it whatever the
-energy says. The mean exponent of a long orbit does not.
+A missed impact puts a point off the orbit. A picture of orbits shows it even if the energy is
+exact; the mean exponent of a long orbit does not.
 """
 
 import math
@@ -21,6 +20,7 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from ..dynamics.ball import Ball
 from ..dynamics.starts import start_state
@@ -36,38 +36,38 @@ from .failures import certified_orbit, energy_drift
 from .methods.counted_methods import ENGINES, OURS, SCANS
 from .work import dataset, is_wrong, proved_times
 
-# The march, scans of 0.5 and 0.1 to every tolerance, the finest, engines but the coarsest.
+# The march, scans of 0.5 and 0.1, the finest scan, and all engines but the coarsest.
 METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
-_AXIS = "unit of the axis"  # a scale: of a position R, of a time 1/omega, of an exponent 1
-# The scatter between orbits of an exponent after 2e5 impacts, whatever the method: an error
-# below that of their mean does not show.
+_AXIS = "unit of the axis"  # a scale: R for positions, 1/omega for times, 1 for exponents
+# Standard deviation between orbits of an exponent after 2e5 impacts, with any method: an error
+# below that of the orbits' mean does not show.
 SCATTER = 0.004
-BRANCH_POINTS = 2000  # of a manifold, evenly by index: what one in a thousand misses shows
+BRANCH_POINTS = 2000  # of a manifold, evenly by index; one miss in a thousand shows
 
 
 class Errors(NamedTuple):
-    """What one figure shows of the methods' errors; lists are by method."""
+    """Errors of the methods in one figure; lists have an entry for each method."""
 
-    error: list  # of the picture, in pixels
-    missed: list  # impacts flown past
-    evaluations: list  # an impact
+    error: list[float]  # of the picture, in pixels
+    missed: list[int]  # impacts flown past
+    evaluations: list[float]  # for one impact
     impacts: int  # computed for the comparison
-    axis: str  # in whose units the following are
+    axis: str  # in whose units `pixel` is
     pixel: float
-    stroke: float  # the width of a line or dot, in points
+    stroke: float  # width of a line or dot, in points
     limit: float = 1.0  # error that the picture can hide, in pixels
     misses_show: bool = True
 
 
-def figure_errors(scenes, measures, artifacts):
-    """The error of each figure under each method, missed impacts, evaluations, what is good enough.
+def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr.Dataset:
+    """Compute each figure's error under each method, and which methods are good enough.
 
     Parameters
     ----------
     scenes : dict
         Name -> block of the checked config, with its axes.
     measures : dict
-        Name -> what counts as error there, a key of MEASURES.
+        Name -> measure of error, a key of MEASURES; others raise a ValueError.
     artifacts : dict
         (stage, name) -> Dataset, for the periodic orbits and manifolds of the scenes.
 
@@ -75,18 +75,13 @@ def figure_errors(scenes, measures, artifacts):
     -------
     xarray.Dataset
         On (scene, method).
-
-    Raises
-    ------
-    ValueError
-        A measure that there is not.
     """
     rows = []
     for name, block in scenes.items():
         if measures[name] not in MEASURES:
             known = ", ".join(MEASURES)
             raise ValueError(f"{name}: no measure {measures[name]!r} (the study has {known})")
-        data = {stage: found for (stage, scene), found in artifacts.items() if scene == name}
+        data = {stage: dataset for (stage, scene), dataset in artifacts.items() if scene == name}
         rows.append(MEASURES[measures[name]](block, **data))
     error, missed, evaluations, impacts, axes, pixel, stroke, limit, misses_show = (
         np.array(column) for column in zip(*rows, strict=True)
@@ -94,6 +89,7 @@ def figure_errors(scenes, measures, artifacts):
     good = (error <= limit[:, None]) & ((missed == 0) | ~misses_show[:, None])
     cheapest = np.where(good, evaluations, np.inf).argmin(axis=1)
     digit = [_last_digit(block, axis) for block, axis in zip(scenes.values(), axes, strict=True)]
+    width = stroke * DPI / 72 * pixel
     each = ("scene", "method")
     variables = {
         "scene": ("scene", list(scenes), "scene"),
@@ -102,12 +98,7 @@ def figure_errors(scenes, measures, artifacts):
         "evaluations": (each, evaluations, "evaluations an impact"),
         "impacts": ("scene", impacts, "impacts computed for the comparison"),
         "pixel": ("scene", pixel, "a pixel in units of the axis", _AXIS),
-        "line": (
-            "scene",
-            stroke * DPI / 72 * pixel,
-            "width of a line or dot in units of the axis",
-            _AXIS,
-        ),
+        "line": ("scene", width, "width of a line or dot in units of the axis", _AXIS),
         "digit": ("scene", digit, "last digit of the axis' labels", _AXIS),
         "limit": ("scene", limit, "error that the picture can hide, in pixels", "pixel"),
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
@@ -116,7 +107,7 @@ def figure_errors(scenes, measures, artifacts):
     return dataset(METHODS, variables)
 
 
-def _portrait(block):
+def _portrait(block: dict) -> Errors:
     ball, states, impacts = _orbits(block)
     pixel = _box_pixel(block)
     radius = ball.section(block["energy"])[1]
@@ -128,20 +119,20 @@ def _portrait(block):
     return Errors(error, *_misses(ball, states, impacts), sum(impacts), "x", pixel, stroke=0.8)
 
 
-def _exponents(block):
+def _exponents(block: dict) -> Errors:
     ball, states, impacts = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
     means = []
     for method in METHODS:
-        found = map(partial(_vector_exponent, ball, method), states, impacts)
-        means.append(sum(found) / len(states))
+        exponents_of_orbits = map(partial(_vector_exponent, ball, method), states, impacts)
+        means.append(sum(exponents_of_orbits) / len(states))
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
     missed, evaluations = _misses(ball, states, impacts)
     return Errors(error, missed, evaluations, sum(impacts), "exponent", pixel, 0.8, limit, False)
 
 
-def _motion(block, periodic):
+def _motion(block: dict, periodic: xr.Dataset) -> Errors:
     ball = Ball(**block["ball"])
     orbit = of_type(periodic, block["type"])
     state = tuple(states_of(orbit)[:, 0].tolist())
@@ -160,7 +151,7 @@ def _motion(block, periodic):
     return Errors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
 
 
-def _branches(block, periodic, manifolds):
+def _branches(block: dict, periodic: xr.Dataset, manifolds: xr.Dataset) -> Errors:
     ball = Ball(**block["ball"])
     pixel = _box_pixel(block) if "view" in block else _pixels(closeup.plane(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
@@ -175,9 +166,9 @@ def _branches(block, periodic, manifolds):
     exact = _next_states(ball, columns, truth)
     error = []
     for tau in times:
-        off = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
-        off = off[~is_wrong(tau, truth)].max(initial=0.0)
-        error.append(off / (1.0 - 1.0 / growth) / pixel)
+        distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
+        largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
+        error.append(largest / (1.0 - 1.0 / growth) / pixel)
     return Errors(error, missed, evaluations, truth.size, "x", pixel, stroke=0.5)
 
 
@@ -190,55 +181,55 @@ MEASURES = {
 }
 
 
-def _box_pixel(block):
-    """The size of a pixel in a picture with a view."""
+def _box_pixel(block: dict) -> float:
+    """Size of a pixel in a picture with a view."""
     return 1.0 / Box(block).view.scale
 
 
-def _pixels(plane):
-    """The size of a pixel on the two axes of a plane picture."""
+def _pixels(plane) -> tuple[float, float]:
+    """Size of a pixel on the two axes of a plane picture."""
     left, bottom, right, top = plane.frame
     (x0, x1), (y0, y1) = plane.across.limits, plane.up.limits
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
 
 
-def _last_digit(block, axis):
-    """The last digit that the labels of an axis show."""
+def _last_digit(block: dict, axis: str) -> float:
+    """Value of the last digit that the labels of an axis show."""
     ticks = block["axes"][axis]["ticks"]
     decimals = max(len(f"{tick:.10g}".partition(".")[2]) for tick in ticks)
     return float(f"1e-{decimals}")
 
 
-def _orbits(block):
-    """(ball, states, impacts) of a scene of orbits."""
+def _orbits(block: dict) -> tuple[Ball, list, list[int]]:
+    """Return ball, states and numbers of impacts of a scene of orbits."""
     ball, starts, impacts = Ball(**block["ball"]), block["starts"], block["impacts"]
     states = [start_state(ball, block["energy"], start) for start in starts]
     return ball, states, impacts if isinstance(impacts, list) else [impacts] * len(starts)
 
 
 def _misses(ball, states, impacts):
-    """(impacts missed, evaluations an impact) along certified orbits, by method."""
+    """Return each method's missed impacts and evaluations an impact along certified orbits."""
     pieces = [certified_orbit(ball, *orbit) for orbit in zip(states, impacts, strict=True)]
     columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
     return _solved(ball, columns, truth)[1:]
 
 
 def _solved(ball, columns, truth):
-    """(flight times, how many are wrong, evaluations a flight) of states, each by method."""
+    """Return each method's flight times, number of wrong ones, and evaluations a flight."""
     times, counts = zip(*(method.solve(ball, *columns) for method in METHODS), strict=True)
     return times, [is_wrong(tau, truth).sum() for tau in times], [n.mean() for n in counts]
 
 
-def _next_states(ball, columns, tau):
-    """The states after flights of given times, eq. (26)."""
+def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray:
+    """Return the states after flights of given times, eq. (26)."""
     x, xdot, udot = columns
     b, c, _ = rebound(xdot, udot, ball.k, impact_coefficients(ball.k))
     sine, cosine = sincos_each(tau)
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
 
 
-def _vector_exponent(ball, method, state, impacts):
-    """The exponent of one tangent vector, which tends to the largest, on the method's orbit."""
+def _vector_exponent(ball: Ball, method, state, impacts: int) -> float:
+    """Return the exponent of a tangent vector, which tends to the largest, on a method's orbit."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = np.column_stack((state, track[:3, :-1]))
     return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
@@ -246,7 +237,7 @@ def _vector_exponent(ball, method, state, impacts):
 
 @jit
 def _growth(jacobians):
-    """The logarithm by which a product of matrices (n, 3, 3) stretches the vector (1, 0, 0)."""
+    """Return the logarithm by which a product of matrices (n, 3, 3) stretches (1, 0, 0)."""
     a, b, c = 1.0, 0.0, 0.0
     total = 0.0
     for j in jacobians:
@@ -254,7 +245,7 @@ def _growth(jacobians):
         q = (j[1, 0] * a + j[1, 1] * b) + j[1, 2] * c
         r = (j[2, 0] * a + j[2, 1] * b) + j[2, 2] * c
         length = math.sqrt((p * p + q * q) + r * r)
-        if length > 0.0 and length < math.inf:  # not differentiable where the next impact grazes
+        if length > 0.0 and length < math.inf:  # else the next impact grazes: no derivative
             a, b, c = p / length, q / length, r / length
             total += log(length)
     return total

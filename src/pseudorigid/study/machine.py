@@ -1,14 +1,15 @@
-"""The machine and the versions behind a measurement."""
+"""The machine and the versions of packages behind a measurement."""
 
 import os
 import platform
 from importlib.metadata import version
+from pathlib import Path
 
 PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys")
 
 
-def machine():
-    """The processor, its load and the versions, as a dict of texts."""
+def machine() -> dict[str, str]:
+    """Return the processor, its load and the versions of packages."""
     return {
         "processor": _processor(),
         "cores": str(os.cpu_count()),
@@ -17,13 +18,12 @@ def machine():
     } | {name: version(name) for name in PACKAGES}
 
 
-def _processor():
+def _processor() -> str:
     try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            lines = file.read().splitlines()
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:
         return platform.processor() or platform.machine()
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     flags = next((line for line in lines if line.startswith(("flags", "Features"))), "")
-    wide = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"
-    return f"{names[0] if names else platform.machine()} ({wide})"
+    simd = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"
+    return f"{names[0] if names else platform.machine()} ({simd})"

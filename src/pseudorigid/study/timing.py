@@ -1,24 +1,19 @@
-"""Calls timed in turn, so that what slows a machine down slows all of them."""
+"""Interleaved timing: calls take turns, so that what slows a machine down slows all of them."""
 
 import statistics
 import time
+from collections.abc import Callable, Mapping
 
 
-def interleaved(calls, repetitions, clock=time.process_time):
-    """How long each of some calls takes.
+def interleaved(
+    calls: Mapping[str, Callable[[], object]],
+    repetitions: int,
+    clock: Callable[[], float] = time.process_time,
+) -> dict[str, tuple[float, float, float]]:
+    """Return median, lowest and highest seconds of each call.
 
-    Parameters
-    ----------
-    calls : dict of str to callable
-        Called once, so that they compile, then all once before any again.
-    repetitions : int
-    clock : callable
-        Seconds: of this process alone, or time.perf_counter where others do the work.
-
-    Returns
-    -------
-    dict
-        Name -> (median, lowest, highest) of the seconds.
+    Every call is made once before, so that it compiles. `clock` counts the seconds of this process;
+    use time.perf_counter for calls whose work other processes do.
     """
     for call in calls.values():
         call()

@@ -1,13 +1,12 @@
-"""Methods in this package's arithmetic: their results are part of the byte contract.
+"""Methods in this package's arithmetic, whose results have the same bytes on every machine.
 
-Each finds the flight that follows an impact at x with velocities b, c (and s = -(b + c), its exact
-sum) and returns (tau, x', xdot', udot', evaluations of the gap). Three kinds:
+There are three kinds of method to find the flight after an impact:
 
     MARCH   the certified march of pseudorigid.kernel.flight
-    SCAN    the paper's: steps of constant length until the gap changes sign, then bisection
+    SCAN    the paper's method: steps of constant length until the gap changes sign, then bisection
             until the bracket is no longer than the tolerance
-    ENGINE  a physics engine's: semi-implicit Euler until the ball overlaps the floor; the impact
-            happens at the end of that time step
+    ENGINE  a physics engine: semi-implicit Euler steps until the ball overlaps the floor; the
+            impact happens at the end of that time step
 """
 
 import math
@@ -24,8 +23,8 @@ MARCH, SCAN, ENGINE = 0, 1, 2
 
 
 @jit
-def engine(x, b, c, g, step):
-    """(tau, x', xdot', udot', steps): positions and velocities as an engine has them."""
+def _engine(x, b, c, g, step):
+    """Return (tau, x', xdot', udot', steps) of a flight that begins at x with velocities b, c."""
     position, strain, v, w = x, -x, b, c
     count = 0
     while True:
@@ -41,14 +40,14 @@ def engine(x, b, c, g, step):
 
 
 @jit
-def flight(kind, step, tolerance, x, v, w, k, g, coefficients):
-    """One impact and the flight that follows, by any kind: (tau, x', xdot', udot', evaluations)."""
+def _flight(kind, step, tolerance, x, v, w, k, g, coefficients):
+    """Return (tau, x', xdot', udot', evaluations) of one impact and the flight that follows."""
     if kind == MARCH:
         p, v, q, tau, count, _ = kernel.step(x, v, w, k, g, coefficients, None)
         return tau, p, v, q, count
     b, c, _ = kernel.rebound(v, w, k, coefficients)
     if kind == ENGINE:
-        return engine(x, b, c, g, step)
+        return _engine(x, b, c, g, step)
     tau, count = scan(x, b, c, g, step, tolerance)
     sine, cosine = sincos(tau)
     return tau, x * cosine - c * sine, b + g * tau, x * sine + c * cosine, count
@@ -58,7 +57,7 @@ def flight(kind, step, tolerance, x, v, w, k, g, coefficients):
 def _flights(kind, step, tolerance, x, v, w, k, g, tau, count):
     coefficients = kernel.impact_coefficients(k)
     for i in range(x.size):
-        tau[i], _, _, _, count[i] = flight(
+        tau[i], _, _, _, count[i] = _flight(
             kind, step, tolerance, x[i], v[i], w[i], k, g, coefficients
         )
 
@@ -68,15 +67,15 @@ def _orbit(kind, step, tolerance, x, v, w, k, g, out):
     coefficients = kernel.impact_coefficients(k)
     total = 0
     for i in range(out.shape[1]):
-        tau, x, v, w, count = flight(kind, step, tolerance, x, v, w, k, g, coefficients)
+        tau, x, v, w, count = _flight(kind, step, tolerance, x, v, w, k, g, coefficients)
         out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
         total += count
     return total
 
 
 @dataclass(frozen=True)
-class Counted:
-    """One of the kinds above with its step and tolerance, in time units."""
+class CountedMethod:
+    """A method of one of the kinds above, with its step and tolerance in time units."""
 
     name: str
     family: str
@@ -84,40 +83,36 @@ class Counted:
     step: float = 0.0
     tolerance: float = 0.0
 
-    def solve(self, ball, x, xdot, udot):
-        """(tau, evaluations) for arrays (n,) of states; NaN where none is found."""
+    def solve(self, ball, x, xdot, udot) -> tuple[np.ndarray, np.ndarray]:
+        """Return flight times and evaluations of states, arrays (n,); NaN if no root is found."""
         tau = np.empty(x.size)
         count = np.empty(x.size, np.int64)
         _flights(self.kind, self.step, self.tolerance, x, xdot, udot, ball.k, ball.g, tau, count)
         return tau, count
 
-    def orbit(self, ball, state, impacts):
-        """Its own orbit from `state`, the start excluded.
+    def orbit(self, ball, state, impacts: int) -> tuple[np.ndarray, int]:
+        """Return the method's own orbit from `state`, and the evaluations of all flights.
 
-        Returns
-        -------
-        track : ndarray, shape (4, impacts)
-            x, xdot, udot just before each impact, and the flight tau that ends there.
-        evaluations : int
-            Of all flights.
+        The rows of the orbit (4, impacts) are x, xdot, udot just before each impact after the
+        start, and the time tau of the flight that ends there.
         """
         track = np.empty((4, impacts))
         root_finder = self.kind, self.step, self.tolerance
         return track, _orbit(*root_finder, *(float(a) for a in state), ball.k, ball.g, track)
 
 
-OURS = Counted("certified march", "certified march", MARCH)
+OURS = CountedMethod("certified march", "certified march", MARCH)
 
 
-def scan_method(step, tolerance):
-    """The paper's method with this step and tolerance."""
+def scan_method(step: float, tolerance: float) -> CountedMethod:
+    """Return the paper's method with a step and a tolerance."""
     name, family = f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection"
-    return Counted(name, family, SCAN, step, tolerance)
+    return CountedMethod(name, family, SCAN, step, tolerance)
 
 
-def engine_method(step):
-    """A physics engine with this time step."""
-    return Counted(f"engine {step:.0e}", "time stepping", ENGINE, step)
+def engine_method(step: float) -> CountedMethod:
+    """Return a physics engine with a time step."""
+    return CountedMethod(f"engine {step:.0e}", "time stepping", ENGINE, step)
 
 
 TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)

@@ -1,15 +1,16 @@
-"""Rival for exponents: pynamicalsys, given this package's own map and Jacobian, compiled."""
+"""Lyapunov exponents by pynamicalsys, given this package's compiled map and Jacobian."""
 
 import numba
 import numpy as np
 from pynamicalsys import DiscreteDynamicalSystem
 
+from ...dynamics.ball import Ball
 from ...kernel import impact as kernel
 
 
 @numba.njit
 def _mapping(u, parameters):
-    """One impact, u = (x, xdot, udot), parameters = (k, g)."""
+    """Return the state after u = (x, xdot, udot); parameters = (k, g)."""
     k, g = parameters[0], parameters[1]
     coefficients = kernel.impact_coefficients(k)
     x, v, w, _, _, _ = kernel.step(u[0], u[1], u[2], k, g, coefficients, None)
@@ -18,7 +19,7 @@ def _mapping(u, parameters):
 
 @numba.njit
 def _jacobian(u, parameters, *_):
-    """The analytic Jacobian, eq. (33), column by column."""
+    """Return the analytic Jacobian, eq. (33)."""
     k, g = parameters[0], parameters[1]
     coefficients = kernel.impact_coefficients(k)
     p, _, q, _, sine, cosine, tau_x, tau_s, tau_c, _ = kernel.step_with_flight(
@@ -33,22 +34,11 @@ def _jacobian(u, parameters, *_):
     return out
 
 
-def spectrum(ball, state, impacts):
-    """The three Lyapunov exponents of one orbit as pynamicalsys computes them, by QR.
-
-    Parameters
-    ----------
-    ball : Ball
-    state : tuple of float
-    impacts : int
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        An impact.
-    """
+def spectrum(ball: Ball, state: tuple[float, float, float], impacts: int) -> np.ndarray:
+    """Return the three Lyapunov exponents of one orbit, in nats an impact, by QR."""
     system = DiscreteDynamicalSystem(
         mapping=_mapping, jacobian=_jacobian, system_dimension=3, number_of_parameters=2
     )
-    found = system.lyapunov(list(state), impacts, parameters=[ball.k, ball.g], method="QR")
-    return np.asarray(found)
+    return np.asarray(
+        system.lyapunov(list(state), impacts, parameters=[ball.k, ball.g], method="QR")
+    )

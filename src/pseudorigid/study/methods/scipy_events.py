@@ -1,4 +1,4 @@
-"""Rivals from scipy: a scan refined by brentq, and solve_ivp with a terminal event."""
+"""Methods of scipy: a scan refined by brentq, and solve_ivp with a terminal event."""
 
 import math
 
@@ -8,15 +8,15 @@ from scipy.optimize import brentq
 
 from .external_solver import AFTER, ExternalSolver, just_after
 
-# The first steps tried. LSODA does not look into its first one closely enough to see a flight that
-# ends in it; a tiny one costs it nothing.
+# First steps in time units. LSODA may not see a flight that ends within its first step; a tiny one
+# costs it nothing.
 FIRST_STEP = {"LSODA": 1e-8}
-OTHERS_FIRST_STEP = 1e-2
-AT_ONCE = 64  # steps of a vectorised scan: a flight of 3 time units in one go at a step of 0.1
+DEFAULT_FIRST_STEP = 1e-2
+SCAN_BATCH = 64  # steps evaluated at once: more than a flight of 3 time units at a step of 0.1
 
 
-def brentq_method(step, tolerance):
-    """A vectorised scan with this step, refined by scipy.optimize.brentq to this tolerance."""
+def brentq_method(step: float, tolerance: float) -> ExternalSolver:
+    """Return a vectorised scan that scipy.optimize.brentq refines to a tolerance."""
 
     def flight(x, b, c, g, latest):
         def gap(t):
@@ -24,20 +24,18 @@ def brentq_method(step, tolerance):
 
         count, start = 0, 0.0
         while start < latest:
-            t = start + step * np.arange(1, AT_ONCE + 1)
+            t = start + step * np.arange(1, SCAN_BATCH + 1)
             above = x + t * (b + 0.5 * g * t) - x * np.cos(t) + c * np.sin(t) > 0.0
             if above.any():
                 first = int(above.argmax())
                 count += first + 1
                 high = float(t[first])
-                # the root at 0 is not the one
+                # exclude the root at 0
                 low = high - step if first or start else min(AFTER, 0.5 * high)
                 if gap(low) >= 0.0:
                     return low, count + 1
-                root, root_finder = brentq(
-                    gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True
-                )
-                return root, count + root_finder.function_calls
+                root, report = brentq(gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True)
+                return root, count + report.function_calls
             count += t.size
             start = float(t[-1])
         return math.nan, count
@@ -45,8 +43,8 @@ def brentq_method(step, tolerance):
     return ExternalSolver(f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq", flight)
 
 
-def ivp_method(solver, rtol, max_step=math.inf):
-    """solve_ivp with a terminal event where the gap rises through 0; atol a thousandth of rtol."""
+def ivp_method(solver: str, rtol: float, max_step: float = math.inf) -> ExternalSolver:
+    """Return solve_ivp, atol = rtol/1000, with a terminal event where the gap rises through 0."""
 
     def gap(_, y):
         return y[0] + y[1]
@@ -63,7 +61,7 @@ def ivp_method(solver, rtol, max_step=math.inf):
             return y[2], y[3], g, -y[1]
 
         try:
-            found = solve_ivp(
+            times = solve_ivp(
                 fall,
                 (AFTER, latest),
                 just_after(x, b, c, g),
@@ -71,12 +69,12 @@ def ivp_method(solver, rtol, max_step=math.inf):
                 rtol=rtol,
                 atol=1e-3 * rtol,
                 events=gap,
-                first_step=min(FIRST_STEP.get(solver, OTHERS_FIRST_STEP), 0.5 * latest),
+                first_step=min(FIRST_STEP.get(solver, DEFAULT_FIRST_STEP), 0.5 * latest),
                 max_step=max_step,
             ).t_events[0]
         except ValueError:  # its event search can end in "f(a) and f(b) must have different signs"
             return math.nan, calls
-        return (float(found[0]) if found.size else math.nan), calls
+        return (float(times[0]) if times.size else math.nan), calls
 
     family = solver if max_step == math.inf else f"{solver}, steps <= {max_step:g}"
     return ExternalSolver(f"{family}, {rtol:.0e}", family, flight)

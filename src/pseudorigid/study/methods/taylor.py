@@ -1,4 +1,4 @@
-"""Rival: heyoka's Taylor integrator with a terminal event. Its results are measurements."""
+"""heyoka's Taylor integrator with a terminal event."""
 
 import math
 from functools import cache
@@ -12,7 +12,7 @@ DIRECTIONS = {"any": hy.event_direction.any, "positive": hy.event_direction.posi
 
 @cache
 def _integrator(g, tolerance, direction):
-    """One compiled integrator, reused for every flight as its users would; the gap is the event."""
+    """Return a compiled integrator whose event is the gap, to be reused for every flight."""
     x, u, v, w = hy.make_vars("x", "u", "v", "w")
     return hy.taylor_adaptive(
         [(x, v), (u, w), (v, hy.par[0]), (w, -u)],
@@ -23,10 +23,10 @@ def _integrator(g, tolerance, direction):
     )
 
 
-def taylor_method(tolerance, direction):
-    """heyoka with this tolerance and direction of the event.
+def taylor_method(tolerance: float, direction: str) -> ExternalSolver:
+    """Return heyoka with a tolerance and a direction of the event.
 
-    An evaluation here is one order of one Taylor step, the nearest to one of the right-hand side.
+    One order of one Taylor step counts as one evaluation of the right-hand side.
     """
 
     def flight(x, b, c, g, latest):
@@ -35,7 +35,7 @@ def taylor_method(tolerance, direction):
         ta.time = AFTER
         ta.state[:] = just_after(x, b, c, g)
         outcome, _, _, steps, _, _ = ta.propagate_until(latest)
-        hit = int(outcome) == -1  # terminal event number 0, which stops
+        hit = int(outcome) == -1  # stopped by the terminal event number 0
         return (ta.time if hit else math.nan), steps * ta.order
 
     name, family = f"heyoka {direction}, {tolerance:.0e}", f"heyoka, {direction} direction"
