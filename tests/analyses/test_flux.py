@@ -1,4 +1,4 @@
-"""Flux through the broken separatrices: by action, by polygon, by counting, by angles."""
+"""Lobes and flux by actions, by polygons and by counting, and angles of the traced branches."""
 
 import math
 
@@ -16,7 +16,7 @@ BALL, ENERGY = Ball(0.2, 0.04), 0.01
 SEA = (0.55, 0.68)
 
 
-def test_flights_in_balls_are_those_of_the_judge():
+def test_flights_in_balls_agree_with_an_independent_solver():
     with ctx.workprec(400):
         flights = actions.Law(BALL, ENERGY)
         state, tangent = flights.lift(arb("0.3"), arb("0.02"), arb(1), arb(0))
@@ -47,11 +47,11 @@ def flowing():
     return flux(BALL, ENERGY, 6, 3e-4, 700, SEA, 24, 6000)
 
 
-def test_lobes_by_action_by_polygon_and_by_counting(flowing):
+def test_areas_by_action_by_polygon_and_by_counting_agree(flowing):
     area, polygons = flowing["area"].values, flowing["lobe_polygon"].values
-    assert area[0] == pytest.approx(8.789483773e-10, rel=1e-9)  # of a trial without this code
+    assert area[0] == pytest.approx(8.789483773e-10, rel=1e-9)  # by independent code
     assert polygons[1] == pytest.approx(area[1], rel=1e-4)
-    assert polygons[0] == pytest.approx(area[0], rel=0.2)  # doubles hardly show it
+    assert polygons[0] == pytest.approx(area[0], rel=0.2)  # near the rounding of doubles
     assert np.all(flowing["area_error"].values < 1e-15 * area)
     assert flowing["carried_out"].values[1] == pytest.approx(area[1], rel=0.05)
     assert flowing["carried_in"].values[1] == pytest.approx(area[1], rel=0.05)
@@ -59,15 +59,15 @@ def test_lobes_by_action_by_polygon_and_by_counting(flowing):
     assert float(flowing["digits"].values[1]) == pytest.approx(area[1], rel=1e-15)
 
 
-def test_what_leaves_the_region_tells_how_large_the_sea_is(flowing):
+def test_the_flux_out_of_the_region_gives_the_area_of_the_sea(flowing):
     sea = float(flowing["area"].values[1] / flowing["sea_out"].values[1])
     share = sea / flowing.attrs["section"]
     assert share == pytest.approx(0.83, abs=0.05)  # the atlas: 0.169 of it is regular
     assert float(flowing["sea_inside"].values[0]) == 0.0
 
 
-def test_angles_at_the_crossings_of_the_traced_lines(flowing):
-    """The slope of the polyline where it crosses y = 0; the stable branch is its mirror image."""
+def test_angles_are_those_of_the_traced_branches(flowing):
+    """The angle follows from the slope at y = 0: the stable branch is the mirror image."""
     saddle = symmetric_orbits(BALL, ENERGY, 6).isel(orbit=1)
     for row, side in ((0, "inner"), (1, "outer")):
         line = trace_manifold(
@@ -83,12 +83,12 @@ def test_angles_at_the_crossings_of_the_traced_lines(flowing):
         assert x[at] == pytest.approx(float(flowing["crossing_x"].values[row, 0]), abs=1e-4)
 
 
-def test_flux_wants_an_even_period():
+def test_an_odd_period_is_refused():
     with pytest.raises(ValueError, match="period = 5 is not allowed"):
         flux(BALL, ENERGY, 5, 1e-3, 10, SEA, 2, 10)
 
 
-def test_polygon_of_a_star():
+def test_area_and_points_of_a_star():
     angle = 2.0 * np.pi * np.arange(10) / 10
     radius = np.where(np.arange(10) % 2, 0.4, 1.0)
     star = polygon.Polygon(np.stack([radius * np.cos(angle), radius * np.sin(angle)]))

@@ -1,4 +1,4 @@
-"""Where the map jumps: the length of the curve another way, and what lies on both its sides."""
+"""The curve where the map jumps: its length by quadrature, and the map on both its sides."""
 
 import math
 
@@ -14,8 +14,8 @@ BALL, ENERGY = Ball(0.2, 0.04), 0.01
 
 
 @pytest.mark.parametrize("energy", [0.01, 0.0025])
-def test_length_of_the_jump_curve_by_another_way(energy):
-    """Gauss's quadrature of the curve's speed, from the judge's map in 60 digits."""
+def test_the_length_is_that_of_gaussian_quadrature(energy):
+    """The integrand is the curve's speed, from an independent map in 60 digits."""
     k, g = mpf("0.2"), mpf("0.04")
     centre = g / k
     radius = mp.sqrt(2 * mpf(repr(energy)) / k + g * g / (k * k))
@@ -34,61 +34,59 @@ def test_length_of_the_jump_curve_by_another_way(energy):
         angle = end * mpf(float(node))
         (x0, y0), (x1, y1) = curve(angle - step), curve(angle + step)
         length += end * mpf(float(weight)) * mp.hypot(x1 - x0, y1 - y0) / (2 * step)
-    found = jumps(BALL, energy, [], 4000)
-    assert float(found["length"].values[0]) == pytest.approx(float(length), abs=1e-12)
-    assert 0.0 < float(found["length_error"].values[0]) < 1e-12
+    data = jumps(BALL, energy, [], 4000)
+    assert float(data["length"].values[0]) == pytest.approx(float(length), abs=1e-12)
+    assert 0.0 < float(data["length_error"].values[0]) < 1e-12
 
 
 def test_the_map_jumps_across_the_curve():
-    found = jumps(BALL, ENERGY, [], 400)
+    data = jumps(BALL, ENERGY, [], 400)
     for i in (60, 200, 300):
-        x, y = float(found["x"].values[0, i]), -float(found["y"].values[0, i])
-        dx = float(found["x"].values[0, i + 1]) - float(found["x"].values[0, i - 1])
-        dy = -float(found["y"].values[0, i + 1]) + float(found["y"].values[0, i - 1])
+        x, y = float(data["x"].values[0, i]), -float(data["y"].values[0, i])
+        dx = float(data["x"].values[0, i + 1]) - float(data["x"].values[0, i - 1])
+        dy = -float(data["y"].values[0, i + 1]) + float(data["y"].values[0, i - 1])
         size = math.hypot(dx, dy)
         ends = []
         for side in (1e-9, -1e-9):
             state = BALL.state_xy(x - side * dy / size, y + side * dx / size, ENERGY)
             after = BALL.impact(*state)
             ends.append((after[0], after[1] - 0.2 * after[2]))
-        rim = float(found["rim_x"].values[0, i]), -float(found["rim_y"].values[0, i])
-        beyond = float(found["x"].values[0, 400 - i]), float(found["y"].values[0, 400 - i])
+        rim = float(data["rim_x"].values[0, i]), -float(data["rim_y"].values[0, i])
+        beyond = float(data["x"].values[0, 400 - i]), float(data["y"].values[0, 400 - i])
         ends.sort(key=lambda end: math.dist(end, rim))
         assert math.dist(ends[0], rim) < 1e-3
         assert math.dist(ends[1], beyond) < 1e-3
         assert math.dist(*ends) > 0.01
 
 
-def test_the_curve_has_a_gap_where_the_map_jumps_across_it():
-    """Beside the gap the sides of finer curves shrink; across it they do not."""
+def test_the_image_has_a_gap_where_the_map_jumps_across_the_arc():
+    """Sides of a finer polygon are shorter, since the gap is none of them."""
     ball = Ball(1 / 3, 0.02)
     longest, lengths = [], []
     for sides in (400, 4000):
-        found = jumps(ball, 0.01, [], sides)
-        x, y = found["x"].values[0], found["y"].values[0]
+        data = jumps(ball, 0.01, [], sides)
+        x, y = data["x"].values[0], data["y"].values[0]
         assert np.isnan(x).sum() == 1
         longest.append(np.nanmax(np.hypot(np.diff(x), np.diff(y))))
-        lengths.append(float(found["length"].values[0]))
+        lengths.append(float(data["length"].values[0]))
     assert longest[1] < 0.5 * longest[0]
     assert lengths[0] == pytest.approx(lengths[1], rel=0.03)  # the chord is 0.33 long
     assert lengths[1] < 0.8
 
 
-def test_no_jump_below_the_threshold():
-    found = jumps(BALL, 0.00175, [0.00177], 100)
-    assert float(found["length"].values[0]) == 0.0
-    assert 0.0 < float(found["length"].values[1]) < 0.02
-    assert found.attrs["first_energy"] == pytest.approx(0.00176, rel=1e-12)
+def test_no_curve_below_the_first_energy():
+    data = jumps(BALL, 0.00175, [0.00177], 100)
+    assert float(data["length"].values[0]) == 0.0
+    assert 0.0 < float(data["length"].values[1]) < 0.02
+    assert data.attrs["first_energy"] == pytest.approx(0.00176, rel=1e-12)
 
 
 def test_symmetric_flights_are_symmetric():
-    found = jumps(BALL, ENERGY, [], 400)
-    x, y = found["flight_x"].values.ravel(), found["flight_y"].values.ravel()
-    there = ~np.isnan(x)
-    assert there.sum() > 200
-    state = BALL.state_xy(x[there], y[there], ENERGY)
-    after = BALL.impact(*state)
+    data = jumps(BALL, ENERGY, [], 400)
+    x, y = data["flight_x"].values.ravel(), data["flight_y"].values.ravel()
+    x, y = x[~np.isnan(x)], y[~np.isnan(x)]
+    assert x.size > 200
     # Fix RP: reflecting the next impact gives the state back
-    back = BALL.reflect(*after[:3])
-    np.testing.assert_allclose(back[0], x[there], atol=1e-9)
-    np.testing.assert_allclose(back[1] - 0.2 * back[2], y[there], atol=1e-9)
+    back = BALL.reflect(*BALL.impact(*BALL.state_xy(x, y, ENERGY))[:3])
+    np.testing.assert_allclose(back[0], x, atol=1e-9)
+    np.testing.assert_allclose(back[1] - 0.2 * back[2], y, atol=1e-9)

@@ -1,4 +1,4 @@
-"""The last invariant curve: convergents, residues on either side of breakup, a residue in balls."""
+"""The last invariant curve: convergents, residues on both sides of breakup, choice of nobles."""
 
 import math
 
@@ -37,13 +37,11 @@ def test_residues_on_either_side_of_breakup(edge):
     )
 
 
-@pytest.mark.parametrize("noble, place", [(0, 0), (1, 1)])
-def test_a_residue_in_balls(edge, noble, place):
-    """The orbit refined, and its trace, to 300 bits."""
-    start = float(edge["place"].values[noble, place])
-    period = int(edge["period"].values[noble, place])
-    turns = int(edge["turns"].values[noble, place])
-    state = BALL.start(start, ENERGY)
+@pytest.mark.parametrize("noble, convergent", [(0, 0), (1, 1)])
+def test_a_residue_is_that_of_newtons_method_in_balls(edge, noble, convergent):
+    orbit = edge.isel(noble=noble, convergent=convergent)
+    period, turns = int(orbit["period"]), int(orbit["turns"])
+    state = BALL.start(float(orbit["place"]), ENERGY)
     with ctx.workprec(1500):
         flights = actions.Law(BALL, ENERGY)
         x, y = arb(state[0]), arb(state[1]) - flights.k * arb(state[2])
@@ -65,10 +63,10 @@ def test_a_residue_in_balls(edge, noble, place):
         residue = float((2 - a - d) / 4)
     assert abs(float(y)) < 1e-10 and abs(float(x) - state[0]) < 1e-9
     assert math.gcd(turns, period) == 1
-    assert float(edge["residue"].values[noble, place]) == pytest.approx(residue, rel=1e-3)
+    assert float(orbit["residue"]) == pytest.approx(residue, rel=1e-3)
 
 
-def test_rotation_numbers_outside_are_refused():
+def test_rotation_numbers_that_no_orbit_has_are_refused():
     with pytest.raises(ValueError, match=r"no symmetric orbit of rotation number 1/5 = 0.2"):
         last_curve.last_curve(BALL, ENERGY, 2, (-0.2, -0.1), 100, 10, [[0, 4, 1]])
 
@@ -79,21 +77,20 @@ def test_rotation_numbers_outside_are_refused():
      (Ball(0.1, 0.02), 0.002, (0.1, 0.9))],
 )  # fmt: skip
 def test_nobles_are_chosen_on_either_side_of_the_last_curve(ball, energy, between):
-    """Inside residues fall, outside they do not; the numbers are those of orbits there."""
+    """Residues fall for the inner number and not for the outer one."""
     found = last_curve.last_curve(ball, energy, 4, between, 4000, 10)
     inside, outside = np.abs(found["residue"].values[:, -1])
     assert inside < 0.25 < outside
     assert np.all(found["closure"].values < 1e-9)
 
 
-def test_numbers_between_are_noble_and_simple():
-    for one, other in ((0.16, 0.17), (0.2346, 0.2345), (0.3, 0.3 + 1e-9), (1 / 3, 0.333)):
-        noble = last_curve.noble_between(one, other)
-        assert min(one, other) < last_curve.value(noble) < max(one, other)
+def test_a_noble_number_between_two_numbers():
+    for ends in ((0.16, 0.17), (0.2346, 0.2345), (0.3, 0.3 + 1e-9), (1 / 3, 0.333)):
+        noble = last_curve.noble_between(*ends)
+        assert min(ends) < last_curve.value(noble) < max(ends)
 
 
-def test_a_part_without_the_last_curve_is_refused():
-    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
-        last_curve.last_curve(BALL, ENERGY, 2, (0.55, 0.65), 100, 10)
-    with pytest.raises(ValueError, match="no curves around the fixed point and sea beyond them"):
-        last_curve.last_curve(BALL, ENERGY, 2, (-0.4, -0.3), 100, 10)
+@pytest.mark.parametrize("between", [(0.55, 0.65), (-0.4, -0.3)])
+def test_a_part_without_the_last_curve_is_refused(between):
+    with pytest.raises(ValueError, match=r"^between = .* is not allowed: no curves"):
+        last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10)

@@ -1,4 +1,4 @@
-"""Rotation numbers: at the fixed point, along a staircase, out to two chaotic starts."""
+"""Rotation numbers at the fixed point and in islands, plateaus, and the main island's edge."""
 
 import numpy as np
 import pytest
@@ -24,11 +24,11 @@ def test_rotation_numbers_at_the_fixed_point_and_in_an_island():
     assert fixed_rotation == pytest.approx(float(one["rotation_number"].values[0]), abs=1e-14)
 
 
-def test_plateaus_of_a_staircase():
+def test_plateaus_are_runs_of_one_fraction():
     place = np.arange(40.0)
     turns = 0.3 + 1e-3 * place
     turns[10:14] = 4.0 / 13.0
-    turns[30:32] = 1.0 / 3.0  # of two starts only
+    turns[30:32] = 1.0 / 3.0  # too few starts
     assert rotation.plateaus(place, turns) == [(4, 13, 10.0, 13.0)]
     turns[12] = 0.31
     assert rotation.plateaus(place, turns) == []

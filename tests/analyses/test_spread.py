@@ -1,4 +1,4 @@
-"""The spread of exponents: blocks add up, regular orbits fall like ln n / n, cells entered."""
+"""The spread of exponents: uniform starts, blocks, regular orbits, and cells that orbits enter."""
 
 import math
 
@@ -17,13 +17,13 @@ def spreading():
     return spread(BALL, ENERGY, 20, 40_000, 8, [-0.44, 0.142183], 1 << 14, 12, 1 << 13)
 
 
-def starts(found):
-    """The states in which the orbits of a spread start."""
-    return BALL.state_xy(found["start_x"].values, found["start_y"].values, ENERGY)
+def starts(dataset):
+    """States in which the orbits start."""
+    return BALL.state_xy(dataset["start_x"].values, dataset["start_y"].values, ENERGY)
 
 
 def test_orbits_start_uniformly_over_the_whole_section():
-    """Each of eight sectors and rings of equal area of the disk has an eighth of them."""
+    """Each of eight sectors, and of eight rings of equal area, has an eighth of the starts."""
     x, v, w = BALL.state_xy(*section_points(BALL, ENERGY, 4000), ENERGY)
     assert np.all(v + w > 0.0)
     assert np.max(np.abs(BALL.energy(x, v, w) - ENERGY)) < 1e-15
@@ -35,16 +35,11 @@ def test_orbits_start_uniformly_over_the_whole_section():
         assert np.bincount(parts, minlength=8) == pytest.approx(500, abs=15)
 
 
-def test_islands_and_sea_are_told_apart_by_the_exponents(spreading):
+def test_chaotic_orbits_are_those_with_exponents_in_longer_runs(spreading):
     states = starts(spreading)
-    judged = lyapunov_spectrum(BALL, states, 100_000, 1)["exponent"].values[0, :, 0] > 1e-3
-    assert np.array_equal(in_sea(spreading), judged)
-    assert 0 < judged.sum() < judged.size
-
-
-def test_a_section_without_chaotic_orbits_is_one_line():
-    with pytest.raises(ValueError, match="orbits = 1 of 200 impacts is not allowed: none is chao"):
-        spread(BALL, -0.003, 1, 200, 4, [0.1], 4, 4, 4)
+    chaotic = lyapunov_spectrum(BALL, states, 100_000, 1)["exponent"].values[0, :, 0] > 1e-3
+    assert np.array_equal(in_sea(spreading), chaotic)
+    assert 0 < chaotic.sum() < chaotic.size
 
 
 def test_blocks_add_up_to_the_exponents_of_the_whole(spreading):
@@ -63,12 +58,11 @@ def test_exponents_of_regular_orbits_fall_like_ln_n_over_n(spreading):
     assert np.all(stretches(spreading, 40_000) > 0.2)
 
 
-def test_cells_that_orbits_enter(spreading):
+def test_counts_of_cells_are_those_of_each_orbit(spreading):
     any_, all_, least = (spreading[f"entered_{name}"].values for name in ("any", "all", "least"))
     assert np.all(all_ <= least) and np.all(least <= any_)
     assert np.all(np.diff(any_) >= 0) and np.all(np.diff(least) >= 0)
     assert 0.5 * 144 < any_[-1] <= 144
-    # the orbits counted one by one
     sea = in_sea(spreading)
     paths = [orbit(BALL, state, 1 << 13) for state in np.transpose(starts(spreading))[sea]]
     entered = [cells_of(path) for path in paths]
@@ -84,6 +78,10 @@ def cells_of(path):
     return {(int(6 * (a + 1)), int(6 * (b + 1))) for a, b in zip(x, y, strict=True)}
 
 
-def test_blocks_must_divide_an_orbit():
-    with pytest.raises(ValueError, match="length = 10 is no multiple"):
-        spread(BALL, ENERGY, 2, 10, 4, [0.1], 4, 4, 4)
+@pytest.mark.parametrize(
+    ("energy", "length", "message"),
+    [(-0.003, 200, "orbits = 1 of 200 impacts .* none is chaotic"), (ENERGY, 10, "length = 10")],
+)
+def test_sections_without_chaos_and_uneven_blocks_are_refused(energy, length, message):
+    with pytest.raises(ValueError, match=message):
+        spread(BALL, energy, 1, length, 4, [0.1], 4, 4, 4)

@@ -1,4 +1,4 @@
-"""Where methods fail: the shares and counts against the judge that is not ours."""
+"""Failures of methods: shares and counts against those of an independent solver."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SCAN = scan_method(0.5, 1e-12)
 
 
 def flown_past(method, columns):
-    """Which flights of a method end at another root than the mpmath judge's."""
+    """Return which flights of a method end at another root than those of the mpmath solver."""
     tau, _ = method.solve(BALL, *columns)
     true = [judge(BALL.k, BALL.g, *state).tau for state in zip(*columns, strict=True)]
     return [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), true, strict=True)]
@@ -28,7 +28,7 @@ def edges():
         return failures.edges((OURS, SCAN), count=25)
 
 
-def test_shares_near_grazing_and_touching_are_those_of_the_judge(edges):
+def test_shares_near_grazing_and_touches_are_those_of_an_independent_solver(edges):
     for j, side in enumerate(failures.SIDES):
         for i, exponent in enumerate((0, 4)):
             columns = states.grazing_at(exponent, side, 25)
@@ -41,8 +41,8 @@ def test_shares_near_grazing_and_touching_are_those_of_the_judge(edges):
     assert edges["touch"].values[1, 0].min() > 0.5  # a touch is shorter than its step
 
 
-def test_what_a_coarse_scan_misses_is_missed_by_the_judge_s_verdict():
-    """Along the chaotic orbit: each flight that is counted really ends at a later root."""
+def test_the_count_of_missed_impacts_is_that_of_an_independent_solver():
+    """Each flight of the chaotic orbit that is counted ends at a later root."""
     impacts = 60_000
     columns, truth = failures.certified_orbit(BALL, states.chaotic(), impacts)
     tau, _ = SCAN.solve(BALL, *columns)
@@ -56,7 +56,7 @@ def test_what_a_coarse_scan_misses_is_missed_by_the_judge_s_verdict():
         patch.setattr(failures, "AGREE_STARTS", 1)
         whole = failures.orbits(impacts)
     assert whole["missed"].values.tolist() == [0, sum(late)]
-    assert whole["drift"].values[1].max() < 1e-9  # the energy shows nothing of it
+    assert whole["drift"].values[1].max() < 1e-9  # energy does not show missed impacts
     assert np.all(np.diff(whole["drift"].values, axis=1) >= 0)
 
 
@@ -79,9 +79,9 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
 
 
-def test_orbits_agree_until_they_do_not():
-    one = np.zeros((3, 10))
-    other = one.copy()
-    other[0, 4:] = other[1, 7:] = 2 * failures.SEPARATION
-    assert failures._agreement(one, other) == failures._agreement(other, one) == 7
-    assert failures._agreement(one, one) == 10
+def test_agreement_is_the_median_of_the_first_separations():
+    a = np.zeros((3, 10))
+    b = a.copy()
+    b[0, 4:] = b[1, 7:] = 2 * failures.SEPARATION
+    assert failures._agreement(a, b) == failures._agreement(b, a) == 7
+    assert failures._agreement(a, a) == 10

@@ -1,4 +1,4 @@
-"""The study's methods: each as accurate as it says, and failing where it should."""
+"""The study's methods: each is as accurate as its settings, and fails where it should."""
 
 import numpy as np
 import pytest
@@ -12,11 +12,11 @@ from pseudorigid.study.work import is_wrong
 BALL = states.BALL
 
 
-def test_ours_is_the_map_itself():
+def test_the_certified_march_is_the_map():
     columns = states.uniform(200)
-    tau, looks = OURS.solve(BALL, *columns)
+    tau, evaluations = OURS.solve(BALL, *columns)
     assert np.array_equal(tau, BALL.time_to_impact(*columns))
-    assert looks.min() >= 1
+    assert evaluations.min() >= 1
 
 
 @pytest.mark.parametrize("tolerance", counted_methods.TOLERANCES)
@@ -37,14 +37,14 @@ def test_an_engine_is_as_accurate_as_its_time_step():
     assert fine < 1e-3 < coarse < 1e-2
 
 
-def test_a_scan_flies_through_the_floor_where_the_ball_just_touches_it():
+def test_a_scan_misses_touches_of_the_floor():
     columns = states.near_miss(1e-8, 30)
     truth = OURS.solve(BALL, *columns)[0]
     tau, _ = scan_method(0.1, 1e-12).solve(BALL, *columns)
     assert np.mean(tau > truth + 0.1) > 0.9
 
 
-def test_the_energy_does_not_see_that_impacts_were_missed():
+def test_the_energy_does_not_show_missed_impacts():
     scan, start = scan_method(0.5, 1e-12), states.chaotic()
     columns, truth = failures.certified_orbit(BALL, start, 50_000)
     assert is_wrong(scan.solve(BALL, *columns)[0], truth).sum() > 5
@@ -103,7 +103,7 @@ def test_heyoka_finds_easy_roots():
         assert np.abs(tau - truth).max() < 1e-13
 
 
-@pytest.mark.slow  # it compiles a package whose numbers are in no figure; the bench calls it too
+@pytest.mark.slow  # it compiles a package whose numbers are in no figure
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
     from pseudorigid.study.methods import pynamicalsys_lyapunov

@@ -1,4 +1,4 @@
-"""Work and precision: the table's numbers against the judge that is not ours."""
+"""Work and precision: the dataset's numbers against those of an independent solver."""
 
 import numpy as np
 import pytest
@@ -13,10 +13,11 @@ SETS = (states.uniform, states.grazing)
 
 @pytest.fixture(scope="module")
 def truths():
-    """The flight times of both sets, by mpmath to 60 digits."""
+    """Flight times of both sets, by mpmath to 60 digits."""
     k, g = states.BALL.k, states.BALL.g
     return [
-        [judge(k, g, *state).tau for state in zip(*chosen(COUNT), strict=True)] for chosen in SETS
+        [judge(k, g, *state).tau for state in zip(*states_of(COUNT), strict=True)]
+        for states_of in SETS
     ]
 
 
@@ -26,22 +27,20 @@ def table():
 
 
 @pytest.mark.parametrize("which", range(2))
-def test_each_number_is_that_of_the_independent_judge(table, truths, which):
+def test_each_number_is_that_of_an_independent_solver(table, truths, which):
     columns, truth = SETS[which](COUNT), truths[which]
     for i, method in enumerate(METHODS):
         tau, count = method.solve(states.BALL, *columns)
-        off = np.array([float(abs(a - b) / b) for a, b in zip(tau.tolist(), truth, strict=True)])
-        wrong = np.array(
-            [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), truth, strict=True)]
-        )
-        found = table.isel(method=i, set=which)
-        assert found["name"] == method.name
-        # the table's truths are rounded to doubles
-        assert float(found["median"]) == pytest.approx(np.median(off), rel=1e-9, abs=2e-16)
-        right = off[~wrong]
-        assert float(found["worst"]) == pytest.approx(max(right, default=0), rel=1e-9, abs=2e-16)
-        assert float(found["wrong"]) == wrong.mean()
-        assert float(found["evaluations"]) == count.mean()
+        pairs = list(zip(tau.tolist(), truth, strict=True))
+        error = np.array([float(abs(a - b) / b) for a, b in pairs])
+        wrong = np.array([not abs(a - b) <= min(b, 1) / 10 for a, b in pairs])
+        row = table.isel(method=i, set=which)
+        assert row["name"] == method.name
+        close = {"rel": 1e-9, "abs": 2e-16}  # the table's truths are rounded to doubles
+        assert float(row["median"]) == pytest.approx(np.median(error), **close)
+        assert float(row["worst"]) == pytest.approx(max(error[~wrong], default=0), **close)
+        assert float(row["wrong"]) == wrong.mean()
+        assert float(row["evaluations"]) == count.mean()
 
 
 def test_the_march_is_right_and_coarse_methods_are_not(table):
@@ -50,7 +49,7 @@ def test_the_march_is_right_and_coarse_methods_are_not(table):
     assert np.all(ours["worst"] < 1e-15)
     coarse = table.isel(method=METHODS.index(scan_method(0.5, 1e-3)))
     assert np.all(coarse["median"] > 1e-5)
-    assert float(coarse["wrong"][1]) > 0.1  # near grazing flights are shorter than its step
+    assert float(coarse["wrong"][1]) > 0.1  # flights near grazing are shorter than its step
 
 
 def test_another_root_is_wrong_and_an_inaccurate_one_is_not():
