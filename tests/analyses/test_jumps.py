@@ -40,19 +40,18 @@ def test_the_length_is_that_of_gaussian_quadrature(energy):
 
 
 def test_the_map_jumps_across_the_curve():
-    data = jumps(BALL, ENERGY, [], 400)
+    curve = jumps(BALL, ENERGY, [], 400).isel(energy=0)
+    x, y = curve["x"].values, -curve["y"].values  # the mirror image, where the map jumps
     for i in (60, 200, 300):
-        x, y = float(data["x"].values[0, i]), -float(data["y"].values[0, i])
-        dx = float(data["x"].values[0, i + 1]) - float(data["x"].values[0, i - 1])
-        dy = -float(data["y"].values[0, i + 1]) + float(data["y"].values[0, i - 1])
+        dx, dy = x[i + 1] - x[i - 1], y[i + 1] - y[i - 1]
         size = math.hypot(dx, dy)
         ends = []
         for side in (1e-9, -1e-9):
-            state = BALL.state_xy(x - side * dy / size, y + side * dx / size, ENERGY)
+            state = BALL.state_xy(x[i] - side * dy / size, y[i] + side * dx / size, ENERGY)
             after = BALL.impact(*state)
             ends.append((after[0], after[1] - 0.2 * after[2]))
-        rim = float(data["rim_x"].values[0, i]), -float(data["rim_y"].values[0, i])
-        beyond = float(data["x"].values[0, 400 - i]), float(data["y"].values[0, 400 - i])
+        rim = curve["rim_x"].values[i], -curve["rim_y"].values[i]
+        beyond = x[400 - i], -y[400 - i]
         ends.sort(key=lambda end: math.dist(end, rim))
         assert math.dist(ends[0], rim) < 1e-3
         assert math.dist(ends[1], beyond) < 1e-3

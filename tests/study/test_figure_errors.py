@@ -70,13 +70,10 @@ def test_the_march_is_exact_and_an_engine_is_not(errors):
     assert np.all(errors["evaluations"].values[:, 0] < errors["evaluations"].values[:, 1])
 
 
-def test_impacts_are_those_of_all_starts(errors):
+def test_impacts_pixels_and_the_cheapest_method(errors):
     portrait, motion = errors["impacts"].values
     assert portrait == 2 * 400
     assert 8 <= motion <= 12  # flights of some 3 time units
-
-
-def test_what_a_figure_can_hide_is_a_pixel(errors):
     assert np.all(errors["limit"].values == 1.0)
     assert errors["digit"].values.tolist() == [0.01, 0.01]
     assert np.all(errors["pixel"].values < errors["line"].values)

@@ -1,7 +1,7 @@
 """A cell of a sweep, the closed forms of the fixed point, and blocks, which change no data."""
 
 import math
-from itertools import chain
+from itertools import product
 
 import numpy as np
 import pytest
@@ -137,14 +137,6 @@ def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
     assert np.max(np.abs(off)) < 4 and abs(np.mean(off)) < 1
 
 
-@pytest.mark.parametrize("size", [1, 2, 4, 5, 6, 100])
-def test_blocks_hold_each_cell_once_in_order(size):
-    sweep = SMALL | {"block": size}
-    parts = [grid.block(sweep, i)["cells"] for i in range(len(grid.ranges(sweep)))]
-    assert list(chain(*parts)) == [[k, e] for k in SMALL["k"] for e in SMALL["energy"]]
-    assert max(map(len, parts)) <= size
-
-
 def joined(size):
     """The dataset of the small sweep, computed in blocks of this size."""
     sweep = SMALL | {"block": size}
@@ -153,16 +145,14 @@ def joined(size):
 
 
 def test_the_size_of_blocks_does_not_change_the_bytes():
-    assert len({content_hash(joined(size)) for size in (1, 2, 4, 6)}) == 1
+    assert len({content_hash(joined(size)) for size in (1, 2, 4, 5, 100)}) == 1
 
 
 def test_the_dataset_has_each_cell_at_its_coordinates():
     data = joined(4)
     assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
     assert set(data.data_vars) == set(cell.VARIABLES)
-    for k in SMALL["k"]:
-        for energy in SMALL["energy"]:
-            numbers = cell.cell(k, energy, SMALL["starts"], SMALL["impacts"])
-            here = data.sel(k=k, energy=energy)
-            for name, value in numbers.items():
-                assert np.array_equal(here[name].values, value, equal_nan=True)
+    for k, energy in product(SMALL["k"], SMALL["energy"]):
+        here = data.sel(k=k, energy=energy)
+        for name, value in cell.cell(k, energy, SMALL["starts"], SMALL["impacts"]).items():
+            assert np.array_equal(here[name].values, value, equal_nan=True)

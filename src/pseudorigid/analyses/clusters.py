@@ -26,6 +26,7 @@ _BINS = 8
 _LINEAR = "correlation of what begins a cluster with what begins a later one"
 _BY_CELL = "share of the variance explained by the cell in which the earlier one began"
 _DRIFT = "largest difference of an impact's energy from the start's"
+_KINETIC = "mean in time of the kinetic energy, of the centre's motion and of the strain's"
 _FROM, _TO = ", 95 % interval from", ", 95 % interval to"
 _OF_CUTS = {
     "count": ("cut", "clusters"),
@@ -64,14 +65,9 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     Returns
     -------
     xarray.Dataset
-        flights (bin) and bin_edge: the histogram of flight times. On cut: count, the clusters;
-        cluster_impacts, impacts in one; cluster_time, from its first impact to its last;
-        period, from one cluster's first impact to the next one's, their means over all orbits,
-        with period_error between orbits. On (cut, lag, first, then): correlation; on (cut, lag,
-        then): dependence, with _low and _high, the ends of 95 % intervals. On orbit: time, its
-        length; strain_energy and kinetic_energy, the means in time of k u^2/2 and of
-        (xdot^2 + k udot^2)/2; largest_strain and least_strain, max and min of u; energy_error, of
-        all impacts the largest.
+        On bin, cut, lag and orbit; long_name describes each variable. Means of clusters are over
+        all orbits. correlation (cut, lag, first, then) and dependence (cut, lag, then) have the
+        ends of 95 % intervals in _low and _high.
 
     Raises
     ------
@@ -98,18 +94,13 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
     time, depth, strain_energy, least, most = _strains(out, ball.k, ball.g)
     error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
-    kinetic = "mean in time of the kinetic energy, of the centre's motion and of the strain's"
+    kinetic_energy = (energy + ball.g * depth) - strain_energy
     data = {
         "bin_edge": ("edge", edges, "flight time", TIME),
         "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
         "time": ("orbit", time, "length of the orbit in time", TIME),
         "strain_energy": ("orbit", strain_energy, "mean in time of the strain energy", ENERGY),
-        "kinetic_energy": (
-            "orbit",
-            (energy + ball.g * depth) - strain_energy,
-            kinetic,
-            ENERGY,
-        ),
+        "kinetic_energy": ("orbit", kinetic_energy, _KINETIC, ENERGY),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
         "largest_strain": ("orbit", most, "largest stretch"),
         "energy_error": ("orbit", error, _DRIFT, ENERGY),

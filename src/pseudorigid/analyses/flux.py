@@ -3,7 +3,7 @@
 A region is closed in by the unstable branch of each saddle up to its first crossing with y = 0, or
 that crossing's images, and from there by the stable branch into the neighbouring saddle. Each
 impact carries one lobe out of the region and one of equal area into it (MacKay, Meiss and Percival,
-Physica D 13, 1984).
+Transport in Hamiltonian systems, Physica D 13, 1984).
 """
 
 import math
@@ -77,18 +77,11 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts) -> xr.D
     Returns
     -------
     xarray.Dataset
-        On side, inner and outer. From actions, in balls: area of the lobe, area_error, and digits,
-        the area as text with the digits that two starts and two precisions have in common; saddle
-        and target, the indices of the points of the orbit that the branch leaves and meets. On
-        (side, crossing): crossing_x on y = 0, where the two primary orbits meet it, and sine, of
-        the angle between the branches in the plane (x, y = xdot - k udot). From polygons of the
-        traced lines: lobe_polygon, and region, the area closed in. From counting: carried_out and
-        carried_in, areas that one impact moves; sea_inside, the share of the sea's impacts that are
-        inside, and sea_out, the share of its impacts that leave. For pictures: outline_x, outline_y
-        (side, corner), of the region; branch_x, branch_y (side, vertex), of the unstable branch
-        from a lobe's one end to the mirror image of its other, whose own mirror image in y = 0 is
-        the stable branch. Attributes: section, its area; multiplier, of the orbit. Areas are those
-        of (x, y), which the map keeps, eq. (42), in omega R^2.
+        On side, inner and outer; long_name describes each variable, and areas are those of
+        (x, y = xdot - k udot), which the map keeps, eq. (42). `digits` are those that two starts
+        and two precisions have in common. `branch_x`, `branch_y` run from one end of a lobe to the
+        mirror image of its other end; their mirror image in y = 0 is the stable branch. Attributes:
+        section, its area; multiplier, of the orbit.
 
         A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
         with the reason: its branch is not seen to meet y = 0, or a jump of the map cuts it. If a
@@ -98,10 +91,6 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts) -> xr.D
     ------
     ValueError
         No hyperbolic orbit of that period, an odd period, or no lobes on either side.
-
-    References
-    ----------
-    MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
 
     Examples
     --------

@@ -45,19 +45,17 @@ def jumps(ball, energy, energies, sides) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        On energy: radius, of the section along y = 0, and length, of the curve in the plane
-        (x, y = xdot - k udot), 0 where there is none, by Richardson's rule; length_error, its
-        difference from the value with half as many sides, and the ends left out. On (energy,
-        point), NaN where there is none: rim_x, rim_y, the arc of the rim; x, y, its image under the
-        map, where the inverse jumps, NaN next to a jump of the map. The map jumps on the mirror
-        image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the other near
-        the image of that, the point with the same index counted from the end. flight_x, flight_y
-        (half_time, branch): the symmetry line Fix RP of flights symmetric in time, NaN where a
-        flight is not the first to end. On distance, from the middle of the curve at the first
-        energy along its normal: derivative_touched, derivative_missed, the largest singular value
-        of the map's Jacobian in (x, y), on the side where the flight meets the floor and on the
-        side where it just misses it; NaN where there is no curve, and outside the section.
-        Attribute first_energy: g^2 (1 + k/2), above which there are such curves.
+        long_name describes each variable. On (energy, point), NaN where there is none: the arc of
+        the rim, rim_x, rim_y, and its image under the map, x, y = xdot - k udot, where the inverse
+        jumps; NaN next to a jump of the map. The map jumps on the mirror image (x, -y). On one side
+        of it the next impact is near (rim_x, -rim_y), on the other near the image of that, the
+        point with the same index counted from the end. On energy: length of the curve in (x, y), 0
+        where there is none, by Richardson's rule, and length_error, which includes the ends left
+        out. flight_x, flight_y are NaN where a flight is not the first to end. On distance, from
+        the middle of the curve at the first energy along its normal: derivative_touched, on the
+        side where the flight meets the floor, and derivative_missed, on the side where it just
+        misses it; NaN where there is no curve, and outside the section. Attribute first_energy:
+        g^2 (1 + k/2), above which there are such curves.
 
     Raises
     ------

@@ -2,8 +2,8 @@
 
 An invariant curve with a noble rotation number exists if the residues of the periodic orbits whose
 rotation numbers are its convergents go to zero, and is broken if they grow without bound (Greene,
-J. Math. Phys. 20, 1979). The residue is (2 - trace)/4 of the orbit's Jacobian on the energy
-surface.
+A method for determining a stochastic transition, J. Math. Phys. 20, 1979). The residue is
+(2 - trace)/4 of the orbit's Jacobian on the energy surface.
 """
 
 import math
@@ -68,20 +68,14 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) 
     Returns
     -------
     xarray.Dataset
-        On (noble, convergent): turns and period, of the convergent; place, of its orbit's point on
-        y = 0, in section radii; residue; closure, by how much the orbit misses its start, in
-        section radii. On noble: rotation, the number itself; orbit_rotation and orbit_exponent, of
-        the long orbit. On (noble, impact): x and y = xdot - k udot of its beginning.
+        On (noble, convergent), (noble) and (noble, impact); long_name describes each variable. The
+        last dimension is that of the orbit which starts at the last convergent's point.
 
     Raises
     ------
     ValueError
         There is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an
         island.
-
-    References
-    ----------
-    Greene, A method for determining a stochastic transition, J. Math. Phys. 20 (1979).
 
     Examples
     --------

@@ -37,16 +37,13 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) ->
     Returns
     -------
     xarray.Dataset
-        On (energy, start): place, the start in section radii from the centre; rotation, turns an
-        impact around the fixed point, a weighted Birkhoff average; exponent, over the second half
-        of the orbit. On (detail): detail_place, detail_rotation, detail_exponent. On energy:
-        fixed_place, fixed_rotation (NaN where it is not elliptic). Attributes impacts and
-        detail_impacts.
+        place, rotation, exponent on (energy, start), and with detail_ before their names on
+        (detail); fixed_place and fixed_rotation (NaN if not elliptic) on energy. rotation and
+        exponent are those of `winding`. Attributes impacts and detail_impacts.
 
     References
     ----------
-    Kanso and Papadopoulos, section 4.2, whether the map is a twist map; the average is that of
-    `winding.winding`.
+    Kanso and Papadopoulos, section 4.2, whether the map is a twist map.
 
     Examples
     --------

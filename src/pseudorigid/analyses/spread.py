@@ -40,11 +40,8 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     -------
     xarray.Dataset
         exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
-        impact, in the order of `lyapunov_spectrum`. regular_exponent (length, island, index): over
-        the first `length` impacts. entered_any, entered_all (visit): cells entered by at least one
-        of the chaotic orbits, by each of them; entered_least: by the one that enters fewest.
-        start_x, start_y (orbit), where y = xdot - k udot; regular_start (island); and the attribute
-        block_impacts, the impacts of a block.
+        impact, in the order of `lyapunov_spectrum`; regular_exponent (length, island, index): over
+        the first `length` impacts. long_name describes all variables. Attribute block_impacts.
 
     Raises
     ------

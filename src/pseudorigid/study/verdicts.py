@@ -57,16 +57,8 @@ _CELL = {
 def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
     """Compute errors and costs of the methods on `cells` random cells in each set.
 
-    The orbits of a cell start evenly over its section, as in a sweep.
-
-    Returns
-    -------
-    xarray.Dataset
-        On (set, method, length): wrong, the share of wrong verdicts; missed, chaotic
-        orbits called regular, and alarms, regular ones called chaotic, as shares of all; cost,
-        impacts of an orbit. On (method, length): threshold. On (set, cell): k, energy, regular,
-        the true share of regular orbits; exponent and exponent_error as `sweep.cell` has them;
-        exponent_long, from all impacts of the orbits that are chaotic.
+    The orbits of a cell start evenly over its section, as in a sweep. The dataset is on (set,
+    method, length) and (set, cell).
 
     References
     ----------

@@ -2,7 +2,8 @@
 
 All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
 on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
-vector (`analyses.regularity`), and the difference between the winding numbers of the two halves.
+vector (`analyses.regularity`), and the difference between the winding numbers of the two halves,
+which are weighted Birkhoff averages as in `analyses.winding`.
 
 Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
 numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and
@@ -72,10 +73,6 @@ def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
         an impact, NaN if unknown.
     impacts : int
         At least 4.
-
-    References
-    ----------
-    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017).
     """
     lengths = lengths_to_decide(impacts)
     turning, growing = windows(lengths)
