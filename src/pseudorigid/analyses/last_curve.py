@@ -161,9 +161,9 @@ def _row(ball, energy, noble, convergents, between, impacts, drawn) -> tuple:
     """Return the values of _VARIABLES for one noble number."""
     search = _OrbitSearch(ball, energy, between)
     orbits = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
-    place = orbits[-1][2]
-    (turns,), (exponent,) = winding(ball, energy, np.array([place]), impacts)
-    path = chart(ball.k, *states_of(orbit(ball, ball.start(place, energy), drawn)))
+    start = orbits[-1][2]
+    (turns,), (exponent,) = winding(ball, energy, np.array([start]), impacts)
+    path = chart(ball.k, *states_of(orbit(ball, ball.start(start, energy), drawn)))
     return *np.array(orbits, dtype=float).T, value(noble), turns, exponent, *path
 
 
@@ -202,21 +202,21 @@ class _OrbitSearch:
         self.fixed_x = centre + self.radius * fixed_place
 
     def orbit(self, turns: int, period: int) -> tuple[float, float, float]:
-        """Return place, residue and closure of the orbit with so many turns in a period."""
+        """Return start, residue and closure of the orbit with so many turns in a period."""
         half, odd = divmod(period, 2)
 
-        def excess_turns(place):
-            before, last, _ = self._half_orbit(place, half)
+        def excess_turns(start):
+            before, last, _ = self._half_orbit(start, half)
             return 2.0 * before + odd * last - turns
 
         for bracket in self._brackets(excess_turns):
-            place = _bisect(excess_turns, *bracket)
+            start = _bisect(excess_turns, *bracket)
             if odd:
-                place = self._symmetric_flight(place, half)
-            if place is not None:
-                residue, closure = self._residue_and_closure(place, period)
+                start = self._symmetric_flight(start, half)
+            if start is not None:
+                residue, closure = self._residue_and_closure(start, period)
                 if closure < _MAX_CLOSURE:
-                    return place, residue, closure
+                    return start, residue, closure
         first, last = self.between
         nearby, _ = winding(self.ball, self.energy, np.linspace(first, last, _CELLS), _IMPACTS)
         raise ValueError(
@@ -225,15 +225,15 @@ class _OrbitSearch:
             f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
 
-    def _residue_and_closure(self, place: float, period: int) -> tuple[float, float]:
-        state = self.ball.start(place, self.energy)
+    def _residue_and_closure(self, start: float, period: int) -> tuple[float, float]:
+        state = self.ball.start(start, self.energy)
         jacobian = self.ball.jacobian(*state, impacts=period)
         trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
         after = states_of(orbit(self.ball, state, period, keep="last"))
         return 0.25 * (2.0 - trace), np.max(np.abs(after - state)) / self.radius
 
     def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
-        """Yield pairs of places, the first with too many turns and the second with too few.
+        """Yield pairs of starts, the first with too many turns and the second with too few.
 
         The ends of `between` come first, then those of its cells: where the rotation number jumps
         there is no orbit.
@@ -241,26 +241,26 @@ class _OrbitSearch:
         first, last = self.between
         if excess_turns(first) > 0.0 > excess_turns(last):
             yield first, last
-        places = first + (last - first) * np.arange(_CELLS + 1) / _CELLS
-        signs = np.sign([excess_turns(place) for place in places])
+        starts = first + (last - first) * np.arange(_CELLS + 1) / _CELLS
+        signs = np.sign([excess_turns(start) for start in starts])
         for i in np.flatnonzero(signs[1:] * signs[:-1] < 0.0):
-            low, high = places[i : i + 2].tolist()
+            low, high = starts[i : i + 2].tolist()
             yield (low, high) if signs[i] > 0.0 else (high, low)
 
-    def _half_orbit(self, place: float, half: int) -> tuple[float, float, float]:
-        """Return `_turns` of the orbit from a place on y = 0."""
-        ball, state = self.ball, self.ball.start(place, self.energy)
+    def _half_orbit(self, start: float, half: int) -> tuple[float, float, float]:
+        """Return `_turns` of the orbit from a start on y = 0."""
+        ball, state = self.ball, self.ball.start(start, self.energy)
         return _turns(*state, ball.k, ball.g, self.fixed_x, self.fixed_rotation, half)
 
-    def _symmetric_flight(self, place: float, half: int) -> float | None:
-        """Return the nearby place whose flight after `half` impacts is symmetric, or None."""
+    def _symmetric_flight(self, start: float, half: int) -> float | None:
+        """Return the nearby start whose flight after `half` impacts is symmetric, or None."""
 
         def asymmetry(at):
             return self._half_orbit(at, half)[2]
 
         width = _MIN_HALF_WIDTH
         while width < _MAX_HALF_WIDTH:
-            for above, below in ((place - width, place + width), (place + width, place - width)):
+            for above, below in ((start - width, start + width), (start + width, start - width)):
                 if asymmetry(above) > 0.0 > asymmetry(below):
                     return _bisect(asymmetry, above, below)
             width *= 2.0
