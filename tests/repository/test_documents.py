@@ -103,7 +103,7 @@ def clone(shared, accepted):
         for name in ("bin", "lib", "lib64", "pyvenv.cfg", "stamp", "contents"):
             (tree.path / ".venv" / name).symlink_to(ROOT / ".venv" / name)
         (tree.path / ".venv" / "place").write_text(str(tree.path / ".venv"))
-        shutil.copy(ROOT / "CLAIMS.md", tree.path)
+        shutil.copy(ROOT / "CLAIMS.json", tree.path)
         tree.write(tree.document() | {"variants": shipped()["variants"]})
 
     return Tree(shared("a clone for the documents", make))

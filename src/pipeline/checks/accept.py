@@ -1,51 +1,56 @@
-"""Make what is here the committed state: renew the contracts from complete and current results."""
+"""Make the published files as they are now the committed ones."""
 
 import shutil
+from pathlib import Path
+from typing import Any
 
 from ..records.files import file_hash, obstacle, replacing
 from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, read_sums, unlisted_files
-from .difference import UPSTREAM, Comparison, not_as_made
+from .checksums import SUMS, ChecksumError, read_sums
+from .difference import UPSTREAM
 from .freshness import MISSING
+from .published_sets import PublishedSet
+from .verify import Findings, inspect, unlisted
 
 
-def accept(root, checked):
-    """Renew the contract of the paper, and those of other results that are here.
+def accept(root: Path, checked: dict[str, Any]) -> int:
+    """Renew the manifests of the paper and of the other published sets that were made.
 
-    Charts that are measured are published too, without a contract. 1 is returned where the
-    results of the paper are not all there and current.
+    Measured charts are published too, without a checksum. Returns the exit status, 1 if a result
+    of the paper is missing or not current.
     """
     for published_set in published_sets.committed_sets(checked):
-        if published_set.on_request and not any(
-            (root / p).exists() for p in published_set.build_specs
-        ):
+        results, command = published_set.build_specs, published_set.command
+        if published_set.on_request and not any((root / path).exists() for path in results):
             continue
-        problem = _not_ready(root, published_set)
+        findings = inspect(root, published_set)
+        problem = _not_ready(root, findings)
         if problem is None:
             _publish_measured(root, published_set)
-            _renew(root, published_set)
+            _renew(root, findings)
         elif published_set.on_request:
-            command = published_set.command
             print(f"{published_set.folder} stays as it is: {problem}: run {command} first")
         else:
-            print(f"reproduce accept: {problem}: run {published_set.command} first")
+            print(f"reproduce accept: {problem}: run {command} first")
             return 1
     return 0
 
 
-def _not_ready(root, published_set):
-    """Why the results cannot be accepted, or None."""
-    for path, why in not_as_made(root, published_set).items():
+def _not_ready(root: Path, findings: Findings) -> str | None:
+    """Return why the results cannot be accepted, or None."""
+    published_set = findings.published_set
+    for path, why in findings.stale.items():
         return f"{path} is missing" if why == MISSING else f"{path}: {why}"
     for name, drawing in published_set.drawn.items():
-        if words := obstacle(root / published_set.folder / name):
-            return f"{published_set.folder}/{name}: {words}"
-        if file_hash(root / published_set.folder / name) != file_hash(root / drawing):
-            return f"{published_set.folder}/{name} is not {drawing}"
+        published = f"{published_set.folder}/{name}"
+        if words := obstacle(root / published):
+            return f"{published}: {words}"
+        if file_hash(root / published) != file_hash(root / drawing):
+            return f"{published} is not {drawing}"
     return None
 
 
-def _publish_measured(root, published_set):
+def _publish_measured(root: Path, published_set: PublishedSet) -> None:
     for name in published_set.measured:
         drawing = root / published_set.results / "figures" / name
         if drawing.is_file():
@@ -53,38 +58,35 @@ def _publish_measured(root, published_set):
                 shutil.copyfile(drawing, part)
 
 
-def _renew(root, published_set):
-    folder = published_set.folder
+def _renew(root: Path, findings: Findings) -> None:
+    """Write the manifest and checksum list of a set, and print what changed."""
+    published_set = findings.published_set
+    folder, noun = published_set.folder, published_set.noun
+    fresh = manifest.build(root, published_set)
     try:
-        committed = manifest.read(root, folder)
-        sums = read_sums(root, folder)
+        committed, sums = manifest.read(root, folder), read_sums(root, folder)
     except ChecksumError as error:
-        committed = sums = None
         changes = [f"a new contract ({error})"]
     else:
-        changes = _changes(Comparison(root, published_set, committed), published_set, committed)
-    fresh = manifest.build(root, published_set)
-    if fresh == committed and sums == manifest.sums(fresh):
-        print(f"{folder}: nothing changed")
-        return
+        if fresh == committed and sums == manifest.sums(fresh):
+            print(f"{folder}: nothing changed")
+            return
+        changes = _changes(root, findings, committed) or [f"other changes behind the same {noun}"]
     manifest.write(root, folder, fresh)
-    print(*(changes or [f"other changes behind the same {published_set.what}"]), sep="\n")
-    renewed = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST} renewed"
-    print(f"{renewed}: {len(published_set.drawn)} {published_set.what}")
+    print(*changes, sep="\n")
+    files = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST}"
+    print(f"{files} renewed: {len(published_set.drawn)} {noun}")
 
 
-def _changes(comparison, published_set, committed):
+def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> list[str]:
     changes = []
-    for name in published_set.drawn:
-        layers = comparison.layers(name)
+    for name, layers in findings.layers.items():
         if layers is None:
             changes.append(f"{name}  new")
             continue
         changes += [f"{name}  {layer}: {words}" for layer, words in layers.items()]
         if layers and set(layers) <= UPSTREAM:
             changes.append(f"{name}  the file is the same")
-    gone = sorted(set(manifest.figures(committed)) - set(published_set.drawn))
-    left = unlisted_files(
-        comparison.root, published_set.folder, {*published_set.drawn, *published_set.measured}
-    )
-    return changes + [f"{name}  gone" for name in gone] + left
+    drawn = findings.published_set.drawn
+    gone = [f"{name}  gone" for name in manifest.sums(committed) if name not in drawn]
+    return changes + gone + unlisted(root, findings.published_set)

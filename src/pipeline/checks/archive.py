@@ -12,14 +12,14 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
-from ..config.paths import LEDGER, PAPER, PUBLISHED
+from ..config.paths import LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..records import files
 from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, obstacle, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, known_sums, read_sums
+from .checksums import SUMS, ChecksumError, format_sums, known_sums, read_sums
 from .difference import Comparison, not_as_made
 from .freshness import MISSING
 
@@ -61,7 +61,7 @@ def write(root, checked, path):
 def contents(root, checked):
     """File -> bytes of all that an archive of this tree has, as far as it is there."""
     found, sets = {}, []
-    places = ["config.yaml", "LICENSE", "CITATION.cff", LEDGER]
+    places = ["config.yaml", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
     places += [str(f.relative_to(root)) for f in (root / CERTIFICATES).glob("*.toml")]
     for published_set in published_sets.committed_sets(checked):
         if not manifest.is_present(root, published_set):
@@ -82,8 +82,8 @@ def contents(root, checked):
         certificates=CERTIFICATES, sets=", ".join(sets)
     )
     found[ABOUT] = about.encode()
-    lines = [f"{hashlib.sha256(found[path]).hexdigest()}  {path}\n" for path in sorted(found)]
-    return dict(sorted(found.items())) | {SUMS: "".join(lines).encode()}
+    sums = {path: hashlib.sha256(found[path]).hexdigest() for path in sorted(found)}
+    return dict(sorted(found.items())) | {SUMS: format_sums(sums).encode()}
 
 
 def _public_record(root, path):

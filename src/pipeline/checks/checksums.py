@@ -1,5 +1,6 @@
-"""The hashes of the files of a contract: SHA256SUMS, in its folder."""
+"""SHA256SUMS: the checksum list of a folder of published files."""
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ..config.paths import SHOWN
@@ -9,42 +10,50 @@ SUMS = "SHA256SUMS"
 
 
 class ChecksumError(Exception):
-    """One line about a contract that cannot be read; it names the file."""
+    """One line about a checksum list or manifest that cannot be read; it names the file."""
 
 
-def read_sums(root, folder):
-    """File name -> sha256 from SHA256SUMS; raises ContractError if it is missing or broken."""
+def format_sums(sums: Mapping[str, str]) -> str:
+    """Return the text of a checksum list (file name -> sha256), as sha256sum writes it."""
+    return "".join(f"{digest}  {name}\n" for name, digest in sums.items())
+
+
+def read_sums(root: Path, folder: str) -> dict[str, str]:
+    """Read file name -> sha256 from a folder's SHA256SUMS.
+
+    Raises ChecksumError if the list is missing or broken.
+    """
     path = f"{folder}/{SUMS}"
-    found = {}
-    for number, line in enumerate(text_of(root, path).splitlines(), 1):
-        digest, mark, name = line[:64], line[64:66], line[66:]
+    sums = {}
+    for number, line in enumerate(read_published_text(root, path).splitlines(), 1):
+        digest, separator, name = line[:64], line[64:66], line[66:]
         hexadecimal = len(digest) == 64 and not set(digest) - set("0123456789abcdef")
-        # A name with a folder in it could lead out of this one.
-        if not hexadecimal or mark != "  " or name in ("", "..") or Path(name).name != name:
+        # A name that contains a folder could lead out of this folder.
+        if not hexadecimal or separator != "  " or name in ("", "..") or Path(name).name != name:
             raise ChecksumError(f"{path}: line {number} is not a sha256 and a file's name")
-        found[name] = digest
-    return found
+        sums[name] = digest
+    return sums
 
 
-def known_sums(root, folder):
-    """The same, empty where it cannot be read."""
+def known_sums(root: Path, folder: str) -> dict[str, str]:
+    """Read a folder's SHA256SUMS; return an empty dict if it cannot be read."""
     try:
         return read_sums(root, folder)
     except ChecksumError:
         return {}
 
 
-def unlisted_files(root, folder, names):
-    """A line for each picture in a folder of published files that is none of `names`."""
-    there = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in SHOWN}
+def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
+    """Return a line for each picture in a published folder whose name is not in `names`."""
+    pictures = {path.name for path in (root / folder).glob("[!.]*") if path.suffix[1:] in SHOWN}
     return [
         f"{folder}/{name}: no scene of config.yaml makes it: delete it, or put its scene back"
-        for name in sorted(there - set(names))
+        for name in sorted(pictures - set(names))
     ]
 
 
-def text_of(root, name):
-    """The text of a file of a contract; raises ContractError."""
+def read_published_text(root: Path, name: str) -> str:
+    """Read a checksum list or manifest; raises ChecksumError."""
     try:
         return read_text(root / name)
     except (FileNotFoundError, NotADirectoryError):

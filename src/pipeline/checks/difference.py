@@ -1,14 +1,17 @@
-"""What differs between a published file as committed and as it is here, layer by layer.
+"""How a published file differs from the committed one, layer by layer.
 
-A tree's config, source and environment decide its data, these the drawing, and that the file: the
-first layer that differs is the cause of those after it.
+Config, source and environment decide the data; these decide the drawing; the drawing decides the
+file. The first layer that differs is the cause of differences in the layers after it.
 """
 
 import tempfile
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from ..config.build_specs import with_dependencies
 from ..records.artifacts import ArtifactError, canonical_values, load
@@ -25,56 +28,61 @@ from ..records.sources import syntax_hash
 from . import manifest
 from .checksums import ChecksumError
 from .freshness import Freshness
+from .published_sets import PublishedSet
 
-# A difference in one of these alone leaves the committed bytes.
+# A difference in these layers alone does not change the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
 UNEXPLAINED = (
     "differs from the committed one, although its config, sources and packages do not: delete it"
 )
 
 
-def not_as_made(root, published_set, comparison=None):
-    """Which results of a contract are not what this tree makes: one answer for every command.
+def not_as_made(
+    root: Path, published_set: PublishedSet, comparison: "Comparison | None" = None
+) -> dict[str, str]:
+    """Return result -> why, for the results of a set that are not what this tree makes.
 
-    A result's record decides. Where the manifest lists the result, and all that makes it is as
-    committed, it must be the committed one too, whatever its record says.
-    The manifest is read where no `comparison` with it is given.
-
-    Returns
-    -------
-    dict of str to str
-        Result -> why, in words.
+    A result's record decides. If the manifest lists the result and all that makes it is as
+    committed, the result must be the committed one too, whatever its record says. Without
+    `comparison` the committed manifest is read.
     """
-    found = Freshness(root, published_set.build_specs).outdated()
+    reasons = Freshness(root, published_set.build_specs).outdated()
     if comparison is None:
         try:
             comparison = Comparison(root, published_set, manifest.read(root, published_set.folder))
         except ChecksumError:
-            return found
-    found = comparison.unexplained() | found
-    for path in published_set.build_specs:  # each after its inputs
-        for used in published_set.build_specs[path].inputs:
-            if used in found:
-                found.setdefault(path, f"made from {used}, which is not current")
-    return found
+            return reasons
+    reasons = comparison.unexplained() | reasons
+    for path, spec in published_set.build_specs.items():  # inputs come before results
+        for used in spec.inputs:
+            if used in reasons:
+                reasons.setdefault(path, f"made from {used}, which is not current")
+    return reasons
 
 
 class Comparison:
-    """A tree at `root` with its `contract` against the manifest `committed`.
+    """A tree's published set, to be compared with the manifest `committed`.
 
-    `against` is a folder with a second copy of the tree, or None: it serves to say how large a
-    difference is.
+    `other_tree` is a folder with a second copy of the tree. It serves to say how large a
+    difference is. `differing_data(path, committed_name)` is cached: it describes the first
+    difference between a dataset and the manifest, or returns None.
     """
 
-    def __init__(self, root, published_set, committed, against=None):
+    def __init__(
+        self,
+        root: Path,
+        published_set: PublishedSet,
+        committed: manifest.Manifest,
+        other_tree: Path | None = None,
+    ) -> None:
         self.root, self.published_set, self.committed = root, published_set, committed
-        self.against = against
+        self.other_tree = other_tree
         self.versions = versions()
-        self.file_hash = cache(lambda path: file_hash(root / path))
+        self.file_hash: Callable[[str], str | None] = cache(lambda path: file_hash(root / path))
         self.differing_data = cache(self._differing_data)
 
-    def layers(self, name) -> dict[str, str] | None:
-        """Layer -> words, for each that differs, the cause first; None for a file that is new."""
+    def layers(self, name: str) -> dict[str, str] | None:
+        """Return differing layer -> words, the cause first; None if the manifest lacks the file."""
         scene = self.published_set.scenes[name]
         entry = self.committed["scenes"].get(scene)
         if entry is None or name not in entry["figures"]:
@@ -82,7 +90,10 @@ class Comparison:
         sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
         here = {path: syntax_hash(self.root / path) for path in self.published_set.sources(scene)}
         blocks, was = (entry["config"], self.published_set.config[scene]), "in the manifest"
-        data = (self._dataset(*each, entry) for each in self.published_set.data[scene].items())
+        data = (
+            self._dataset_difference(stage, path, entry)
+            for stage, path in self.published_set.data[scene].items()
+        )
         layers = {
             "config": differing_block(*blocks, was, "in config.yaml"),
             "source": differing_files(sources, here),
@@ -91,14 +102,13 @@ class Comparison:
         } | self._drawing_or_file(name, entry["figures"][name])
         return {layer: words for layer, words in layers.items() if words}
 
-    def _dataset(self, stage, path, entry):
-        """How the dataset of a stage differs from the committed one, or None."""
+    def _dataset_difference(self, stage: str, path: str, entry: dict[str, Any]) -> str | None:
+        """Describe how a stage's dataset differs from the committed one, if both are there."""
         if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
             return self.differing_data(path, entry["data"][stage])
         return None
 
-    def _differing_data(self, path, committed_name):
-        """Words about the first variable of an artifact that differs from the manifest, or None."""
+    def _differing_data(self, path: str, committed_name: str) -> str | None:
         try:
             dataset = load(self.root / path)
         except ArtifactError as error:
@@ -124,10 +134,10 @@ class Comparison:
         verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
         return f"{path}: {verb.format(', '.join(names))}" if names else None
 
-    def _size_of_difference(self, path, name, dataset):
-        if self.against is None:
+    def _size_of_difference(self, path: str, name: str, dataset: xr.Dataset) -> str:
+        if self.other_tree is None:
             return ""
-        copy = self.against / path
+        copy = self.other_tree / path
         try:
             other = load(copy)
         except ArtifactError as error:
@@ -137,8 +147,8 @@ class Comparison:
         words = _ulps_in_words(dataset.variables[name], other.variables[name])
         return f"; {words}, compared with {copy}"
 
-    def _drawing_or_file(self, name, entry):
-        """{"drawing": words} or {"file": words}, of the published file or the one in results."""
+    def _drawing_or_file(self, name: str, entry: dict[str, Any]) -> dict[str, str]:
+        """Return the layer drawing or file, if it differs in the published file or in results."""
         published, drawn = f"{self.published_set.folder}/{name}", self.published_set.drawn[name]
         if self.file_hash(published) is None:
             why = obstacle(self.root / published)
@@ -152,24 +162,25 @@ class Comparison:
                 if describe(self.root / path) == entry["drawing"]:
                     encoding = encoding or {"file": f"{path}: the same picture in other bytes"}
                     continue
-                reference = [other for other in (published, drawn) if other != path]
+                reference = drawn if path == published else published
                 return {"drawing": f"{path}: {self._how_drawn(path, name, entry, reference)}"}
             except PictureError as error:
                 return {"drawing": str(error).replace(f"{self.root}/", "")}
         return encoding
 
-    def _how_drawn(self, path, name, entry, others):
+    def _how_drawn(self, path: str, name: str, entry: dict[str, Any], reference: str) -> str:
+        """Describe how a picture differs from the committed one, if a copy of that is found."""
         with tempfile.TemporaryDirectory() as folder:
-            candidates = [self.root / other for other in others]
+            candidates = [self.root / reference]
             blob = git("show", f"HEAD:./{self.published_set.folder}/{name}", root=self.root)
             if blob is not None:
                 candidates.append(Path(folder) / name)
                 candidates[-1].write_bytes(blob)
-            if self.against is not None:
+            if self.other_tree is not None:
                 drawing = self.published_set.drawn[name]
                 candidates += [
-                    self.against / self.published_set.folder / name,
-                    self.against / drawing,
+                    self.other_tree / self.published_set.folder / name,
+                    self.other_tree / drawing,
                 ]
             for candidate in candidates:
                 if file_hash(candidate) == entry["sha256"]:
@@ -182,55 +193,57 @@ class Comparison:
         return "another picture; no copy of the committed one is at hand to count what differs"
 
     def unexplained(self) -> dict[str, str]:
-        """Result -> words, where it differs from the committed one and nothing that makes it does.
+        """Return result -> words, if it differs from the committed one and nothing explains that.
 
-        Its record may say that this tree made it: then the record says something untrue.
+        Its record may say that this tree made it. That record is false.
         """
-        found = []
+        results = []
         for name, drawing in self.published_set.drawn.items():
             scene = self.published_set.scenes[name]
             entry = self.committed["scenes"].get(scene, {"data": {}, "figures": {}})
             stages = self.published_set.data[scene].items()
-            different = [path for stage, path in stages if self._dataset(stage, path, entry)]
+            different = [
+                path for stage, path in stages if self._dataset_difference(stage, path, entry)
+            ]
             figure = entry["figures"].get(name)
             if figure and self.file_hash(drawing) not in (None, figure["sha256"]):
                 different.append(drawing)
-            found += [path for path in different if not self._explained(path, scene, entry)]
-        return dict.fromkeys(found, UNEXPLAINED)
+            results += [path for path in different if not self._explained(path, scene, entry)]
+        return dict.fromkeys(results, UNEXPLAINED)
 
-    def _explained(self, path, scene, entry):
-        """Whether what makes a result may differ from what made the committed one."""
+    def _explained(self, path: str, scene: str, entry: dict[str, Any]) -> bool:
+        """Return whether what makes a result may differ from what made the committed one."""
         build_specs = self.published_set.build_specs
-        made = [build_specs[each] for each in with_dependencies(build_specs, [path])]
-        keys = {key for each in made for key in each.config}
+        specs = [build_specs[each] for each in with_dependencies(build_specs, [path])]
+        keys = {key for spec in specs for key in spec.config}
         blocks = (entry["config"], self.published_set.config[scene])
         return bool(
-            any(used not in build_specs for each in made for used in each.inputs)
+            any(used not in build_specs for spec in specs for used in spec.inputs)
             or differing_package(self.committed["environment"], self.versions)
             or differing_block(*({k: block[k] for k in keys & {*block}} for block in blocks))
             or any(
                 syntax_hash(self.root / file) != self.committed["sources"].get(file)
-                for each in made
-                for file in each.sources
+                for spec in specs
+                for file in spec.sources
             )
         )
 
 
-def ulps(a, b):
-    """How many doubles lie between each a and b, as unsigned integers; 0 where both are NaN."""
+def ulps(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return how many doubles lie between a and b, as unsigned integers; 0 where both are NaN."""
     a, b = (np.ascontiguousarray(x, dtype="<f8").view("<i8") for x in (a, b))
-    # Bit patterns of negative numbers run backwards; afterwards all are in the numbers' order.
+    # Bit patterns of negative numbers run backwards: map them to the order of the numbers.
     a, b = (np.where(x < 0, np.int64(-(2**63)) - x, x) for x in (a, b))
     return np.maximum(a, b).view("<u8") - np.minimum(a, b).view("<u8")
 
 
-def _ulps_in_words(ours, theirs):
+def _ulps_in_words(ours: xr.Variable, theirs: xr.Variable) -> str:
     (kind, a), (other, b) = canonical_values(ours), canonical_values(theirs)
     if kind != other:
         return f"{kind} instead of {other}"
     if kind != "<f8":
         return f"{sum(x != y for x, y in zip(a, b, strict=True))} of {len(a)} values differ"
-    lonely = np.isnan(a) != np.isnan(b)
-    if lonely.any():
-        return f"{int(lonely.sum())} values are NaN on one side only"
+    one_sided = np.isnan(a) != np.isnan(b)
+    if one_sided.any():
+        return f"{int(one_sided.sum())} values are NaN on one side only"
     return f"largest difference {int(ulps(a, b).max(initial=0)):,} ulp"

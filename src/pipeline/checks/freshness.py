@@ -1,7 +1,11 @@
-"""Whether results are what this tree would make: by their records, never by their times."""
+"""Whether results are what this tree would make, by their records and never by their times."""
 
+from collections.abc import Iterable
 from functools import cache
+from pathlib import Path
+from typing import Any
 
+from ..records.build_spec import BuildSpec
 from ..records.differences import differing_block, differing_files, differing_package
 from ..records.files import file_hash, obstacle
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
@@ -12,16 +16,15 @@ DAMAGED = "changed after it was made"
 
 
 class Freshness:
-    """What this tree has to make again.
+    """Which results of a tree have to be recomputed.
 
-    Parameters
-    ----------
-    root : pathlib.Path
-    build_specs : dict
-        Result -> BuildSpec, for every result that may be asked about.
+    `build_specs` has every result that may be asked about. Three cached methods take a result:
+    `reason(path)` says why it has to be recomputed (MISSING if it is not there), `own_reason(path)`
+    why even if its inputs keep their bytes, and `refusal(path)` why it cannot exist, as a job for
+    it or for one of its inputs found. Each returns None if there is no such reason.
     """
 
-    def __init__(self, root, build_specs):
+    def __init__(self, root: Path, build_specs: dict[str, BuildSpec]) -> None:
         self.root, self.build_specs = root, build_specs
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
@@ -30,38 +33,25 @@ class Freshness:
         self.reason = cache(self._reason)
         self.refusal = cache(self._refusal)
 
-    def outdated(self, paths=None):
-        """What has to be made again.
-
-        Parameters
-        ----------
-        paths : iterable of str, optional
-            Results; by default all.
-
-        Returns
-        -------
-        dict of str to str
-            Result -> why, in words.
-        """
+    def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
+        """Return result -> why, for those of `paths` (default: all) that have to be recomputed."""
         reasons = {
             path: self.reason(path) for path in (self.build_specs if paths is None else paths)
         }
         return {path: why for path, why in reasons.items() if why}
 
-    def _refusal(self, path):
-        """Why a result cannot exist, as a job for it or for an input found, in words, or None."""
-        made = self.build_specs[path]
-        for used in made.inputs:
+    def _refusal(self, path: str) -> str | None:
+        spec = self.build_specs[path]
+        for used in spec.inputs:
             if used in self.build_specs and (why := self.refusal(used)):
                 return why
         try:
             record = read_record(self.root, refusal_path(path))
         except RecordError:
             return None
-        return None if self._difference(record, made) else str(record["output"].get("refused"))
+        return None if self._difference(record, spec) else str(record["output"].get("refused"))
 
-    def _reason(self, path):
-        """Why a result has to be made again, in words (MISSING where there is none), or None."""
+    def _reason(self, path: str) -> str | None:
         if why := self.refusal(path):
             return f"cannot exist: {why}"
         if why := self.own_reason(path):
@@ -71,9 +61,7 @@ class Freshness:
                 return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
         return None
 
-    def _own_reason(self, path):
-        """Why a result has to be made again even if its inputs keep their bytes, or None."""
-        made = self.build_specs[path]
+    def _own_reason(self, path: str) -> str | None:
         if self.digest(path) is None:
             return obstacle(self.root / path) or MISSING
         try:
@@ -82,18 +70,18 @@ class Freshness:
             return str(error)
         if self.digest(path) != record["output"]["sha256"]:
             return DAMAGED
-        return self._difference(record, made)
+        return self._difference(record, self.build_specs[path])
 
-    def _difference(self, record, made):
-        """How what a record says that made its result differs from what would make it now."""
-        if words := differing_block(record["config"], made.config):
+    def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
+        """Return how what made a result, by its record, differs from what would make it now."""
+        if words := differing_block(record["config"], spec.config):
             return f"made from another config: {words}"
-        here = {file: self.syntax_hash(file) for file in made.sources}
-        if words := differing_files(record["sources"], here):
+        sources = {file: self.syntax_hash(file) for file in spec.sources}
+        if words := differing_files(record["sources"], sources):
             return f"made by other code than this tree's: {words}"
         if words := differing_package(record["environment"], self.packages):
             return f"made with {words}"
-        inputs = {used: self.digest(used) for used in made.inputs}
+        inputs = {used: self.digest(used) for used in spec.inputs}
         if words := differing_files(record["inputs"], inputs):
             return f"made from another {words.split()[0]}"
         return None

@@ -1,25 +1,31 @@
-"""A contract as written down: SHA256SUMS and MANIFEST.json, committed beside the files.
+"""MANIFEST.json: what each committed figure of a folder was made from, layer by layer.
 
-The manifest has, layer by layer, what these were made from: config, source, environment,
-data, drawing, file. Nothing in it depends on the day, the folder or the commit.
+The layers are config, source, environment, data, drawing and file. Nothing in a manifest depends
+on the day, the folder or the commit.
 """
 
 import hashlib
 import json
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import pydantic
+import xarray as xr
 
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
 from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .checksums import SUMS, ChecksumError, text_of
+from .checksums import SUMS, ChecksumError, format_sums, read_published_text
+from .published_sets import PublishedSet
 
 MANIFEST = "MANIFEST.json"
-BLOCK = 1024  # values hashed together, so that a difference can be placed
+BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT = 16  # hex digits of the hash of a block or an attribute
+
+Manifest = dict[str, Any]  # checked by _Manifest
 
 
 class _Variable(pydantic.BaseModel):
@@ -43,7 +49,7 @@ class _Figure(pydantic.BaseModel):
 
 
 class _Scene(pydantic.BaseModel):
-    config: dict
+    config: dict[str, Any]
     sources: list[str]
     data: dict[str, str]
     figures: dict[str, _Figure]
@@ -57,39 +63,43 @@ class _Manifest(pydantic.BaseModel):
     scenes: dict[str, _Scene]
 
 
-def describe_data(dataset):
-    """What the manifest says of an artifact: hashes of its attributes and of its variables.
+def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the manifest's entry for a dataset: hashes of its attributes and its variables.
 
-    A variable's values are hashed whole and in blocks of BLOCK; the container's bytes do not count.
+    A variable's values are hashed whole and in blocks of BLOCK values. The bytes of the netCDF
+    container do not count.
     """
     variables = {}
     for name, variable in dataset.variables.items():
         kind, values = canonical_values(variable)
-        blocks = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
-        blocks = [_bytes(block) for block in blocks]
+        starts = range(0, len(values), BLOCK)
+        blocks = [_block_bytes(values[start : start + BLOCK]) for start in starts]
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
             "dtype": kind,
-            "attributes": _attributes(variable),
+            "attributes": _attribute_hashes(variable),
             "sha256": hashlib.sha256(b"".join(blocks)).hexdigest(),
-            "blocks": " ".join(_short(block) for block in blocks),
+            "blocks": " ".join(_short_hash(block) for block in blocks),
         }
     sizes = {str(name): size for name, size in dataset.sizes.items()}
-    return {"attributes": _attributes(dataset), "sizes": sizes, "variables": variables}
+    return {"attributes": _attribute_hashes(dataset), "sizes": sizes, "variables": variables}
 
 
-def build(root, published_set):
-    """The manifest of a tree that has its results and figures; raises ValueError or OSError."""
-    artifacts = sorted({path for stages in published_set.data.values() for path in stages.values()})
+def build(root: Path, published_set: PublishedSet) -> Manifest:
+    """Return the manifest of a tree that has its results and figures.
+
+    Raises ValueError or OSError if one of these cannot be read.
+    """
+    artifacts = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
+    files = sorted(set().union(*sources.values()))
+    folder = root / published_set.folder
     return {
         "environment": versions(),
-        "texts": {path: file_hash(root / path) for path in published_set.texts},
-        "sources": {
-            path: syntax_hash(root / path) for path in sorted(set().union(*sources.values()))
-        },
-        "data": {Path(path).name: describe_data(load(root / path)) for path in artifacts},
+        "texts": hash_files(root, published_set.texts),
+        "sources": {path: syntax_hash(root / path) for path in files},
+        "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(artifacts)},
         "scenes": {
             scene: {
                 "config": block,
@@ -98,10 +108,7 @@ def build(root, published_set):
                     stage: Path(path).name for stage, path in published_set.data[scene].items()
                 },
                 "figures": {
-                    name: {
-                        "drawing": describe(root / published_set.folder / name),
-                        "sha256": file_hash(root / published_set.folder / name),
-                    }
+                    name: {"drawing": describe(folder / name), "sha256": file_hash(folder / name)}
                     for name in sorted(published_set.drawn)
                     if published_set.scenes[name] == scene
                 },
@@ -111,31 +118,39 @@ def build(root, published_set):
     }
 
 
-def is_present(root, published_set):
-    """Whether anything of a contract is committed."""
+def hash_files(root: Path, paths: Iterable[str]) -> dict[str, str | None]:
+    """Return path -> sha256, None where there is no regular file."""
+    return {path: file_hash(root / path) for path in paths}
+
+
+def is_present(root: Path, published_set: PublishedSet) -> bool:
+    """Return whether a manifest or a checksum list of a published set is committed."""
     return any((root / published_set.folder / name).exists() for name in (MANIFEST, SUMS))
 
 
-def read(root, folder):
-    """The committed manifest; raises ContractError if it is missing, broken or edited by hand."""
+def read(root: Path, folder: str) -> Manifest:
+    """Read a folder's manifest.
+
+    Raises ChecksumError if it is missing, broken or was edited by hand.
+    """
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(text_of(root, name))
-        # It covers every entry: none can be lost or changed without a word.
+        manifest = json.loads(read_published_text(root, name))
+        # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
         _Manifest.model_validate(manifest, strict=True)
     except pydantic.ValidationError as error:
         first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise ChecksumError(f"{name}: broken: {place}: {first['msg']}") from None
+        key = ".".join(map(str, first["loc"]))
+        raise ChecksumError(f"{name}: broken: {key}: {first['msg']}") from None
     except (ValueError, RecursionError) as error:
         raise ChecksumError(f"{name}: broken: {error}") from None
     return manifest
 
 
-def figures(manifest):
-    """File name -> its entry in the manifest."""
+def figures(manifest: Manifest) -> dict[str, dict[str, Any]]:
+    """Return file name -> its entry in the manifest."""
     return {
         name: entry
         for scene in manifest["scenes"].values()
@@ -143,33 +158,32 @@ def figures(manifest):
     }
 
 
-def sums(manifest):
-    """File name -> sha256, sorted."""
+def sums(manifest: Manifest) -> dict[str, str]:
+    """Return file name -> sha256, sorted by name."""
     return {name: entry["sha256"] for name, entry in sorted(figures(manifest).items())}
 
 
-def write(root, folder, manifest):
-    """Write both files of the contract."""
+def write(root: Path, folder: str, manifest: Manifest) -> None:
+    """Write the manifest and the checksum list of a folder."""
     text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
     write_whole(root / folder / MANIFEST, f"{text}\n")
-    lines = [f"{digest}  {name}\n" for name, digest in sums(manifest).items()]
-    write_whole(root / folder / SUMS, "".join(lines))
+    write_whole(root / folder / SUMS, format_sums(sums(manifest)))
 
 
-def _checksum(manifest):
+def _checksum(manifest: Manifest) -> str:
     return hashlib.sha256(canonical_json(manifest).encode()).hexdigest()
 
 
-def _attributes(source):
+def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
     return {
-        str(name): _short(json.dumps(value).encode())
+        str(name): _short_hash(json.dumps(value).encode())
         for name, value in plain_attributes(source).items()
     }
 
 
-def _bytes(block):
+def _block_bytes(block: Any) -> bytes:
     return json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
 
 
-def _short(data):
+def _short_hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()[:_SHORT]

@@ -1,8 +1,11 @@
 """./reproduce prove --impacts: every impact behind the figures is the first one."""
 
+from collections.abc import Callable, Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
@@ -10,41 +13,34 @@ from pseudorigid.dynamics.starts import start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.proofs.theorems import impacts as proofs
 
-from ..config import paths
+from ..config import PAPER, paths
 from ..records.artifacts import load
 from ..records.sources import ROOT
 
+Impacts = tuple[np.ndarray, ...]  # states before, states after, flight times
 
-def impacts(checked) -> int:
-    """Prove that each impact behind the figures is the first one, scene by scene, a line each.
 
-    Of portraits, and of the orbits that motions repeat, every impact; of the figures whose data
-    have millions of them as many as config.yaml says.
+def impacts(checked: dict[str, Any]) -> int:
+    """Prove scene by scene that each impact behind the figures is the first one; print a line each.
 
-    Returns
-    -------
-    int
-        1 where an impact is not proved to be the first.
-
-    Raises
-    ------
-    ValueError
-        Results that are missing.
+    Every impact of portraits and of the orbits in motions is proved. Figures whose data have
+    millions of impacts are sampled, as config.yaml says. Returns 1 if an impact is not proved.
+    Raises ValueError if a result is missing.
     """
     artifact_paths = paths.artifact_paths(checked["variants"])
     status, worst, sample = 0, 0.0, checked["prove"]["impacts"]
     for scene, block in checked["scenes"].items():
         ball = Ball(**block["ball"])
-        exact = [Fraction(str(block["ball"][name])) for name in "kg"]
+        k, g = (Fraction(str(block["ball"][name])) for name in "kg")
 
-        def data(stage, scene=scene):
-            path = artifact_paths[paths.PAPER, scene, stage]
+        def data(stage: str, scene: str = scene) -> xr.Dataset:
+            path = artifact_paths[PAPER, scene, stage]
             if not (ROOT / path).is_file():
                 raise ValueError(f"{path} is missing: run ./reproduce first")
             return load(ROOT / path)
 
-        for what, states in _states(ball, block, data, sample):
-            result = proofs.prove_impacts(*exact, *states, name=f"{scene} {what}")
+        for name, states in _impacts_behind(ball, block, data, sample):
+            result = proofs.prove_impacts(k, g, *states, name=f"{scene} {name}")
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
             worst = max(worst, result.margins["worst error"])
@@ -52,14 +48,15 @@ def impacts(checked) -> int:
     return status
 
 
-def _states(ball, block, data, sample):
-    """(what, (states before, after, tau)) of the impacts behind a scene."""
+def _impacts_behind(
+    ball: Ball, block: dict[str, Any], data: Callable[[str], xr.Dataset], sample: int
+) -> Iterator[tuple[str, Impacts]]:
+    """Yield the name and the impacts of each stage of a scene."""
     energy, stages = block["energy"], paths.stages(block)
     if "orbits" in stages:
-        orbits = data("orbits")
-        states = proofs.of_orbits(ball, energy, orbits, block["starts"])
-        every = "manifolds" not in stages
-        yield "orbits", states if every else _evenly(states, sample // 2)
+        states = proofs.of_orbits(ball, energy, data("orbits"), block["starts"])
+        sampled = "manifolds" in stages
+        yield "orbits", _evenly(states, sample // 2) if sampled else states
     if "motion" in stages:
         yield "orbit", proofs.of_periodic(of_type(data("periodic"), block["type"]))
     if "manifolds" in stages:
@@ -70,16 +67,15 @@ def _states(ball, block, data, sample):
         yield "manifolds", proofs.of_states(ball, lines)
     if "lyapunov" in stages:
         starts = [start_state(ball, energy, start) for start in block["starts"]]
-        each = sample // len(starts)
         for i, start in enumerate(starts):
-            track = orbit(ball, start, each)
+            track = orbit(ball, start, sample // len(starts))
             after = states_of(track)
             before = np.concatenate([np.array(start)[:, None], after[:, :-1]], axis=1)
             yield f"orbit {i}", (before, after, track["tau"].values)
 
 
-def _evenly(arrays, count):
-    """Of each array (..., n) at most `count` columns, evenly by index."""
+def _evenly(arrays: Impacts, count: int) -> Impacts:
+    """Take at most `count` columns of each array (..., n), evenly by index."""
     size = arrays[0].shape[-1]
     chosen = np.arange(min(count, size)) * size // min(count, size)
     return tuple(array[..., chosen] for array in arrays)

@@ -1,142 +1,209 @@
-"""Whether this tree has the committed bytes, and if not, what differs; nothing is computed again.
+"""Whether a tree has the committed bytes, and if not, what differs; nothing is recomputed.
 
-Red, and exit 1: bytes that differ, of a published file or its data; results that this tree's
-config and sources did not make; a contract that is broken. A note, and exit 0: whatever else
-differs behind the committed bytes.
+A tree fails if the bytes of a published file or its data differ from the committed ones, if this
+tree's config and sources did not make a result, or if a manifest is broken. Whatever else differs
+is a note.
 """
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 from ..records.files import file_hash, obstacle
 from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, known_sums, read_sums, unlisted_files
+from .checksums import SUMS, ChecksumError, read_sums, unlisted_files
 from .difference import UPSTREAM, Comparison, not_as_made
 from .freshness import MISSING
+from .published_sets import PublishedSet
 
 NEW = "new: ./reproduce accept adds it to the contract"
 
 
-def verify(root, checked, strict=False):
-    """Print what differs between a tree and its contracts; 0 where nothing is red.
+@dataclass
+class Findings:
+    """What differs between a tree and the committed state of one published set.
 
-    Notes are red too where `strict` is true.
+    Attributes
+    ----------
+    committed : Manifest or None
+        None if the manifest cannot be read.
+    layers : dict
+        Name of each published file -> differing layer -> words; None for a new file. Without a
+        manifest the only layer is the file.
+    stale : dict
+        Result -> why it is not what this tree makes.
+    problems : list of str
+        Faults of manifest, checksum list, texts and surplus files.
     """
-    status = 0
-    for published_set in published_sets.committed_sets(checked):
-        if not published_set.on_request or manifest.is_present(root, published_set):
-            red, notes = _verify(root, published_set)
-            status |= bool(red or (strict and notes))
-    return status
+
+    published_set: PublishedSet
+    committed: manifest.Manifest | None = None
+    layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
+    stale: dict[str, str] = field(default_factory=dict)
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def differences(self) -> dict[str, dict[str, str]]:
+        """Differing layers of each published file that is not the committed one."""
+        return {n: layers for n, layers in self.layers.items() if layers and not self._harmless(n)}
+
+    @property
+    def outdated(self) -> list[str]:
+        """A line about results that are there but not what this tree makes."""
+        command = self.published_set.command
+        return _grouped(
+            (path, f"{why}: run {command}") for path, why in self.stale.items() if why != MISSING
+        )
+
+    @property
+    def notes(self) -> list[str]:
+        """Lines about differences that leave the committed bytes."""
+        notes: list[tuple[str, str]] = []
+        for name, layers in self.layers.items():
+            if layers is None:
+                notes.append((name, NEW))
+            elif self._harmless(name):
+                notes += [(name, f"{layer}: {words}") for layer, words in layers.items()]
+        return _grouped(notes)
+
+    def fails(self, strict: bool = False) -> bool:
+        """Return whether the tree is not as committed; notes count if `strict`."""
+        failures = self.differences or self.problems or self.outdated
+        return bool(failures or (strict and self.notes))
+
+    def _harmless(self, name: str) -> bool:
+        """Return whether the layers of a listed file leave its committed bytes."""
+        if self.committed is None:
+            return False
+        # Another config does not matter once results made with it have the committed bytes.
+        published_set = self.published_set
+        current = published_set.on_request or published_set.drawn[name] not in self.stale
+        return set(self.layers[name] or ()) <= (UPSTREAM if current else UPSTREAM - {"config"})
+
+    def report(self) -> Iterator[str]:
+        """Yield the lines for the user: one or more a published file, then all other findings."""
+        published_set, differences = self.published_set, self.differences
+        width = max(map(len, published_set.drawn), default=0)
+        for name, layers in self.layers.items():
+            words = [f"{layer}: {text}" for layer, text in differences.get(name, {}).items()]
+            first, *others = words or ["new" if layers is None else "identical"]
+            yield f"{name:{width}}  {first}"
+            yield from (f"{'':{width}}  {line}" for line in others)
+        yield ""
+        findings = [*self.problems, *self.outdated]
+        yield from findings
+        yield from (f"note: {line}" for line in self.notes)
+        missing = [path for path, why in self.stale.items() if why == MISSING]
+        if missing and len(missing) == len(published_set.build_specs):
+            rest = f"{published_set.command} makes the rest"
+            yield f"no results here: only the committed files were checked ({rest})"
+        elif missing:
+            yield f"not checked, since not there: {_listed(missing)}"
+        total, new = len(self.layers), list(self.layers.values()).count(None)
+        counts = _counted(len(findings), "other finding") + _counted(len(self.notes), "note")
+        identical = total - len(differences) - new
+        yield f"{identical} of {total} {published_set.noun} identical{counts}"
 
 
-def _verify(root, published_set):
-    """(red findings, notes), having printed a line or more for each published file and each."""
+def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
+    """Compare each published set of a tree with its committed state; sets without one are left."""
+    return [
+        inspect(root, published_set)
+        for published_set in published_sets.committed_sets(checked)
+        if not published_set.on_request or manifest.is_present(root, published_set)
+    ]
+
+
+def inspect(root: Path, published_set: PublishedSet) -> Findings:
+    """Compare one published set of a tree with its committed state."""
+    folder, findings = published_set.folder, Findings(published_set)
+    comparison, sums = None, None
     try:
-        committed = manifest.read(root, published_set.folder)
-        findings = _surplus(root, published_set, manifest.figures(committed))
+        findings.committed = manifest.read(root, folder)
+        comparison = Comparison(root, published_set, findings.committed)
+        findings.problems += _surplus(root, published_set, findings.committed)
     except ChecksumError as error:
-        committed, findings = None, [f"{error}: the layers cannot be compared"]
-    findings += _sums(root, published_set, committed)
-    for path in published_set.texts if committed else ():
-        if file_hash(root / path) != committed["texts"].get(path):
-            findings.append(f"{path}: not the committed one: {published_set.command} writes it")
-    comparison = committed and Comparison(root, published_set, committed)
-    stale = not_as_made(root, published_set, comparison)
-    width = max(map(len, published_set.drawn), default=0)
-    different, behind = [], []
+        findings.problems.append(f"{error}: the layers cannot be compared")
+    try:
+        sums = read_sums(root, folder)
+    except ChecksumError as error:
+        findings.problems.append(str(error))
+    if findings.committed and sums is not None:
+        findings.problems += _sum_problems(f"{folder}/{SUMS}", sums, findings.committed)
+    if findings.committed:
+        hashes = manifest.hash_files(root, published_set.texts)
+        findings.problems += [
+            f"{path}: not the committed one: {published_set.command} writes it"
+            for path, digest in hashes.items()
+            if digest != findings.committed["texts"].get(path)
+        ]
+    findings.stale = not_as_made(root, published_set, comparison)
     for name in published_set.drawn:
-        lines, notes = _verdict(root, published_set, name, comparison, stale)
-        different += [name] if lines else []
-        behind += [(name, words) for words in notes]
-        first, *more = lines or ["new" if notes == [NEW] else "identical"]
-        print(f"{name:{width}}  {first}")
-        for line in more:
-            print(f"{'':{width}}  {line}")
-    made = [(path, f"{why}: run {published_set.command}") for path, why in stale.items()]
-    findings += _grouped((path, why) for path, why in made if stale[path] != MISSING)
-    notes = [f"note: {line}" for line in _grouped(behind)]
-    print("", *findings, *notes, sep="\n")
-    _say_what_is_missing(published_set, [path for path, why in stale.items() if why == MISSING])
-    new = sum(words == NEW for _, words in behind)
-    identical = len(published_set.drawn) - len(different) - new
-    print(f"{identical} of {len(published_set.drawn)} {published_set.what} identical", end="")
-    print(_counted(len(findings), "other finding") + _counted(len(notes), "note"))
-    return different + findings, notes
+        findings.layers[name] = (
+            comparison.layers(name)
+            if comparison
+            else {"file": _by_sum(root, f"{folder}/{name}", (sums or {}).get(name))}
+        )
+    return findings
 
 
-def _verdict(root, published_set, name, comparison, stale):
-    """(lines on what is wrong with a published file, notes on what differs behind it)."""
-    if comparison is None:
-        return _by_sums(root, published_set, name), []
-    layers = comparison.layers(name)
-    if layers is None:
-        return [], [NEW]
-    words = [f"{layer}: {text}" for layer, text in layers.items()]
-    # Another config shows in the bytes, or does not matter, once its own results are here.
-    current = published_set.on_request or published_set.drawn[name] not in stale
-    harmless = UPSTREAM if current else UPSTREAM - {"config"}
-    return ([], words) if set(layers) <= harmless else (words, [])
-
-
-def _by_sums(root, published_set, name):
-    """What is wrong with a published file where there is no manifest to ask."""
-    wanted = known_sums(root, published_set.folder).get(name)
-    digest = file_hash(root / published_set.folder / name)
+def _by_sum(root: Path, path: str, committed: str | None) -> str:
+    """Compare a published file with its line in SHA256SUMS, if there is no manifest."""
+    digest = file_hash(root / path)
     if digest is None:
-        return [f"file: {obstacle(root / published_set.folder / name) or MISSING}"]
-    if wanted is None:
-        return ["file: nothing to compare it with"]
-    return [f"file: {'as in' if digest == wanted else 'differs from'} SHA256SUMS"]
-
-
-def _sums(root, published_set, committed):
-    """What is wrong with SHA256SUMS, the files apart."""
-    try:
-        sums = read_sums(root, published_set.folder)
-    except ChecksumError as error:
-        return [str(error)]
+        return obstacle(root / path) or MISSING
     if committed is None:
-        return []
-    path, listed = f"{published_set.folder}/{SUMS}", manifest.figures(committed)
-    lost, more = sorted(set(listed) - set(sums)), sorted(set(sums) - set(listed))
-    found = [f"{path}: no line for {name}" for name in lost]
-    found += [f"{path}: a line for {name}, which the manifest has not" for name in more]
-    return found + [
-        f"{path}: not the hash of {name} that MANIFEST.json has"
-        for name, entry in listed.items()
-        if sums.get(name, entry["sha256"]) != entry["sha256"]
+        return "nothing to compare it with"
+    return f"{'as in' if digest == committed else 'differs from'} SHA256SUMS"
+
+
+def _sum_problems(path: str, sums: dict[str, str], committed: manifest.Manifest) -> list[str]:
+    """Compare a checksum list with the manifest."""
+    listed = manifest.sums(committed)
+    return [
+        *(f"{path}: no line for {name}" for name in listed if name not in sums),
+        *(
+            f"{path}: a line for {name}, which the manifest has not"
+            for name in sorted(set(sums) - set(listed))
+        ),
+        *(
+            f"{path}: not the hash of {name} that MANIFEST.json has"
+            for name, digest in listed.items()
+            if sums.get(name, digest) != digest
+        ),
     ]
 
 
-def _surplus(root, published_set, listed):
-    """Files that are there or in the manifest but that nothing makes."""
-    folder = published_set.folder
-    found = [
-        f"{folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not publish: "
-        "./reproduce accept takes it out"
-        for name in sorted(set(listed) - set(published_set.drawn))
+def _surplus(root: Path, published_set: PublishedSet, committed: manifest.Manifest) -> list[str]:
+    """Return a line for each file that is there or in the manifest but that nothing makes."""
+    listed = [
+        f"{published_set.folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not "
+        "publish: ./reproduce accept takes it out"
+        for name in manifest.sums(committed)
+        if name not in published_set.drawn
     ]
-    return found + unlisted_files(root, folder, {*published_set.drawn, *published_set.measured})
+    return listed + unlisted(root, published_set)
 
 
-def _grouped(pairs):
-    """One line for each kind of words, with all that they are said of."""
-    kinds = {}
-    for what, words in pairs:
-        kinds.setdefault(words, []).append(what)
-    return [f"{_listed(what)}: {words}" for words, what in kinds.items()]
+def unlisted(root: Path, published_set: PublishedSet) -> list[str]:
+    """Return a line for each picture in a set's folder that the set does not have."""
+    names = {*published_set.drawn, *published_set.measured}
+    return unlisted_files(root, published_set.folder, names)
 
 
-def _listed(paths):
-    more = f" and {len(paths) - 4} more" if len(paths) > 5 else ""
-    return ", ".join(paths[:4] if more else paths) + more
+def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:
+    """Return one line for each text, after all subjects that have it."""
+    subjects: dict[str, list[str]] = {}
+    for subject, words in pairs:
+        subjects.setdefault(words, []).append(subject)
+    return [f"{_listed(names)}: {words}" for words, names in subjects.items()]
 
 
-def _counted(number, what):
-    return f"; {number} {what}{'s' * (number > 1)}" if number else ""
+def _listed(names: list[str]) -> str:
+    more = f" and {len(names) - 4} more" if len(names) > 5 else ""
+    return ", ".join(names[:4] if more else names) + more
 
 
-def _say_what_is_missing(published_set, missing):
-    if missing and set(missing) == set(published_set.build_specs):
-        how = f"{published_set.command} makes the rest"
-        print(f"no results here: only the committed files were checked ({how})")
-    elif missing:
-        print(f"not checked, since not there: {_listed(missing)}")
+def _counted(number: int, noun: str) -> str:
+    return f"; {number} {noun}{'s' * (number > 1)}" if number else ""

@@ -1,24 +1,27 @@
-"""What ./reproduce claims needs and writes: datasets by name, the verdicts, CLAIMS.md."""
+"""What ./reproduce claims needs and writes: datasets by name, CLAIMS.json and CLAIMS.md."""
 
 import re
+from collections.abc import Iterable
+from typing import Any
+
+import xarray as xr
 
 from ..checks import claims
-from ..checks.claims import soundness
-from ..checks.claims.render import render
-from ..checks.claims.schema import UNDECIDED
-from ..config import paths
+from ..checks.claims import ledger, soundness
+from ..checks.claims.schema import UNDECIDED, Verdict
+from ..config import PAPER, paths
 from ..records import artifacts
 from ..records.files import write_whole
 from ..records.sources import ROOT
 from .session import CommandLineError, UsageError
 
 
-def dataset_paths(checked) -> dict[str, str]:
-    """Name of each dataset that the checks need -> where it is."""
+def dataset_paths(checked: dict[str, Any]) -> dict[str, str]:
+    """Return name -> path of each dataset that the checks need."""
     known = {"derivations": paths.DERIVATIONS}
     known |= {f"atlas/{name}": paths.sweep_dataset(name) for name in checked["sweeps"]}
     for (variant, scene, stage), path in paths.artifact_paths(checked["variants"]).items():
-        own = variant in (paths.PAPER, "claims")
+        own = variant in (PAPER, "claims")
         known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
     for name in claims.required_datasets():
         if name not in known:
@@ -26,62 +29,66 @@ def dataset_paths(checked) -> dict[str, str]:
     return {name: known[name] for name in claims.required_datasets()}
 
 
-def load(checked, name, path):
-    """A dataset of the checks."""
-    return _with_gravity(checked, name, artifacts.load(ROOT / path))
-
-
-def _with_gravity(checked, name, dataset):
-    """A dataset of the checks with g among its attributes, where a sweep's block says it."""
+def _with_gravity(checked: dict[str, Any], name: str, dataset: xr.Dataset) -> xr.Dataset:
+    """Add the g of a sweep's block, if there is one, to the attributes of a sweep's dataset."""
     if name.startswith("atlas/"):
         sweep = checked["sweeps"].get(name.partition("/")[2], {})
         return dataset.assign_attrs({key: sweep[key] for key in ("g",) if key in sweep})
     return dataset
 
 
-def proofs(names) -> dict[str, str]:
-    """Theorem -> its verdict, checked now."""
+def _load(checked: dict[str, Any], names: Iterable[str]) -> dict[str, xr.Dataset]:
+    """Load datasets by their names."""
+    files = dataset_paths(checked)
+    return {
+        name: _with_gravity(checked, name, artifacts.load(ROOT / files[name])) for name in names
+    }
+
+
+def _proofs(names: Iterable[str]) -> dict[str, str]:
+    """Check theorems now: theorem -> its verdict."""
     from pseudorigid.proofs import THEOREMS
 
     return {name: THEOREMS[name].check().verdict for name in names}
 
 
-def write(checked) -> dict:
-    """Write CLAIMS.md; the verdicts."""
-    data = {name: load(checked, name, path) for name, path in dataset_paths(checked).items()}
-    verdicts = claims.judge_claims(data, proofs(claims.required_theorems()))
-    text = render(verdicts)
-    path = ROOT / paths.LEDGER
-    if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        write_whole(path, text)
+def write(checked: dict[str, Any]) -> list[Verdict]:
+    """Judge all claims, and write CLAIMS.json and then CLAIMS.md if they differ."""
+    datasets = _load(checked, claims.required_datasets())
+    data = ledger.to_json(claims.judge_claims(datasets, _proofs(claims.required_theorems())))
+    verdicts = ledger.read_json(data)
+    for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: ledger.render(verdicts)}.items():
+        path = ROOT / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            write_whole(path, text)
     return verdicts
 
 
-def check(checked, number, given) -> str:
-    """The verdict on one claim, in a line, with a file in the place of one of its datasets.
+def check(checked: dict[str, Any], number: int, given: str) -> str:
+    """Return the verdict on one claim, in a line, with a file instead of one of its datasets.
 
-    `given` is FILE or NAME=FILE; without a name it is the dataset of the file's stage.
+    `given` is FILE or NAME=FILE. Without a name, the file's stage decides which dataset it is.
     """
     claim = claims.CLAIMS.get(number)
     if claim is None:
         raise CommandLineError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
     if not claim.data:
         raise CommandLineError(f"claim {number} rests on no dataset")
-    name, mark, file = given.rpartition("=")
-    other = artifacts.load(file)
-    stage = re.sub(r"\d+$", "", str(other.attrs.get("stage", "")))
-    fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
-    name = name if mark else (fitting or [claim.data[0]])[0]
+    name, named, file = given.rpartition("=")
+    dataset = artifacts.load(file)
+    if not named:
+        stage = re.sub(r"\d+$", "", str(dataset.attrs.get("stage", "")))
+        fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
+        name = (fitting or claim.data)[0]
     if name not in claim.data:
         raise CommandLineError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
-    wrong = soundness.dataset_error(name.rpartition("/")[2], other)
-    if wrong:
+    if wrong := soundness.dataset_error(name.rpartition("/")[2], dataset):
         return f"{number}  {UNDECIDED}: {file} is no {name} of its ball and energy: {wrong}"
     others = [known for known in claim.data if known != name]
-    data = {known: load(checked, known, dataset_paths(checked)[known]) for known in others}
-    data[name] = _with_gravity(checked, name, other)
+    datasets = _load(checked, others) if others else {}
+    datasets[name] = _with_gravity(checked, name, dataset)
     try:
-        verdict = claim.judge(data, proofs(claim.theorems))
-    except (KeyError, IndexError, ValueError) as error:  # samples do not show what it lacks
+        verdict = claim.judge(datasets, _proofs(claim.theorems))
+    except (KeyError, IndexError, ValueError) as error:  # soundness checks only a sample
         return f"{number}  {UNDECIDED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"

@@ -17,6 +17,7 @@ PUBLISHED = {
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = "more_figures/atlas"
 LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
+LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 DERIVATIONS = "results/claims/derivations.nc"
 
 

@@ -1,111 +1,112 @@
 """Checks of claims about the chaotic sea: clusters, exponents, the energy (section 4.1)."""
 
+from collections.abc import Iterator, Mapping
+from typing import Any
+
 import numpy as np
+import xarray as xr
 
 from pseudorigid.analyses.regularity import regular, regular_bound
 from pseudorigid.analyses.spread import in_sea, stretches
+from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
 from pseudorigid.dynamics.variables import final_exponents
 
-from .schema import CORRECTED, FALSE, HOLDS, UNDECIDED, formula, verdict_of
+from .schema import CORRECTED, FALSE, HOLDS, UNDECIDED, Outcome, Series, formula, outcome_of
 
-SHORT = 200_000  # impacts of a run of Figure 7
-ENERGIES = (0.001, 0.01)  # of the paper's figures
-ENDS = ("", "_low", "_high")
-PRINTED_EXPONENT = 0.235
-OF_FIGURE_2 = 6.25  # E/g^2
-CONNECTED = 0.95  # of the cells that any orbit enters; each has to enter more
+SHORT = FIGURES["fig7"]["impacts"]  # impacts of a run of Figure 7
+ENERGIES = (FIGURES["fig8"]["energy"], FIGURES["fig2"]["energy"])
+SCALED_ENERGY = FIGURES["fig2"]["energy"] / BALL["g"] ** 2  # E/g^2
+ENDS = ("", "_low", "_high")  # of a share's variables: the share and its interval
+FLIGHT_MINIMUM = 3.0  # flight time above which the valley between short and long flights lies
+VALLEY_DEPTH = 0.25  # of the lower of the two peaks beside it
+CONNECTED = 0.95  # share of the sea's cells that each chaotic orbit enters
+CHAOTIC_EXPONENT = 0.1  # that each orbit of Figure 7 exceeds
 CHAOTIC_EXPONENT_RATIO = 100.0  # times the exponent that a regular orbit may have
-ORBIT_PARTS, MAX_STANDARD_ERRORS = (
-    50,
-    5.0,
-)  # of an orbit; standard errors that an orbit's mean may be off by chance
-MAX_EXPLAINED_VARIANCE = (
-    0.01  # of a variance: what an uncorrelated cluster may seem to explain of the next
-)
-# A share that near to 0 or 1 may be wrong verdicts: 0.0041 of them are in the plane, docs/atlas.md.
+ORBIT_PARTS = 50  # into which an orbit is divided
+MAX_STANDARD_ERRORS = 5.0  # that an orbit's mean may be off by chance
+MAX_EXPLAINED_VARIANCE = 0.01  # share that an uncorrelated cluster may seem to explain
+# Verdicts on orbits are wrong in a share of 0.0041 in the plane (docs/atlas.md): a regular share
+# that is closer to 0 or 1 than this may be such verdicts.
 MARGIN = 0.01
 
 
-def clustered(found):
+def clustered(clusters: xr.Dataset) -> Outcome:
     """Find the valley in the distribution of flights, and measure clusters at each cut."""
-    count, edge = found["flights"].values, found["bin_edge"].values
+    count, edge = clusters["flights"].values, clusters["bin_edge"].values
     last = count.size - 2  # the last bin may be cut short
-    valley = int(np.argmin(count[: last + 1] + np.where(edge[: last + 1] < 3.0, count.max(), 0)))
-    deep = count[valley] < 0.25 * min(count[:valley].max(), count[valley:].max())
-    columns = (found[name].values for name in ("cut", "cluster_impacts", "period"))
-    rows = zip(*columns, strict=True)
-    clusters = "; ".join(f"{cut:g}: {size:.1f} impacts, {period:.2f}" for cut, size, period in rows)
-    error = float(found["period_error"].values.max())
-    return verdict_of(deep, valley=edge[valley], clusters=clusters, period_error=error)
+    short = edge[: last + 1] < FLIGHT_MINIMUM
+    valley = int(np.argmin(count[: last + 1] + np.where(short, count.max(), 0)))
+    peaks = count[:valley].max(), count[valley:].max()
+    columns = {"cut": "cut", "size": "cluster_impacts", "period": "period"}
+    rows = [
+        dict(zip(columns, row, strict=True))
+        for row in zip(*(clusters[name].values for name in columns.values()), strict=True)
+    ]
+    error = float(clusters["period_error"].values.max())
+    deep = count[valley] < VALLEY_DEPTH * min(peaks)
+    return outcome_of(deep, valley=edge[valley], clusters=rows, period_error=error)
 
 
-def uncorrelated(found):
+def uncorrelated(clusters: xr.Dataset) -> Outcome:
     """Measure how much of the next cluster's first state the first state of a cluster explains."""
-    explained = found["dependence_low"].values[:, 0].max(axis=1)
-    least, most = float(explained.min()), float(explained.max())
-    word = (
-        FALSE
-        if least > MAX_EXPLAINED_VARIANCE
-        else CORRECTED
-        if most > MAX_EXPLAINED_VARIANCE
-        else HOLDS
-    )
-    numbers, widest = {"cuts": ", ".join(f"{cut:g}" for cut in found["cut"].values)}, 0.0
+    explained = clusters["dependence_low"].values[:, 0].max(axis=1)
+    word = HOLDS
+    if float(explained.max()) > MAX_EXPLAINED_VARIANCE:
+        word = FALSE if float(explained.min()) > MAX_EXPLAINED_VARIANCE else CORRECTED
+    numbers: dict[str, Any] = {"cuts": Series(clusters["cut"].values)}
+    widest = 0.0
     for index, name in enumerate("xy"):
-        at = {"correlation": np.s_[:, 0, index, index], "dependence": np.s_[:, 0, index]}
-        for measure, place in at.items():
-            value, low, high = (found[f"{measure}{end}"].values[place] for end in ENDS)
-            numbers[f"{measure}_{name}"] = ", ".join(f"{number:.3f}" for number in value)
+        chosen = {"correlation": np.s_[:, 0, index, index], "dependence": np.s_[:, 0, index]}
+        for measure, entries in chosen.items():
+            value, low, high = (clusters[f"{measure}{end}"].values[entries] for end in ENDS)
+            numbers[f"{measure}_{name}"] = Series(value)
             widest = max(widest, float((high - value).max()), float((value - low).max()))
-    return word, numbers | {"widest": widest}
+    return Outcome(word, numbers | {"widest": widest})
 
 
-def connected(found):
+def connected(spread: xr.Dataset) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters."""
-    every, least = _entered(found)
+    every, least = _entered(spread)
     word = CORRECTED if least > CONNECTED * every else FALSE
-    impacts = int(found["visit"].values[-1])
-    return word, {"orbits": _chaotic(found), "impacts": impacts, "every": every, "least": least}
+    impacts = int(spread["visit"].values[-1])
+    return Outcome(word, _orbits(spread) | {"impacts": impacts, "every": every, "least": least})
 
 
-def _chaotic(found):
-    """How many orbits of the spread's are chaotic, as text."""
-    chaotic, orbits = int(in_sea(found).sum()), found.sizes["orbit"]
-    return f"{chaotic} chaotic ones of {orbits} orbits that start uniformly over the section"
+def _orbits(spread: xr.Dataset) -> dict[str, int]:
+    """Return how many orbits there are, and how many of them are chaotic."""
+    return {"chaotic": int(in_sea(spread).sum()), "orbits": spread.sizes["orbit"]}
 
 
-def _entered(found):
+def _entered(spread: xr.Dataset) -> Iterator[int]:
     """Return how many cells any chaotic orbit enters, and how many each of them at least."""
-    return (int(found[f"entered_{name}"].values[-1]) for name in ("any", "least"))
+    return (int(spread[f"entered_{name}"].values[-1]) for name in ("any", "least"))
 
 
-def sea(found, proved):
+def sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters, beside the horseshoes."""
-    every, least = _entered(found)
+    every, least = _entered(spread)
     word = UNDECIDED if least > CONNECTED * every else FALSE
-    crossings = "chaos at the crossings of the branches is proved (row 30), and "
-    crossings = crossings if all(proved.values()) else ""
-    return word, {"crossings": crossings, "every": every, "least": least}
+    return Outcome(word, {"crossings": all(proved.values()), "every": every, "least": least})
 
 
-def vanish(found):
+def vanish(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of regular orbits with the bound for their length."""
-    length = int(found["length"].values[-1])
-    largest = float(np.abs(found["regular_exponent"].values[-1]).max())
+    length = int(spread["length"].values[-1])
+    largest = float(np.abs(spread["regular_exponent"].values[-1]).max())
     small = largest < regular_bound(length)
-    return verdict_of(small, largest=largest, length=length, orbits=found.sizes["island"])
+    return outcome_of(small, largest=largest, length=length, orbits=spread.sizes["island"])
 
 
-def _largest_exponents(found):
+def _largest_exponents(spread: xr.Dataset) -> np.ndarray:
     """Return the largest exponent of each chaotic orbit, over all its blocks."""
-    return found["exponent"].values[:, in_sea(found)].mean(axis=0).max(axis=-1)
+    return spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
 
 
-def independent(found):
+def independent(spread: xr.Dataset) -> Outcome:
     """Compare the spread of the exponents of chaotic orbits with that within orbits."""
-    block = found["exponent"].values[:, in_sea(found)]
-    means = _largest_exponents(found)
-    # parts of an orbit spread by chance; if orbits do not differ, so do their means
+    block = spread["exponent"].values[:, in_sea(spread)]
+    means = _largest_exponents(spread)
+    # Parts of an orbit spread by chance. If orbits do not differ, their means spread likewise.
     parts = np.array_split(block, min(ORBIT_PARTS, block.shape[0]))
     within = np.array([part.mean(axis=0).max(axis=-1) for part in parts]) - means
     freedom = (len(parts) - 1) * means.size
@@ -113,145 +114,147 @@ def independent(found):
     furthest = float(np.abs(means - means.mean()).max()) / error
     alike = furthest < MAX_STANDARD_ERRORS and float(means.min()) > 0.0
     ends = {"least": means.min(), "most": means.max()}
-    return verdict_of(alike, orbits=_chaotic(found), furthest=furthest, **ends)
+    return outcome_of(alike, furthest=furthest, **ends, **_orbits(spread))
 
 
-def chaotic_nature(found):
+def chaotic_nature(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of chaotic orbits with the bound for regular ones of their length."""
-    impacts = found.sizes["block"] * int(found.attrs["block_impacts"])
-    least = float(_largest_exponents(found).min())
+    impacts = spread.sizes["block"] * int(spread.attrs["block_impacts"])
+    least = float(_largest_exponents(spread).min())
     bound = regular_bound(impacts)
     positive = least > CHAOTIC_EXPONENT_RATIO * bound
-    return verdict_of(positive, orbits=_chaotic(found), least=least, impacts=impacts, bound=bound)
+    return outcome_of(positive, least=least, impacts=impacts, bound=bound, **_orbits(spread))
 
 
-def figure_7(found):
+def figure_7(lyapunov: xr.Dataset) -> Outcome:
     """Compare number, length and largest exponents of the orbits of Figure 7 with the paper's."""
-    impacts, orbits = int(found["impact"].values[-1]), found.sizes["orbit"]
-    ends = final_exponents(found)[:, 0]
-    good = impacts == SHORT and orbits == 3 and float(ends.min()) > 0.1
-    ends = ", ".join(f"{end:.4f}" for end in ends)
-    return verdict_of(good, orbits=orbits, impacts=impacts, ends=ends)
+    impacts, orbits = int(lyapunov["impact"].values[-1]), lyapunov.sizes["orbit"]
+    ends = final_exponents(lyapunov)[:, 0]
+    as_printed = impacts == SHORT and orbits == FIGURES["fig7"]["starts"]
+    holds = as_printed and float(ends.min()) > CHAOTIC_EXPONENT
+    return outcome_of(holds, orbits=orbits, impacts=impacts, ends=Series(ends))
 
 
-def long_run(found):
+def long_run(spread: xr.Dataset) -> Outcome:
     """Compare the printed exponent with the mean of long runs and the spread of short ones."""
-    means = _largest_exponents(found)
+    means = _largest_exponents(spread)
     error = float(means.std(ddof=1)) / np.sqrt(means.size)
     mean = float(means.mean())
-    block = int(found.attrs["block_impacts"])
-    # as long as a run of Figure 7, or as a block where that is longer
-    runs = stretches(found, max(SHORT // block, 1) * block)
-    above = float(np.mean(runs > PRINTED_EXPONENT))
+    block = int(spread.attrs["block_impacts"])
+    # Runs are as long as those of Figure 7, or as a block if that is longer.
+    runs = stretches(spread, max(SHORT // block, 1) * block)
+    above = float(np.mean(runs > EXPONENT))
     likely = 0.025 < above < 0.975
-    word = HOLDS if abs(mean - PRINTED_EXPONENT) < 2 * error else CORRECTED if likely else FALSE
-    numbers = {
-        "mean": mean,
-        "percent": 100 * above,
-        "printed": PRINTED_EXPONENT,
-        "standard_error": error,
-    }
-    return word, numbers
+    word = HOLDS if abs(mean - EXPONENT) < 2 * error else CORRECTED if likely else FALSE
+    numbers = {"mean": mean, "percent": 100 * above, "printed": EXPONENT, "standard_error": error}
+    return Outcome(word, numbers)
 
 
-def opposite(algebra, found):
+def opposite(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Find how far exponents are from vanishing in pairs, beside the algebra of determinants."""
-    means = found["exponent"].values.mean(axis=0)
-    impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
+    means = spread["exponent"].values.mean(axis=0)
+    impacts = int(spread.attrs["block_impacts"]) * spread.sizes["block"]
     drift = max(float(np.abs(means[:, 0] + means[:, 2]).max()), float(np.abs(means[:, 1]).max()))
     holds = formula(algebra, "determinants")[0] and drift < 100.0 / impacts
-    return verdict_of(holds, drift=drift, impacts=impacts)
+    return outcome_of(holds, drift=drift, impacts=impacts)
 
 
-def depends_on_energy(line):
+def depends_on_energy(line: xr.Dataset) -> Outcome:
     """Compare the least and the largest regular share over the energies."""
-    low, high = float(line["regular"].min()), float(line["regular"].max())
-    energy, shares = line["energy"].values * float(line.attrs["g"]) ** 2, ""
-    for one in ENERGIES:
-        row = int(np.argmin(np.abs(energy - one)))
-        share, *ends = (float(line[f"regular{end}"].values[0, row]) for end in ENDS)
-        shares += f"; {share:.4f} ({ends[0]:.4f} to {ends[1]:.4f}) at E = {energy[row]:.4g}"
-    return verdict_of(low < 0.5 * high, low=low, high=high, shares=shares, width=_widest(line))
+    least, most = float(line["regular"].min()), float(line["regular"].max())
+    energies = _energies(line)
+    shares = [_share(line, (0, int(np.argmin(np.abs(energies - energy))))) for energy in ENERGIES]
+    for row, energy in zip(shares, ENERGIES, strict=True):
+        row["energy"] = energies[np.argmin(np.abs(energies - energy))]
+    return outcome_of(least < 0.5 * most, low=least, high=most, shares=shares, width=_widest(line))
 
 
-def destroyed(line):
+def _energies(line: xr.Dataset) -> np.ndarray:
+    """Return the energies of a sweep in m omega^2 R^2."""
+    return line["energy"].values * float(line.attrs["g"]) ** 2
+
+
+def _share(sweep: xr.Dataset, index: tuple[int, int]) -> dict[str, float]:
+    """Return the regular share of a cell with its interval."""
+    names = ("share", "low", "high")
+    return {n: float(sweep[f"regular{e}"].values[index]) for n, e in zip(names, ENDS, strict=True)}
+
+
+def destroyed(line: xr.Dataset) -> Outcome:
     """Find where the regular share rises with the energy by more than its intervals."""
     share, low, high = (line[f"regular{end}"].values[0] for end in ENDS)
     falls, rises = float(share[-1]) < 0.5 * float(share[0]), _rises(share, low, high)
     word = FALSE if not falls else CORRECTED if rises else HOLDS
-    energy = line["energy"].values * float(line.attrs["g"]) ** 2
-    said = "; ".join(
-        f"{share[a]:.4f} at {energy[a]:.4g} to {share[b]:.4f} at {energy[b]:.4g}" for a, b in rises
-    )
-    said = f"; but it rises from {said}" if rises else ""
-    return word, {"first": share[0], "last": share[-1], "rises": said, "width": _widest(line)}
+    energy = _energies(line)
+    rows = [
+        {"before": share[a], "low": energy[a], "after": share[b], "high": energy[b]}
+        for a, b in rises
+    ]
+    numbers = {"first": share[0], "last": share[-1], "rows": rows, "rises": bool(rises)}
+    return Outcome(word, numbers | {"width": _widest(line)})
 
 
-def _widest(line):
+def _widest(line: xr.Dataset) -> float:
     """Return the width of the widest interval of a regular share."""
     return float((line["regular_high"] - line["regular_low"]).max())
 
 
-def _rises(share, low, high):
-    """(from, to) of the rises of a curve that exceed its intervals: from a minimum to a maximum.
+def _rises(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[int, int]]:
+    """Return (minimum, maximum) of the rises of a curve that exceed its intervals.
 
-    A minimum or maximum counts where on both sides, or up to the curve's end, the curve leaves it
-    by more than both intervals before it passes it; of equal values the first.
+    A minimum or maximum counts if on both sides, or up to the curve's end, the curve leaves it
+    by more than both intervals before it passes it. Of equal values the first counts.
     """
-    found, begin, best = [], 0, None
-    for at in range(1, share.size):
-        if best is None:
-            if share[at] < share[begin]:
-                begin = at
-            elif low[at] > high[begin]:
-                best = at
-        elif share[at] > share[best]:
-            best = at
-        elif high[at] < low[best]:
-            found.append((begin, best))
-            begin, best = at, None
-    return [*found, (begin, best)] if best is not None else found
+    rises, minimum, maximum = [], 0, None
+    for i in range(1, share.size):
+        if maximum is None:
+            if share[i] < share[minimum]:
+                minimum = i
+            elif low[i] > high[minimum]:
+                maximum = i
+        elif share[i] > share[maximum]:
+            maximum = i
+        elif high[i] < low[maximum]:
+            rises.append((minimum, maximum))
+            minimum, maximum = i, None
+    return rises if maximum is None else [*rises, (minimum, maximum)]
 
 
-def discontinuous(found):
+def discontinuous(rotation: xr.Dataset) -> Outcome:
     """Count how often regular and chaotic starts change places along y = 0."""
-    energies, switches = found["energy"].values, []
+    switches = []
     for energy in ENERGIES:
-        row = int(np.argmin(np.abs(energies - energy)))
-        good = regular(found["exponent"].values[row], found.attrs["impacts"])
+        row = int(np.argmin(np.abs(rotation["energy"].values - energy)))
+        good = regular(rotation["exponent"].values[row], rotation.attrs["impacts"])
         switches.append(int(np.sum(good[1:] != good[:-1])))
-    counts = " and ".join(
-        f"{count} times at E = {energy:g}" for count, energy in zip(switches, ENERGIES, strict=True)
-    )
-    return verdict_of(min(switches) >= 3, counts=counts, starts=good.size)
+    numbers = {"counts": switches, "energies": ENERGIES, "starts": good.size}
+    return outcome_of(min(switches) >= 3, **numbers)
 
 
-def mixture(plane):
+def mixture(plane: xr.Dataset) -> Outcome:
     """Count the pairs of k and E/g^2 whose regular share is neither near 0 nor near 1."""
     low, high = (plane[f"regular_{end}"].values for end in ("low", "high"))
     mixed, bare = (
         float(np.mean((low > margin) & (high < 1.0 - margin))) for margin in (MARGIN, 1e-9)
     )
-    everywhere = np.isfinite(plane["trace"].values).all()
-    return verdict_of(
+    return outcome_of(
         mixed > 0.5,
         mixed=100 * mixed,
         bare=100 * bare,
         pairs=low.size,
         low=MARGIN,
         high=1 - MARGIN,
-        fixed_points="; each has a fixed point" if everywhere else "",
+        fixed_points=bool(np.isfinite(plane["trace"].values).all()),
     )
 
 
-def material(plane):
+def material(plane: xr.Dataset) -> Outcome:
     """Compare the least and the largest regular share over k at the energy of Figure 2."""
-    column = int(np.argmin(np.abs(plane["energy"].values - OF_FIGURE_2)))
-    share, low, high = (plane[f"regular{end}"].values[:, column] for end in ENDS)
-    rows = int(np.argmin(share)), int(np.argmax(share))
+    column = int(np.argmin(np.abs(plane["energy"].values - SCALED_ENERGY)))
+    share = plane["regular"].values[:, column]
     least, most = (
-        f"{share[row]:.4f} ({low[row]:.4f} to {high[row]:.4f}) at k = {plane['k'].values[row]:.3f}"
-        for row in rows
+        _share(plane, (row, column)) | {"k": plane["k"].values[row]}
+        for row in (int(np.argmin(share)), int(np.argmax(share)))
     )
-    depends = float(low[rows[1]]) > float(high[rows[0]])
-    return verdict_of(depends, energy=plane["energy"].values[column], least=least, most=most)
+    energy = plane["energy"].values[column]
+    return outcome_of(most["low"] > least["high"], energy=energy, least=least, most=most)

@@ -1,93 +1,92 @@
 """Checks of claims of the paper's section 3 and how it computes: map, energy, bounds, figures."""
 
 import json
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
+from pseudorigid.dynamics.paper import FIGURES
 
-from .schema import HOLDS, PROVED, derived, formula, numbers_of, verdict_of
+from .schema import HOLDS, PROVED, Outcome, Series, derived, formula, numbers_of, outcome_of
 
 ROUNDING = 1e-13  # of an energy, over an orbit
-SHOWN = (1e-3, 1e-5, 1e-7)  # distances from the jump curve
+DISTANCES = (1e-3, 1e-5, 1e-7)  # from the jump curve, at which the derivative is given
+POINTS_TOLERANCE = 0.05  # relative, of the paper's approximate numbers of points
 
 
-def diffeomorphism(algebra, jumps, proved):
+def diffeomorphism(algebra: xr.Dataset, jumps: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Measure the curve along which the map jumps at the highest energy, and how steep it is."""
-    energy, length = float(jumps["energy"].values[0]), float(jumps["length"].values[0])
-    if not (length > 0.0 and formula(algebra, "smooth")[1]):
-        return HOLDS, f"no jump at E = {energy:g}", ""
-    return verdict_of(
-        False,
-        said="proved" if all(proved.values()) else "computed",
-        energy=energy,
-        length=length,
-        length_error=float(jumps["length_error"].values[0]),
-        second=_second_length(jumps),
-        threshold=numbers_of(algebra)["smooth"],
-        **_steepness(jumps),
-    )
+    energies, lengths = jumps["energy"].values, jumps["length"].values
+    errors = jumps["length_error"].values
+    if not (lengths[0] > 0.0 and formula(algebra, "smooth")[1]):
+        return Outcome(HOLDS, {"energy": energies[0]}, case="smooth")
+    numbers = {
+        "said": all(proved.values()),
+        "energy": energies[0],
+        "length": lengths[0],
+        "length_error": errors[0],
+        "threshold": numbers_of(algebra)["smooth"],
+    }
+    lower = np.flatnonzero((lengths > 0.0) & (energies < energies[0]))
+    numbers["second"] = bool(lower.size)
+    if lower.size:
+        row = int(lower[np.argmax(energies[lower])])
+        numbers |= {"second_length": lengths[row], "second_error": errors[row]}
+        numbers |= {"second_energy": energies[row]}
+    return outcome_of(False, **numbers, **_steepness(jumps))
 
 
-def _steepness(jumps):
+def _steepness(jumps: xr.Dataset) -> dict[str, Any]:
     """Return the numbers that say how the largest derivative grows towards the jump curve."""
     h = jumps["distance"].values
     touched, missed = (jumps[f"derivative_{side}"].values for side in ("touched", "missed"))
-    rows = [int(np.argmin(np.abs(h - at))) for at in SHOWN]
+    rows = [int(np.argmin(np.abs(h - distance))) for distance in DISTANCES]
     power = np.log(touched[rows[-1]] / touched[rows[-2]]) / np.log(h[rows[-1]] / h[rows[-2]])
     return {
-        "touched": ", ".join(f"{touched[row]:.3g}" for row in rows),
-        "distances": ", ".join(f"{h[row]:g}" for row in rows),
+        "touched": Series(touched[rows]),
+        "distances": Series(h[rows]),
         "power": power,
         "missed": missed[rows[-1]],
     }
 
 
-def _second_length(jumps):
-    """Length and error of the curve at the energy next below the first that has one, as text."""
-    energy, length = jumps["energy"].values, jumps["length"].values
-    below = np.flatnonzero((length > 0.0) & (energy < energy[0]))
-    if not below.size:
-        return ""
-    row = int(below[np.argmax(energy[below])])
-    error = float(jumps["length_error"].values[row])
-    return f", {length[row]:.12f} (to {error:.0e}) at E = {energy[row]:g}"
-
-
-def energy_surface(algebra, sea):
+def energy_surface(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     """Compare the errors in energy of the sea with rounding, beside the algebra."""
-    error = float(sea["energy_error"].max())
-    kept = formula(algebra, "conserved_energy", "jump_conditions")[0] and error < ROUNDING
-    bound = f"below {ROUNDING:.0e}" if error < ROUNDING else f"{error:.1e}"
-    return verdict_of(kept, proved=True, bound=bound)
+    error = float(clusters["energy_error"].max())
+    small = error < ROUNDING
+    kept = formula(algebra, "conserved_energy", "jump_conditions")[0] and small
+    return outcome_of(kept, proved=True, bound=small, rounding=ROUNDING, error=error)
 
 
-def half_of_it(*portraits):
+def half_of_it(*portraits: xr.Dataset) -> Outcome:
     """Find the least contact speed of the orbits of two portraits."""
     speeds = [portrait["xdot"].values + portrait["udot"].values for portrait in portraits]
     least = min(float(speed.min()) for speed in speeds)
-    return verdict_of(least >= 0.0, least=least, count=sum(speed.size for speed in speeds))
+    return outcome_of(least >= 0.0, least=least, count=sum(speed.size for speed in speeds))
 
 
-def never_inside_out(algebra, sea):
+def never_inside_out(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     """Find the least strain of the sea, beside the bound that algebra gives."""
-    least = float(sea["least_strain"].min())
+    least = float(clusters["least_strain"].min())
     bounded = formula(algebra, "bound_in_flight")[0] and least > -1.0
-    return verdict_of(bounded, proved=True, least=least)
+    return outcome_of(bounded, proved=True, least=least)
 
 
-def bisection(lyapunov):
+def bisection(lyapunov: xr.Dataset) -> Outcome:
     """Count the impacts that scan and bisection miss, and find the least contact speed."""
     missed, impacts = (int(lyapunov.attrs[name]) for name in ("impacts_missed", "impacts"))
     method = json.loads(lyapunov.attrs["config"])["method"]
     least = _least_contact_speed(lyapunov, method, impacts)
     holds = missed == 0 and least >= 0.0
-    return verdict_of(holds, missed=missed, impacts=impacts, least=least, step=method["scan"])
+    return outcome_of(holds, missed=missed, impacts=impacts, least=least, step=method["scan"])
 
 
-def _least_contact_speed(lyapunov, method, impacts):
-    """The least contact speed of the orbits of a dataset of exponents, with a method's impacts."""
+def _least_contact_speed(lyapunov: xr.Dataset, method: dict[str, float], impacts: int) -> float:
+    """Return the least contact speed of the orbits of Figure 7, by a method with a scan."""
     k, g, energy = (float(lyapunov.attrs[name]) for name in ("k", "g", "energy"))
     ball = Ball(k, g, map=ImpactMap((method["scan"], method["tolerance"])))
     starts = lyapunov["start"].values
@@ -96,38 +95,40 @@ def _least_contact_speed(lyapunov, method, impacts):
     return float((out[..., 1] + out[..., 2]).min())
 
 
-def figure_2(orbits):
+def figure_2(orbits: xr.Dataset) -> Outcome:
     """Count the starts and points of Figure 2."""
-    return _portrait(orbits, 8, 45_000)
+    return _portrait(orbits, "fig2")
 
 
-def figure_8(orbits, line):
+def figure_8(orbits: xr.Dataset, line: xr.Dataset) -> Outcome:
     """Count the starts and points of Figure 8, and read the regular share at its energy."""
-    word, drawn = _portrait(orbits, 6, 35_000)
+    counted = _portrait(orbits, "fig8")
     energy, g = (float(orbits.attrs[name]) for name in ("energy", "g"))
     row = int(np.argmin(np.abs(line["energy"].values - energy / g**2)))
     share, low, high = (
         float(line[f"regular{end}"].values[0, row]) for end in ("", "_low", "_high")
     )
-    return verdict_of(word == HOLDS and low > 0.5, share=share, low=low, high=high, **drawn)
+    holds = counted.verdict == HOLDS and low > 0.5
+    return outcome_of(holds, share=share, low=low, high=high, **counted.numbers)
 
 
-def jacobian(algebra):
+def _portrait(orbits: xr.Dataset, figure: str) -> Outcome:
+    """Compare a portrait's numbers of starts and points with the paper's."""
+    paper = FIGURES[figure]
+    starts, points = orbits.sizes["orbit"], int(orbits["row_size"].sum())
+    close = abs(points - paper["points"]) < POINTS_TOLERANCE * paper["points"]
+    return outcome_of(starts == paper["starts"] and close, starts=starts, points=points)
+
+
+def jacobian(algebra: xr.Dataset) -> Outcome:
     """Look up the formula of the Jacobian, which was compared at some states and not proved."""
-    word, numbers = derived(algebra, "jacobian")
-    return HOLDS if word == PROVED else word, numbers
+    word, numbers, _ = derived(algebra, "jacobian")
+    return Outcome(HOLDS if word == PROVED else word, numbers)
 
 
-def third_exponent(algebra, found):
+def third_exponent(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Find the largest middle exponent, beside the algebra of the energy."""
-    middle = float(np.abs(found["exponent"].values[:, :, 1].mean(axis=0)).max())
-    impacts = int(found.attrs["block_impacts"]) * found.sizes["block"]
+    middle = float(np.abs(spread["exponent"].values[:, :, 1].mean(axis=0)).max())
+    impacts = int(spread.attrs["block_impacts"]) * spread.sizes["block"]
     kept = formula(algebra, "conserved_energy", "jump_conditions")[0]
-    return verdict_of(kept and middle < 100.0 / impacts, middle=middle, impacts=impacts)
-
-
-def _portrait(orbits, starts, points):
-    """Compare a portrait's numbers of starts and points with the paper's, the latter to 5 %."""
-    found, total = orbits.sizes["orbit"], int(orbits["row_size"].sum())
-    as_said = found == starts and abs(total - points) < 0.05 * points
-    return verdict_of(as_said, starts=found, points=total)
+    return outcome_of(kept and middle < 100.0 / impacts, middle=middle, impacts=impacts)

@@ -2,132 +2,131 @@
 
 import json
 import re
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.analyses.regularity import regular
 from pseudorigid.analyses.rotation import plateaus
 from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
-from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, verdict_of
+from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, Outcome, Series, outcome_of
 
-TRANSVERSAL = 1e-8  # sines of crossing angles in doubles can be told from 0 above that
-STEPS = range(20, 44)  # of differences, as negative powers of two
-GONE = 0.1  # a residue that falls below that share of its largest goes to 0
-BROKEN = 1.0  # a residue above that belongs to no curve
-LATER = 12  # impacts, twice the period, over which a branch's stretching is measured
+TRANSVERSAL = 1e-8  # sine of a crossing angle above which doubles tell it from 0
+STEP_BITS = range(20, 44)  # steps of differences are 2^-20 to 2^-43
+TRACE_ERROR = 1e-3  # relative error of a trace by differences that counts as right
+GONE = 0.1  # share of its largest value below which a residue goes to 0
+BROKEN = 1.0  # residue above which there is no curve
+STRETCHED_IMPACTS = 12  # twice the period, over which a branch's stretching is measured
 
 
-def fixed_point(found, proved):
+def fixed_point(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask for exactly one symmetric fixed point, an elliptic one."""
-    one = found["type"].values.tolist() == ["elliptic"]
+    one = orbits["type"].values.tolist() == ["elliptic"]
     known = all(proved.values())
-    x = ", ".join(f"{float(x):.12f}" for x in found["x"].values[:, 0])
-    return verdict_of(one, known, x=x, unique=", and no other" if known else "")
+    return outcome_of(one, known, x=Series(orbits["x"].values[:, 0]), unique=known)
 
 
-def period_six(orbits, proved):
+def period_six(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask for an elliptic and a hyperbolic orbit of period six."""
     kinds = orbits["type"].values.tolist()
-    exist = "each proved to exist" if all(proved.values()) else "not proved to exist"
     both = "elliptic" in kinds and "hyperbolic" in kinds
-    return verdict_of(both, count=len(kinds), orbits=_named(orbits), exist=exist)
+    exist = all(proved.values())
+    return outcome_of(both, count=len(kinds), orbits=_described(orbits), exist=exist)
 
 
-def in_between(orbits, proved):
+def in_between(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask whether elliptic and hyperbolic points alternate around their middle."""
     kinds = orbits["type"].values.tolist()
     alternate = "elliptic" in kinds and "hyperbolic" in kinds and _alternate(orbits)
-    curves = "; closed curves around the elliptic ones are proved" if proved["twist-six"] else ""
-    return verdict_of(alternate, do="" if alternate else "do not ", curves=curves)
+    return outcome_of(alternate, do=alternate, curves=proved["twist-six"])
 
 
-def _named(found):
-    """Orbits by their kinds, with rotation number or multiplier to about twelve digits."""
-    words = []
-    for i, kind in enumerate(found["type"].values.tolist()):
+def _described(orbits: xr.Dataset) -> list[dict[str, Any]]:
+    """Return the type of each orbit, and its rotation number or multiplier."""
+    rows = []
+    for i, kind in enumerate(orbits["type"].values.tolist()):
         name = "rotation_number" if kind == "elliptic" else "multiplier"
-        words.append(f"{kind}, {name.replace('_', ' ')} {float(found[name].values[i]):.11f}")
-    return "; ".join(words)
+        number = float(orbits[name].values[i])
+        rows.append({"type": kind, "name": name.replace("_", " "), "number": number})
+    return rows
 
 
-def _alternate(found):
-    """Whether points of the first elliptic and hyperbolic orbits alternate around their middle."""
-    kinds = found["type"].values.tolist()
+def _alternate(orbits: xr.Dataset) -> bool:
+    """Return whether elliptic and hyperbolic points alternate around their middle."""
+    kinds = orbits["type"].values.tolist()
     rows = [kinds.index("elliptic"), kinds.index("hyperbolic")]
-    x, y = found["x"].values[rows], found["xdot"].values[rows]
-    y = y - float(found.attrs["k"]) * found["udot"].values[rows]
-    around = np.arctan2(y - y.mean(), (x - x.mean()) * float(np.abs(y).max() / np.abs(x).max()))
-    owner = np.repeat([0, 1], x.shape[1])[np.argsort(around.ravel(), kind="stable")]
+    x, y = orbits["x"].values[rows], orbits["xdot"].values[rows]
+    y = y - float(orbits.attrs["k"]) * orbits["udot"].values[rows]
+    angle = np.arctan2(y - y.mean(), (x - x.mean()) * float(np.abs(y).max() / np.abs(x).max()))
+    owner = np.repeat([0, 1], x.shape[1])[np.argsort(angle.ravel(), kind="stable")]
     return bool(np.all(owner != np.roll(owner, 1)))
 
 
-def dense(found, proved):
+def dense(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Find the widest gap of the rotation number between the curves around the fixed point."""
-    place, turns = found["detail_place"].values, found["detail_rotation"].values
-    good = regular(found["detail_exponent"].values, found.attrs["detail_impacts"])
+    place, turns = rotation["detail_place"].values, rotation["detail_rotation"].values
+    good = regular(rotation["detail_exponent"].values, rotation.attrs["detail_impacts"])
     gaps = plateaus(place[good], turns[good])
     if not gaps:
-        return UNDECIDED, "no gap seen", ""
+        return Outcome(UNDECIDED, case="no_gap")
     p, q, first, last = max(gaps, key=lambda gap: gap[3] - gap[2])
-    known = proved["twist-fixed-point"]
-    exist = "curves of positive area proved" if known else "curves seen"
-    spacing = abs(float(place[1] - place[0]))
-    return CORRECTED, {
-        "exist": exist, "p": p, "q": q, "first": first, "last": last, "spacing": spacing,
-    }  # fmt: skip
+    numbers = {"exist": proved["twist-fixed-point"], "p": p, "q": q, "first": first, "last": last}
+    return Outcome(CORRECTED, numbers | {"spacing": abs(float(place[1] - place[0]))})
 
 
-def motions(*found):
+def motions(*datasets: xr.Dataset) -> Outcome:
     """Compare types and durations of the motions in Figures 3 and 4 with the paper's."""
-    orbits, lines = found[:2], found[2:]
+    orbits, lines = datasets[:2], datasets[2:]
     times = [float(line["t"].values[-1]) for line in lines]
     one, six = (float(orbit["total_time"].values[0]) for orbit in orbits)
     elliptic = all(str(orbit["type"].values[0]) == "elliptic" for orbit in orbits)
-    return verdict_of(elliptic and times == [16.0, 60.0], one=one, six=six)
+    as_printed = times == [FIGURES[name]["duration"] for name in ("fig3", "fig4")]
+    return outcome_of(elliptic and as_printed, one=one, six=six)
 
 
-def differences(found):
+def differences(orbits: xr.Dataset) -> Outcome:
     """Compare traces by forward differences, at their best step, with those of the Jacobian."""
-    ball = Ball(float(found.attrs["k"]), float(found.attrs["g"]))
-    names, period = ("x", "xdot", "udot"), found.sizes["point"]
+    ball = Ball(float(orbits.attrs["k"]), float(orbits.attrs["g"]))
+    names, period = ("x", "xdot", "udot"), orbits.sizes["point"]
     worst = 0.0
-    for orbit in range(found.sizes["orbit"]):
-        point = np.array([float(found[name].values[orbit, 0]) for name in names])
-        traces = [_trace(ball, point, 1.0 / (1 << bits), period) for bits in STEPS]
-        exact = float(found["trace"].values[orbit])
+    for orbit in range(orbits.sizes["orbit"]):
+        point = np.array([float(orbits[name].values[orbit, 0]) for name in names])
+        traces = [_trace(ball, point, 1.0 / (1 << bits), period) for bits in STEP_BITS]
+        exact = float(orbits["trace"].values[orbit])
         errors = [abs(trace - exact) / max(1.0, abs(exact)) for trace in traces]
         worst = max(worst, min(errors))
-    return verdict_of(worst < 1e-3, period=period, worst=worst)
+    return outcome_of(worst < TRACE_ERROR, period=period, worst=worst)
 
 
-def _trace(ball, point, step, period):
-    """Trace on the energy surface of the map's iterate by forward differences at a point."""
+def _trace(ball: Ball, point: np.ndarray, step: float, period: int) -> float:
+    """Return the trace of the map's iterate on the energy surface by forward differences."""
     states = np.concatenate([point[:, None], point[:, None] + step * np.eye(3)], axis=1)
     after = [row.copy() for row in states]
     ball.map.steps(*after, ball.k, ball.g, period, np.empty(4))
     return sum(float(after[i][i + 1] - after[i][0]) for i in range(3)) / step - 1.0
 
 
-def transversal(flux, proved):
+def transversal(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask for crossing angles that differ from zero."""
     sines = np.abs(flux["sine"].values)
-    known = "a transversal crossing of the inner branches and one of the outer ones, on y = 0; "
-    known = known if all(proved.values()) else ""
-    inner, outer = (" and ".join(f"{sine:.8g}" for sine in row) for row in sines)
-    crossed = float(sines.min()) > TRANSVERSAL
-    return verdict_of(crossed, all(proved.values()), known=known, inner=inner, outer=outer)
+    inner, outer = sines.tolist()
+    known, crossed = all(proved.values()), float(sines.min()) > TRANSVERSAL
+    return outcome_of(crossed, known, known=known, inner=inner, outer=outer)
 
 
-def oscillations(found):
+def oscillations(flux: xr.Dataset) -> Outcome:
     """Compare the areas of the lobes of the inner and the outer branches."""
-    areas = [float(area) for area in found["area"].values]
-    inner, outer = (_short(str(text)) for text in found["digits"].values)
-    errors = zip(("inner_error", "outer_error"), found["area_error"].values, strict=True)
-    return verdict_of(areas[0] < 1e-3 * areas[1], inner=inner, outer=outer, **dict(errors))
+    areas = [float(area) for area in flux["area"].values]
+    inner, outer = (_twelve_digits(str(text)) for text in flux["digits"].values)
+    errors = dict(zip(("inner_error", "outer_error"), flux["area_error"].values, strict=True))
+    return outcome_of(areas[0] < 1e-3 * areas[1], inner=inner, outer=outer, **errors)
 
 
-def stretching(manifolds):
+def stretching(manifolds: xr.Dataset) -> Outcome:
     """Compare how much the outer and the inner unstable branches stretch and turn."""
     inner, outer = (
         float(np.median([_stretched(manifolds, row) for row in _unstable(manifolds, side)]))
@@ -135,105 +134,97 @@ def stretching(manifolds):
     )
     turns = min(_half_turns(manifolds, row) for row in _unstable(manifolds, "outer"))
     large = outer > 10.0 and outer > 3.0 * inner and turns > 1.0
-    return verdict_of(large, impacts=LATER, inner=inner, outer=outer, turns=turns)
+    return outcome_of(large, impacts=STRETCHED_IMPACTS, inner=inner, outer=outer, turns=turns)
 
 
-def _unstable(manifolds, side):
-    """The rows of the unstable branches on a side."""
+def _unstable(manifolds: xr.Dataset, side: str) -> np.ndarray:
+    """Return the rows of the unstable branches on a side."""
     return np.flatnonzero((manifolds["side"].values == side) & (manifolds["stable"].values == 0))
 
 
-def _line(manifolds, row):
-    """The states along a branch, (3, n)."""
+def _states(manifolds: xr.Dataset, row: int) -> np.ndarray:
+    """Return the states along a branch, (3, n)."""
     end = int(manifolds["row_size"].values[: row + 1].sum())
     part = slice(end - int(manifolds["row_size"].values[row]), end)
     return np.stack([manifolds[name].values[part] for name in ("x", "xdot", "udot")])
 
 
-def _stretched(manifolds, row):
-    """The length in (x, y) of a branch's image after LATER impacts, in the branch's own.
-
-    By the tangent map, so that where the map jumps nothing is added.
-    """
+def _stretched(manifolds: xr.Dataset, row: int) -> float:
+    """Return the length of a branch's image after STRETCHED_IMPACTS, in lengths of the branch."""
     k, g = (float(manifolds.attrs[name]) for name in ("k", "g"))
-    states = _line(manifolds, row)
+    states = _states(manifolds, row)
     steps = np.diff(states, axis=1)
-    matrices = Ball(k, g).jacobian(*(a[:-1] for a in states), impacts=LATER)
+    # The tangent map adds no length where the map jumps.
+    matrices = Ball(k, g).jacobian(*(a[:-1] for a in states), impacts=STRETCHED_IMPACTS)
     images = (matrices * steps.T[:, None, :]).sum(axis=2).T
     before, after = (np.sqrt(a[0] ** 2 + (a[1] - k * a[2]) ** 2) for a in (steps, images))
-    return np.nansum(after) / np.nansum(before)
+    return float(np.nansum(after) / np.nansum(before))
 
 
-def _half_turns(manifolds, row):
-    """By how many half turns the direction of a branch in (x, y) changes in all."""
-    x, v, w = _line(manifolds, row)
+def _half_turns(manifolds: xr.Dataset, row: int) -> float:
+    """Return by how many half turns the direction of a branch in (x, y) changes in all."""
+    x, v, w = _states(manifolds, row)
     direction = np.diff(x) + 1j * np.diff(v - float(manifolds.attrs["k"]) * w)
     return float(np.nansum(np.abs(np.angle(direction[1:] / direction[:-1]))) / np.pi)
 
 
-def _short(digits):
-    """Cut a number's text after twelve digits, its exponent kept."""
+def _twelve_digits(digits: str) -> str:
+    """Cut a number's text after twelve digits, but keep its exponent."""
     return re.sub(r"^(-?[0.]*(?:\d\.?){12})\d*", r"\1", digits)
 
 
-def last_curve(found):
+def last_curve(residues: xr.Dataset) -> Outcome:
     """Find the rotation numbers between which curves break up, by the residues of convergents."""
-    size = np.abs(found["residue"].values)
+    size = np.abs(residues["residue"].values)
     gone = size[:, -1] < GONE * size.max(axis=1)
     broken = (size[:, -1] == size.max(axis=1)) & (size[:, -1] > BROKEN)
     if not (gone.any() and broken.any()):
-        return UNDECIDED, "no break-up between the rotation numbers", ""
-    numbers, period = found["rotation"].values, int(found["period"].values[:, -1].min())
+        return Outcome(UNDECIDED, case="no_break_up")
+    numbers, period = residues["rotation"].values, int(residues["period"].values[:, -1].min())
     inside, outside = float(numbers[gone].min()), float(numbers[broken].max())
-    return HOLDS, {"inside": inside, "outside": outside, "period": period}
+    return Outcome(HOLDS, {"inside": inside, "outside": outside, "period": period})
 
 
-def window(manifolds, proved):
+def window(manifolds: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask whether the hyperbolic point lies in the window of Figure 6."""
-    x, xdot = (float(manifolds.attrs[f"point_{name}"]) for name in ("x", "xdot"))
-    inside = 0.21 < x < 0.2116 and 0.0925 < xdot < 0.0932
-    return verdict_of(inside, proved["six-hyperbolic"], x=x, xdot=xdot)
+    point = {name: float(manifolds.attrs[f"point_{name}"]) for name in WINDOW}
+    inside = all(low < point[name] < high for name, (low, high) in WINDOW.items())
+    return outcome_of(inside, proved["six-hyperbolic"], **point)
 
 
-def horseshoe(proved):
+def horseshoe(proved: Mapping[str, bool]) -> Outcome:
     """List the connections along which a horseshoe is proved."""
     sides = [side for side in ("inner", "outer") if proved[f"horseshoe-{side}"]]
-    if not sides:
-        return UNDECIDED, "not proved", ""
-    value = "one exists: the map is conjugate to a shift on a hyperbolic set along the "
-    value += " and the ".join(sides) + " connections"
-    return PROVED if len(sides) == 2 else UNDECIDED, value, "ball arithmetic"
+    word = PROVED if len(sides) == 2 else UNDECIDED
+    return Outcome(word, {"sides": " and the ".join(sides)}, case="" if sides else "unproved")
 
 
-def smale_birkhoff(jumps, proved):
+def smale_birkhoff(jumps: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask for proved horseshoes, and for jumps that the Smale-Birkhoff theorem does not allow."""
     energy, length = (float(jumps[name].values[0]) for name in ("energy", "length"))
     if not all(proved.values()):
-        return UNDECIDED, "neither are its hypotheses checked nor is a horseshoe proved", ""
+        return Outcome(UNDECIDED, case="unproved")
     if length > 0.0:
-        value = "the set exists, proved (row 30); but not by that theorem as it stands: it is "
-        value += f"about diffeomorphisms, and at E = {energy:g} the map jumps (row 14)"
-        return CORRECTED, value, ""
-    return PROVED, "the set exists, proved (row 30)", ""
+        return Outcome(CORRECTED, {"energy": energy})
+    return Outcome(PROVED, case="smooth")
 
 
-def heteroclinic(found):
+def heteroclinic(flux: xr.Dataset) -> Outcome:
     """Ask whether branches lead from one saddle to another."""
-    pairs = zip(found["saddle"].values.tolist(), found["target"].values.tolist(), strict=True)
-    inner, outer = pairs
-    return verdict_of(inner[0] != inner[1] and outer[0] != outer[1], inner=inner, outer=outer)
+    inner, outer = zip(flux["saddle"].values.tolist(), flux["target"].values.tolist(), strict=True)
+    return outcome_of(inner[0] != inner[1] and outer[0] != outer[1], inner=inner, outer=outer)
 
 
-def source_of_chaos(found, proved):
+def source_of_chaos(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask whether the sea passes the crossing outer branches and never the inner ones."""
-    crossed = float(np.abs(found["sine"].values).min()) > TRANSVERSAL
-    inside, share = float(found["sea_inside"].values[0]), float(found["sea_out"].values[1])
-    inner, outer = (float(area) for area in found["area"].values)
-    config = json.loads(found.attrs["config"])
+    crossed = float(np.abs(flux["sine"].values).min()) > TRANSVERSAL
+    inside, share = float(flux["sea_inside"].values[0]), float(flux["sea_out"].values[1])
+    inner, outer = (float(area) for area in flux["area"].values)
+    config = json.loads(flux.attrs["config"])
     impacts = int(config["orbits"]) * int(config["impacts"])
-    return verdict_of(
+    return outcome_of(
         crossed and inside == 0.0 < share,
-        said="proved to make chaos" if all(proved.values()) else "seen",
+        said=all(proved.values()),
         share=share,
         impacts=impacts,
         passages=impacts * share * inner / outer,

@@ -1,58 +1,88 @@
-"""What claims.toml may say, what a claim and a verdict on it are, and what the checks share."""
+"""The form of claims.toml, what a claim and its verdict are, and what the checks share."""
 
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import resources
-from typing import Annotated
+from typing import Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
+import xarray as xr
 from pydantic import Field
 
 from pseudorigid.proofs.derivations import FORMULAS
 
 from ...config import ConfigError
-from ...config.schema.fields import Block, listed, one_of
+from ...config.schema.fields import Block
 from ...config.schema.stages import STAGES
 from ...config.validation.mistakes import mistakes
 from ...config.validation.words import meant, refusal
 
-HOLDS, CORRECTED, FALSE = "holds", "holds with a correction", "does not hold"
-PROVED, UNDECIDED = "proved", "undecided"
-VERDICT_WORDS = (FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS)
+_Words = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
+VERDICT_WORDS = get_args(_Words)
+FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS = VERDICT_WORDS
 _CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
 THEOREMS = sorted(file.name.removesuffix(".toml") for file in _CERTIFICATES.iterdir())
 
+VerdictWord = Annotated[_Words, Field(description=f"one of {', '.join(VERDICT_WORDS)}")]
 Text = Annotated[str, Field(min_length=1, description="a text")]
-Texts = listed(Text, "a list of texts")
+Texts = Annotated[list[Text], Field(min_length=1, description="a list of texts")]
+
+
+class Outcome(NamedTuple):
+    """What a check found: a verdict, the numbers of its sentences, and which sentences apply."""
+
+    verdict: str
+    numbers: dict[str, Any] = {}  # noqa: RUF012  (never changed)
+    case: str = ""  # a key of the claim's `cases`; empty for `value` and `error`
+
+
+class Series(tuple[Any, ...]):
+    """Numbers that a template formats one by one: "{ends:.2f}" gives "0.23, 0.24"."""
+
+    def __format__(self, spec: str) -> str:
+        return ", ".join(format(number, spec) for number in self)
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a claim.
+    """A row of CLAIMS.json: a claim and what became of it.
 
-    Parameters
-    ----------
-    verdict : str
-        One of WORDS.
-    value : str
-        Our number, rounded so that it does not depend on the machine; of what is undecided, why.
-    error : str
-        Its error, or how far it can be trusted.
-    evidence : str
-        What to look at.
+    `value` is our number, rounded so that it does not depend on the machine, or the reason why
+    nothing is decided. `error` is its error, `evidence` what to look at. `datasets` are names as in
+    claims.toml.
     """
 
+    number: int
+    place: str
+    statement: str
     verdict: str
     value: str
     error: str
     evidence: str
+    datasets: list[str]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.verdict not in VERDICT_WORDS:
             raise ValueError(f"verdict {self.verdict!r} is not allowed: {', '.join(VERDICT_WORDS)}")
         if not self.value:
             raise ValueError(f"a verdict without a value is not allowed: {self}")
+
+
+class Case(Block):
+    """a mapping with the keys value and error"""
+
+    value: Text
+    error: Text = ""
+
+
+Parts = Annotated[
+    dict[
+        str, Annotated[list[str], Field(min_length=1, max_length=2, description="one or two texts")]
+    ],
+    Field(description="a mapping to lists of texts"),
+]
+Cases = Annotated[dict[str, Case], Field(description="a mapping to values and errors")]
 
 
 class Row(Block):
@@ -62,33 +92,39 @@ class Row(Block):
     kind: Text
     quote: Text = ""
     paraphrase: Text = ""
-    data: Texts = ()
-    theorems: Texts = ()
+    data: Texts = Field(default=[])
+    theorems: Texts = Field(default=[])
     check: Text = ""
-    formulas: Texts = ()
-    verdict: one_of(*VERDICT_WORDS) = ""
+    formulas: Texts = Field(default=[])
+    verdict: VerdictWord = Field(default="")
     value: Text = ""
     error: Text = ""
     evidence: Text = ""
+    parts: Parts = Field(default={})
+    cases: Cases = Field(default={})
+
+    @property
+    def statement(self) -> str:
+        """The paper's words between quotation marks, or the paraphrase."""
+        quoted = f"\N{LEFT DOUBLE QUOTATION MARK}{self.quote}\N{RIGHT DOUBLE QUOTATION MARK}"
+        return quoted if self.quote else self.paraphrase
 
 
 class Claim(Row):
-    """A row, its number, and its check.
+    """A row of claims.toml with its number and its check.
 
-    The check is a function of the datasets and, where theorems are named, of a mapping from their
-    names to whether they are proved. It returns a verdict and the numbers in `value` and `error`;
-    or, where the sentences depend on what was found, a verdict, a value and an error.
+    The check is a function of the datasets and, if theorems are named, of a mapping from their
+    names to whether they are proved. It returns an Outcome.
     """
 
     number: int
-    function: Callable
+    function: Callable[..., Outcome]
 
-    def judge(self, datasets, proofs):
-        """The Verdict on it.
+    def judge(self, datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> Verdict:
+        """Return the verdict on the claim.
 
         Parameters
         ----------
-        datasets : mapping from name to Dataset
         proofs : mapping from a theorem's name to "proved" or another word
 
         Raises
@@ -96,33 +132,51 @@ class Claim(Row):
         ValueError
             A dataset is missing.
         ConfigError
-            `value` or `error` asks for a number that the check does not give.
+            A sentence asks for a number that the check does not give.
         """
         missing = [name for name in self.data if name not in datasets]
         if missing:
             raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
-        given = [datasets[name] for name in self.data]
+        inputs: list[Any] = [datasets[name] for name in self.data]
         if self.theorems:
             proved = {name: proofs.get(name) == PROVED for name in self.theorems}
-            given.append(_Proved(proved, number=self.number))
-        word, *said = self.function(*given)
-        if len(said) == 1:
-            try:
-                said = [text.format_map(said[0]) for text in (self.value, self.error)]
-            except (LookupError, ValueError) as error:
-                wrong = f"no number {error}" if isinstance(error, KeyError) else str(error)
-                raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
-        return Verdict(word, *said, self.evidence)
+            inputs.append(_Proved(proved, number=self.number))
+        outcome = self.function(*inputs)
+        try:
+            value, error = self._sentences(outcome)
+        except (LookupError, ValueError) as mistake:
+            wrong = f"no number {mistake}" if isinstance(mistake, KeyError) else str(mistake)
+            raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
+        return Verdict(
+            self.number, self.place, self.statement, outcome.verdict, value, error, self.evidence,
+            self.data,
+        )  # fmt: skip
+
+    def _sentences(self, outcome: Outcome) -> tuple[str, str]:
+        """Return value and error with the numbers of an outcome in them."""
+        numbers = dict(outcome.numbers)
+        for name, texts in self.parts.items():
+            if name in numbers:
+                numbers[name] = _part(texts, numbers[name], numbers)
+        chosen = self.cases[outcome.case] if outcome.case else self
+        return chosen.value.format_map(numbers), chosen.error.format_map(numbers)
 
 
-class _Proved(dict):
+def _part(texts: list[str], number: Any, numbers: dict[str, Any]) -> str:
+    """Return one text for each row of a list, or the text for true or false."""
+    if isinstance(number, list):
+        return "; ".join(texts[0].format_map(row) for row in number)
+    return [*texts, ""][0 if number else 1].format_map(numbers)
+
+
+class _Proved(dict[str, bool]):
     """Theorem that a claim names -> whether it is proved."""
 
-    def __init__(self, proved, number):
+    def __init__(self, proved: dict[str, bool], number: int) -> None:
         super().__init__(proved)
         self.number = number
 
-    def __missing__(self, name):
+    def __missing__(self, name: str) -> bool:
         raise KeyError(f"claim {self.number} does not name the theorem {name}")
 
 
@@ -130,9 +184,7 @@ class Document(Block):
     """a mapping with the keys head, verdicts, kinds and claims"""
 
     head: Text
-    verdicts: Annotated[
-        dict[one_of(*VERDICT_WORDS), Text], Field(description="a mapping from verdicts")
-    ]
+    verdicts: Annotated[dict[VerdictWord, Text], Field(description="a mapping from verdicts")]
     kinds: Annotated[dict[str, Text], Field(description="a mapping from letters")]
     claims: Annotated[
         dict[Annotated[str, Field(pattern=r"^[1-9]\d*$", description="a number")], Row],
@@ -140,22 +192,10 @@ class Document(Block):
     ]
 
 
-def load(text, checks):
-    """The contents of claims.toml.
+def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> tuple[Document, list[Claim]]:
+    """Read claims.toml; `checks` are the functions by name, and the claims come by number.
 
-    Parameters
-    ----------
-    text : str
-    checks : mapping from name to function
-
-    Returns
-    -------
-    (Document, dict from number to Claim)
-
-    Raises
-    ------
-    ConfigError
-        With a line for each mistake.
+    Raises ConfigError with a line for each mistake.
     """
     try:
         given = tomllib.loads(text)
@@ -173,69 +213,72 @@ def load(text, checks):
         lines += [f"no claim has the check {name}" for name in sorted(unused)]
     if lines:
         raise ConfigError(*(f"claims.toml: {line}" for line in lines))
-    claims = {}
-    for number, row in sorted((int(number), row) for number, row in document.claims.items()):
-        function = checks.get(row.check) or _without_a_function(row)
-        claims[number] = Claim(
-            number=number, function=function, **row.model_dump(exclude_unset=True)
+    claims = [
+        Claim(
+            number=int(number),
+            function=checks.get(row.check) or _check_without_data(row),
+            **row.model_dump(exclude_unset=True),
         )
-    return document, claims
+        for number, row in document.claims.items()
+    ]
+    return document, sorted(claims, key=lambda claim: claim.number)
 
 
-def _mistakes_of(row, place, kinds, checks):
+def _mistakes_of(
+    row: Row, key: str, kinds: str, checks: Mapping[str, Callable[..., Outcome]]
+) -> Iterator[str]:
     """Yield a line for each mistake in a claim whose fields have the right types."""
     if set(row.kind) - set(kinds):
-        yield refusal((place, "kind"), row.kind, f"letters of {kinds}")
+        yield refusal((key, "kind"), row.kind, f"letters of {kinds}")
     if bool(row.quote) == bool(row.paraphrase):
-        yield f"{place}: expected either quote or paraphrase"
+        yield f"{key}: expected either quote or paraphrase"
     if sum(map(bool, (row.check, row.formulas, row.verdict))) != 1:
-        yield f"{place}: expected one of check, formulas and verdict"
+        yield f"{key}: expected one of check, formulas and verdict"
     if row.formulas and row.data != ["derivations"]:
-        yield f'{place}: expected data = ["derivations"], which formulas are of'
+        yield f'{key}: formulas are in one dataset: expected data = ["derivations"]'
     stages = [name.rpartition("/")[2] for name in row.data if not name.startswith("atlas/")]
     named = {
         "data": (stages, (*STAGES, "derivations")),
         "theorems": (row.theorems, THEOREMS),
         "formulas": (row.formulas, [name for names in FORMULAS.values() for name in names]),
-        "check": ([row.check] * bool(row.check), checks),
+        "check": ([row.check] * bool(row.check), [*checks]),
     }
-    for key, (names, known) in named.items():
+    for field, (names, known) in named.items():
         for name in names:
             if name not in known:
                 (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
-                yield f"{place}.{key}: {name!r} is not known: {hint}"
+                yield f"{key}.{field}: {name!r} is not known: {hint}"
 
 
-def _without_a_function(row):
-    """The check of a claim that has formulas, or a verdict of its own."""
+def _check_without_data(row: Row) -> Callable[..., Outcome]:
+    """Return the check of a claim that has formulas, or a verdict of its own."""
     if row.formulas:
         return lambda algebra: derived(algebra, *row.formulas)
-    return lambda: (row.verdict, {})
+    return lambda: Outcome(row.verdict)
 
 
-def verdict_of(holds, proved=False, **numbers):
-    """The verdict on a statement that holds or does not, and if it holds may be proved."""
-    return FALSE if not holds else PROVED if proved else HOLDS, numbers
+def outcome_of(holds: object, proved: bool = False, **numbers: Any) -> Outcome:
+    """Return the outcome for a statement that does or does not hold, and if it does may be proved.
 
-
-def formula(algebra, *names):
-    """(printed, corrected) of formulas of the dataset of derivations, all of them together.
-
-    `corrected` is whether each that does not hold as printed holds when it is corrected.
+    `holds` is read as a bool.
     """
-    found = algebra.sel(formula=list(names))
-    printed, corrected = found["printed"].values, found["corrected"].values
+    return Outcome(FALSE if not holds else PROVED if proved else HOLDS, numbers)
+
+
+def formula(algebra: xr.Dataset, *names: str) -> tuple[bool, bool]:
+    """Return whether formulas of the derivations all hold as printed, and when corrected."""
+    rows = algebra.sel(formula=list(names))
+    printed, corrected = rows["printed"].values, rows["corrected"].values
     holds = (printed == 1) | ((printed == -1) & (corrected == 1))
     return bool(np.all(holds)), bool(np.all((printed == 1) | (corrected == 1)))
 
 
-def derived(algebra, *names):
-    """The verdict on formulas that computer algebra settles, and the numbers of all formulas."""
+def derived(algebra: xr.Dataset, *names: str) -> Outcome:
+    """Return the outcome for formulas that computer algebra settles, with all formulas' numbers."""
     holds, mended = formula(algebra, *names)
-    word = PROVED if holds else CORRECTED if mended else FALSE
-    return word, numbers_of(algebra)
+    return Outcome(PROVED if holds else CORRECTED if mended else FALSE, numbers_of(algebra))
 
 
-def numbers_of(algebra):
-    """The number that comes with each formula of the dataset of derivations."""
+def numbers_of(algebra: xr.Dataset) -> dict[str, float]:
+    """Return formula -> the number that comes with it."""
     return dict(zip(algebra["formula"].values.tolist(), algebra["value"].values, strict=True))

@@ -3,11 +3,17 @@
 import tomllib
 from pathlib import Path
 
+from pseudorigid.dynamics.paper import FIGURES, WINDOW
+
 from ...config.paths import stages
 from ...config.schema.kinds import KINDS
 
 TEXT = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
-PAPER_NUMBERS = TEXT["printed"]  # scene -> quantity -> the paper's value
+# scene -> quantity -> the paper's value
+PAPER_NUMBERS = {
+    scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
+    for scene, texts in TEXT["printed"].items()
+}
 CHARTS = TEXT["charts"]  # chart of the study, or sweep -> what its picture shows
 
 

@@ -19,7 +19,7 @@ from ...records.pictures import PictureError
 from ...records.record import read_record, record_path
 from .. import manifest, published_sets
 from ..checksums import ChecksumError, known_sums
-from ..claims import render as claims
+from ..claims import ledger
 from ..claims.schema import CORRECTED, FALSE
 from ..difference import not_as_made
 from ..freshness import MISSING, Freshness
@@ -135,11 +135,12 @@ class _Page:
             return False
 
     def claims(self):
-        """The rows of CLAIMS.md, or none."""
+        """The rows of CLAIMS.json in the order of CLAIMS.md, or none."""
         try:
-            return claims.read(read_text(self.root / paths.LEDGER))
+            verdicts = ledger.read_json(read_text(self.root / paths.LEDGER_DATA))
         except (OSError, ValueError):
             return []
+        return [row for rows in ledger.by_verdict(verdicts).values() for row in rows]
 
     def provenance(self):
         """Yield file, sha256, commit, packages and seconds, if known, of each result shown."""

@@ -3,21 +3,26 @@
 import os
 
 from ...records.sources import ROOT
+from ..arguments import Arguments
 from ..session import CommandLineError, one_line
 
 
-def run(args) -> int:
-    """Compare the tree with its contracts, or with an archive or another tree; 0 if all is well."""
+def run(args: Arguments) -> int:
+    """Compare the tree with its committed state, an archive or another tree; 0 if all is well."""
     if args.against is None:
         from ...checks.verify import verify
 
-        return verify(ROOT, args.checked, args.strict)
-    place = args.start / args.against
-    if not args.against or not os.path.exists(place):
+        status = 0
+        for findings in verify(ROOT, args.checked):
+            print(*findings.report(), sep="\n")
+            status |= findings.fails(args.strict)
+        return int(status)
+    other = args.start / args.against
+    if not args.against or not os.path.exists(other):
         raise CommandLineError(
-            f"verify: no archive or folder {place if args.against else repr('')}"
+            f"verify: no archive or folder {other if args.against else repr('')}"
         )
     from ...checks import archive
 
     with one_line("verify: ", archive.ArchiveError):
-        return archive.verify(ROOT, args.checked, place)
+        return archive.verify(ROOT, args.checked, other)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...analyses.spread import stretches
+from ...dynamics.paper import BALL, EXPONENT, FIGURES
 from ...dynamics.variables import final_exponents
 from ..axes.limits import of_data
 from ..axes.panel import Axis, Panel, corner, decades, log10
@@ -10,7 +11,6 @@ from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005
-_PAPER = 0.235  # of runs of 200,000 impacts of the paper's ball at E = 0.01
 _WIDE = 0.001  # of a bar of the histogram
 _LN10 = 2.302585092994046
 
@@ -34,7 +34,7 @@ def draw(scene, spread, lyapunov):
     """
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
-    paper = (scene["energy"], scene["ball"]) == (0.01, {"k": 0.2, "g": 0.04})
+    paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
     _lengths(sheet, (_LEFT, 1075, _RIGHT, 1425), spread, paper)
     _short_runs(sheet, (_LEFT, 605, _RIGHT, 905), spread, lyapunov, paper)
     _regular(sheet, (_LEFT, 105, _RIGHT, 435), spread)
@@ -55,8 +55,8 @@ def _lengths(sheet, frame, spread, paper):
     up = Axis(limits, ticks, "Largest exponent in the sea")
     panel = Panel(sheet, frame, across, up)
     if paper:
-        panel.line([1.0, 1e30], [_PAPER] * 2, color=style.BLUE, lw=0.7, ls="--")
-        panel.note(lengths[-1], _PAPER, "the paper: 0.235", ha="right", shift=(0, 5))
+        panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
+        panel.note(lengths[-1], EXPONENT, f"the paper: {EXPONENT}", ha="right", shift=(0, 5))
     for length in lengths:
         values = np.sort(stretches(spread, length))
         last = values.size - 1
@@ -98,8 +98,8 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
     panel.line([mean] * 2, [0.0, tall], color=style.BLACK, lw=0.9)
     panel.note(mean, tall, "mean", ha="right", va="top", shift=(-3, -4))
     if paper:
-        panel.line([_PAPER] * 2, [0.0, tall], color=style.BLUE, lw=0.9, ls="--")
-        panel.note(_PAPER, tall, "the paper", va="top", shift=(3, -4))
+        panel.line([EXPONENT] * 2, [0.0, tall], color=style.BLUE, lw=0.9, ls="--")
+        panel.note(EXPONENT, tall, "the paper", va="top", shift=(3, -4))
     panel.dots(marked, [0.35 * counts.max()] * marked.size, style.VERMILION, size=3.4)
     whose = "Figure 7's" if paper else "orbits from starts"
     corner(sheet, frame, f"{runs.size:,} runs; dots: {whose}")

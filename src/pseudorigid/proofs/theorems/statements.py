@@ -12,13 +12,14 @@ from importlib import resources
 
 import pseudorigid
 
+from ...dynamics import paper
 from ..checks import horseshoe, jump, periodic, twist
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
 
-K, G = Fraction(1, 5), Fraction(1, 25)
+K, G = (Fraction(str(paper.BALL[name])) for name in "kg")
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
-FIGURE_6 = "0.21", "0.2116", "0.0925", "0.0932"  # the paper's window: x and xdot, low and high
+FIGURE_6 = [str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]]
 DIGITS = 30  # of an enclosure as text, at most: as many as certificates state
 
 
