@@ -55,7 +55,7 @@ def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
 def read_published_text(root: Path, name: str) -> str:
     """Read a checksum list or manifest; raises ChecksumError."""
     try:
-        return read_text(root / name)
+        return str(read_text(root / name))
     except (FileNotFoundError, NotADirectoryError):
         raise ChecksumError(f"{name}: missing") from None
     except FileError as error:

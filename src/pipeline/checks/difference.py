@@ -154,7 +154,7 @@ class Comparison:
             why = obstacle(self.root / published)
             missing = f"{published} is missing: {self.published_set.command} makes it"
             return {"file": f"{published}: {why}" if why else missing}
-        encoding = {}
+        encoding: dict[str, str] = {}
         for path in (published, drawn):
             if self.file_hash(path) in (entry["sha256"], None):
                 continue
@@ -234,7 +234,7 @@ def ulps(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     a, b = (np.ascontiguousarray(x, dtype="<f8").view("<i8") for x in (a, b))
     # Bit patterns of negative numbers run backwards: map them to the order of the numbers.
     a, b = (np.where(x < 0, np.int64(-(2**63)) - x, x) for x in (a, b))
-    return np.maximum(a, b).view("<u8") - np.minimum(a, b).view("<u8")
+    return np.asarray(np.maximum(a, b).view("<u8") - np.minimum(a, b).view("<u8"))
 
 
 def _ulps_in_words(ours: xr.Variable, theirs: xr.Variable) -> str:

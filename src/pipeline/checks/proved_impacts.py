@@ -37,10 +37,11 @@ def impacts(checked: dict[str, Any]) -> int:
             path = artifact_paths[PAPER, scene, stage]
             if not (ROOT / path).is_file():
                 raise ValueError(f"{path} is missing: run ./reproduce first")
-            return load(ROOT / path)
+            dataset: xr.Dataset = load(ROOT / path)
+            return dataset
 
-        for name, states in _impacts_behind(ball, block, data, sample):
-            result = proofs.prove_impacts(k, g, *states, name=f"{scene} {name}")
+        for name, (before, after, tau) in _impacts_behind(ball, block, data, sample):
+            result = proofs.prove_impacts(k, g, before, after, tau, name=f"{scene} {name}")
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
             worst = max(worst, result.margins["worst error"])

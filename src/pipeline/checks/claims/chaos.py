@@ -99,7 +99,8 @@ def vanish(spread: xr.Dataset) -> Outcome:
 
 def _largest_exponents(spread: xr.Dataset) -> np.ndarray:
     """Return the largest exponent of each chaotic orbit, over all its blocks."""
-    return spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
+    block = spread["exponent"].values[:, in_sea(spread)]
+    return np.asarray(block.mean(axis=0).max(axis=-1))
 
 
 def independent(spread: xr.Dataset) -> Outcome:

@@ -59,7 +59,7 @@ def energy_surface(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     error = float(clusters["energy_error"].max())
     small = error < ROUNDING
     kept = formula(algebra, "conserved_energy", "jump_conditions")[0] and small
-    return outcome_of(kept, proved=True, bound=small, rounding=ROUNDING, error=error)
+    return outcome_of(kept, True, bound=small, rounding=ROUNDING, error=error)
 
 
 def half_of_it(*portraits: xr.Dataset) -> Outcome:
@@ -73,7 +73,7 @@ def never_inside_out(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     """Find the least strain of the sea, beside the bound that algebra gives."""
     least = float(clusters["least_strain"].min())
     bounded = formula(algebra, "bound_in_flight")[0] and least > -1.0
-    return outcome_of(bounded, proved=True, least=least)
+    return outcome_of(bounded, True, least=least)
 
 
 def bisection(lyapunov: xr.Dataset) -> Outcome:
@@ -91,7 +91,8 @@ def _least_contact_speed(lyapunov: xr.Dataset, method: dict[str, float], impacts
     ball = Ball(k, g, map=ImpactMap((method["scan"], method["tolerance"])))
     starts = lyapunov["start"].values
     out = np.empty((starts.size, impacts // starts.size, 4))
-    ball.map.history(*ball.start(starts, energy), k, g, out)
+    x, v, w = ball.start(starts, energy)
+    ball.map.history(x, v, w, k, g, out)
     return float((out[..., 1] + out[..., 2]).min())
 
 

@@ -105,9 +105,9 @@ def differences(orbits: xr.Dataset) -> Outcome:
 def _trace(ball: Ball, point: np.ndarray, step: float, period: int) -> float:
     """Return the trace of the map's iterate on the energy surface by forward differences."""
     states = np.concatenate([point[:, None], point[:, None] + step * np.eye(3)], axis=1)
-    after = [row.copy() for row in states]
-    ball.map.steps(*after, ball.k, ball.g, period, np.empty(4))
-    return sum(float(after[i][i + 1] - after[i][0]) for i in range(3)) / step - 1.0
+    x, v, w = after = [row.copy() for row in states]
+    ball.map.steps(x, v, w, ball.k, ball.g, period, np.empty(4))
+    return sum(float(row[i + 1] - row[0]) for i, row in enumerate(after)) / step - 1.0
 
 
 def transversal(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
@@ -152,10 +152,10 @@ def _states(manifolds: xr.Dataset, row: int) -> np.ndarray:
 def _stretched(manifolds: xr.Dataset, row: int) -> float:
     """Return the length of a branch's image after STRETCHED_IMPACTS, in lengths of the branch."""
     k, g = (float(manifolds.attrs[name]) for name in ("k", "g"))
-    states = _states(manifolds, row)
+    x, v, w = states = _states(manifolds, row)
     steps = np.diff(states, axis=1)
     # The tangent map adds no length where the map jumps.
-    matrices = Ball(k, g).jacobian(*(a[:-1] for a in states), impacts=STRETCHED_IMPACTS)
+    matrices = Ball(k, g).jacobian(x[:-1], v[:-1], w[:-1], impacts=STRETCHED_IMPACTS)
     images = (matrices * steps.T[:, None, :]).sum(axis=2).T
     before, after = (np.sqrt(a[0] ** 2 + (a[1] - k * a[2]) ** 2) for a in (steps, images))
     return float(np.nansum(after) / np.nansum(before))

@@ -24,7 +24,8 @@ FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS = VERDICT_WORDS
 _CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
 THEOREMS = sorted(file.name.removesuffix(".toml") for file in _CERTIFICATES.iterdir())
 
-VerdictWord = Annotated[_Words, Field(description=f"one of {', '.join(VERDICT_WORDS)}")]
+_EXPECTED = Field(description=f"one of {', '.join(VERDICT_WORDS)}")
+VerdictWord = Annotated[_Words, _EXPECTED]
 Text = Annotated[str, Field(min_length=1, description="a text")]
 Texts = Annotated[list[Text], Field(min_length=1, description="a list of texts")]
 
@@ -76,12 +77,8 @@ class Case(Block):
     error: Text = ""
 
 
-Parts = Annotated[
-    dict[
-        str, Annotated[list[str], Field(min_length=1, max_length=2, description="one or two texts")]
-    ],
-    Field(description="a mapping to lists of texts"),
-]
+Part = Annotated[list[str], Field(min_length=1, max_length=2, description="one or two texts")]
+Parts = Annotated[dict[str, Part], Field(description="a mapping to lists of texts")]
 Cases = Annotated[dict[str, Case], Field(description="a mapping to values and errors")]
 
 
@@ -96,7 +93,7 @@ class Row(Block):
     theorems: Texts = Field(default=[])
     check: Text = ""
     formulas: Texts = Field(default=[])
-    verdict: VerdictWord = Field(default="")
+    verdict: Annotated[Literal["", _Words], _EXPECTED] = ""
     value: Text = ""
     error: Text = ""
     evidence: Text = ""
@@ -257,7 +254,7 @@ def _check_without_data(row: Row) -> Callable[..., Outcome]:
     return lambda: Outcome(row.verdict)
 
 
-def outcome_of(holds: object, proved: bool = False, **numbers: Any) -> Outcome:
+def outcome_of(holds: object, proved: bool = False, /, **numbers: Any) -> Outcome:
     """Return the outcome for a statement that does or does not hold, and if it does may be proved.
 
     `holds` is read as a bool.

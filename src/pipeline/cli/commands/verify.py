@@ -25,4 +25,4 @@ def run(args: Arguments) -> int:
     from ...checks import archive
 
     with one_line("verify: ", archive.ArchiveError):
-        return archive.verify(ROOT, args.checked, other)
+        return int(archive.verify(ROOT, args.checked, other))
