@@ -1,4 +1,4 @@
-"""The ledger of claims: each has a check, each check can fail, CLAIMS.md says what they found."""
+"""The claims: each has a check, each check can fail, and CLAIMS.md has what they found."""
 
 import json
 import os
@@ -9,17 +9,16 @@ import numpy as np
 import pytest
 
 from pipeline.checks import claims
-from pipeline.checks.claims import VERDICTS, chaos, schema
-from pipeline.checks.claims.render import read, render
+from pipeline.checks.claims import VERDICTS, chaos, ledger, schema
 from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
-from pipeline.cli import claim_verdicts as cli_ledger
+from pipeline.cli import claim_verdicts
 from pipeline.cli.session import UsageError
 from pipeline.config import ConfigError
 from pipeline.records.sources import ROOT
+from pseudorigid import Ball
 
 PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's text
-LAST = 72  # of the claims, numbered from 1
-ALL = range(1, LAST + 1)
+ALL = range(1, 73)
 
 
 @pytest.fixture(scope="module")
@@ -27,53 +26,41 @@ def verdicts(datasets):
     return claims.judge_claims(datasets, {})
 
 
-ALGEBRA = {1, 8, 9, 10, 12, 15, 18, 47, 48, 53, 64, 68, 71}  # one kind of evidence, one verdict
+ALGEBRA = {1, 8, 9, 10, 12, 15, 18, 47, 48, 53, 64, 68, 71}  # settled by computer algebra
+PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
 EXPECTED = {
     FALSE: {14, 19, 33},
     CORRECTED: {3, 4, 5, 6, 7, 11, 13, 17, 23, 34, 37, 40, 44, 59, 67},
     UNDECIDED: {30, 50, 51, 52, 57, 58, 62, 63, 70},
     PROVED: ALGEBRA,
 }
-PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
 
 
 def test_verdicts_without_a_proof(verdicts):
-    for number, verdict in verdicts.items():
-        word = next((w for w, numbers in EXPECTED.items() if number in numbers), HOLDS)
-        assert verdict.verdict == word, (number, verdict)
+    for verdict in verdicts:
+        word = next((w for w, numbers in EXPECTED.items() if verdict.number in numbers), HOLDS)
+        assert verdict.verdict == word, verdict
 
 
 def test_verdicts_with_all_proofs(datasets):
     verdicts = claims.judge_claims(datasets, dict.fromkeys(claims.required_theorems(), PROVED))
-    proved = {number for number, verdict in verdicts.items() if verdict.verdict == PROVED}
-    assert proved == ALGEBRA | PROVED_BY_THEOREMS
-    assert verdicts[63].verdict == CORRECTED and verdicts[70].verdict == HOLDS
-    assert verdicts[50].verdict == verdicts[62].verdict == UNDECIDED
+    words = {verdict.number: verdict.verdict for verdict in verdicts}
+    assert {n for n, word in words.items() if word == PROVED} == ALGEBRA | PROVED_BY_THEOREMS
+    assert (words[63], words[70]) == (CORRECTED, HOLDS)
+    assert words[50] == words[62] == UNDECIDED
 
 
-def test_all_statements_are_there():
-    assert list(claims.CLAIMS) == list(ALL)
-    assert set(claims.required_theorems()) >= {
-        "horseshoe-inner",
-        "horseshoe-outer",
-        "twist-fixed-point",
-    }
-
-
-def test_the_theorems_of_invariant_curves_are_all_there_are():
-    from pseudorigid.proofs import THEOREMS
-
-    curves = {name for name in THEOREMS if name.startswith("twist-")} - {"twist-zero"}
+def test_all_theorems_of_invariant_curves_are_used():
+    curves = {name for name in schema.THEOREMS if name.startswith("twist-")} - {"twist-zero"}
     assert set(claims.CLAIMS[52].theorems) == set(claims.CLAIMS[70].theorems) == curves
 
 
-@pytest.mark.parametrize("number", ALL)
-def test_words_are_short_and_whole(number):
-    words = claims.CLAIMS[number].quote or claims.CLAIMS[number].paraphrase
-    assert words == " ".join(words.split())
-    assert 5 < len(words) < 260
-    assert words.isascii()
-    assert "..." not in words
+def test_all_statements_are_there_and_whole():
+    assert list(claims.CLAIMS) == list(ALL)
+    for claim in claims.CLAIMS.values():
+        words = claim.quote or claim.paraphrase
+        assert words == " ".join(words.split())
+        assert 5 < len(words) < 260 and words.isascii() and "..." not in words
 
 
 def squeezed(text):
@@ -89,35 +76,30 @@ def test_quotes_are_the_papers_words(number):
     assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote)
 
 
-def test_a_quote_is_compared_letter_by_letter():
-    assert squeezed("a pe-\n  riodic\N{RIGHT SINGLE QUOTATION MARK}s") == squeezed("a periodic's")
-    assert squeezed("is smooth") != squeezed("is smooth,")
-
-
 # -- a wrong dataset changes the verdict ----------------------------------------------------------
 
 
 def broken(*names):
-    """The derivations with these formulas neither holding nor mended."""
+    """Let formulas of the derivations hold neither as printed nor corrected."""
 
     def change(datasets):
-        found = datasets["derivations"].copy(deep=True)
+        dataset = datasets["derivations"].copy(deep=True)
         for name in names:
-            row = found["formula"].values.tolist().index(name)
-            found["printed"].values[row] = found["corrected"].values[row] = 0
-        return {"derivations": found}
+            row = dataset["formula"].values.tolist().index(name)
+            dataset["printed"].values[row] = dataset["corrected"].values[row] = 0
+        return {"derivations": dataset}
 
     return change
 
 
 def changed(name, **values):
-    """A dataset with variables replaced by what functions make of them."""
+    """Replace variables of a dataset by functions of their values."""
 
     def change(datasets):
-        found = datasets[name].copy(deep=True)
+        dataset = datasets[name].copy(deep=True)
         for variable, make in values.items():
-            found[variable] = found[variable].copy(data=make(found[variable].values.copy()))
-        return {name: found}
+            dataset[variable] = dataset[variable].copy(data=make(dataset[variable].values.copy()))
+        return {name: dataset}
 
     return change
 
@@ -258,20 +240,38 @@ def test_a_wrong_dataset_changes_the_verdict(datasets, number):
 
 
 @pytest.mark.parametrize("number", [n for n, claim in claims.CLAIMS.items() if claim.theorems])
-def test_a_proof_changes_what_is_said(datasets, number):
+def test_a_proof_changes_the_row(datasets, number):
     claim = claims.CLAIMS[number]
     without = claim.judge(datasets, dict.fromkeys(claim.theorems, "not proved"))
-    proved = claim.judge(datasets, dict.fromkeys(claim.theorems, PROVED))
-    assert without != proved
+    assert without != claim.judge(datasets, dict.fromkeys(claim.theorems, PROVED))
     assert without.verdict != PROVED
 
 
-def test_a_dataset_that_is_missing_is_named(datasets):
+CASES = {
+    (14, "smooth"): changed("jumps/jumps", length=np.zeros_like),
+    (23, "no_gap"): WRONG[23],
+    (28, "no_break_up"): WRONG[28],
+    (50, "unproved"): broken("area"),
+    (63, "smooth"): changed("jumps/jumps", length=np.zeros_like),
+    **{(number, "unproved"): lambda datasets: {} for number in (30, 52, 63, 70)},
+}
+
+
+def test_every_case_of_a_claim_has_its_sentence(datasets):
+    assert CASES.keys() == {(n, case) for n, claim in claims.CLAIMS.items() for case in claim.cases}
+    for (number, case), change in CASES.items():
+        claim = claims.CLAIMS[number]
+        proofs = {} if case == "unproved" else dict.fromkeys(claim.theorems, PROVED)
+        value = claim.judge(datasets | change(datasets), proofs).value
+        assert value.startswith(claim.cases[case].value.partition("{")[0])
+
+
+def test_a_dataset_that_is_missing_is_named():
     with pytest.raises(ValueError, match="claim 40 needs spread/spread"):
         claims.CLAIMS[40].judge({}, {})
 
 
-def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
+def test_a_check_may_ask_only_for_theorems_that_it_names():
     claim = schema.Claim(
         number=1, place="1", kind="E", quote="a", theorems=["twist-zero"],
         function=lambda proved: proved["twist-six"],
@@ -280,31 +280,38 @@ def test_a_check_may_ask_only_for_theorems_that_it_names(datasets):
         claim.judge({}, {"twist-six": PROVED})
 
 
-# -- the page -------------------------------------------------------------------------------------
+# -- CLAIMS.json and CLAIMS.md --------------------------------------------------------------------
 
 
-def test_page_has_a_row_for_each_claim_the_corrections_first(verdicts):
-    text = render(verdicts)
-    rows = re.findall(r"^\| (\d+) \|", text, flags=re.M)
-    assert sorted(map(int, rows)) == list(ALL)
+def test_the_page_has_a_row_for_each_claim_the_corrections_first(verdicts):
+    text = ledger.render(verdicts)
+    assert text == ledger.render(verdicts[::-1])
+    rows = [int(number) for number in re.findall(r"^\| (\d+) \|", text, flags=re.M)]
+    tables = ledger.by_verdict(verdicts)
+    assert rows == [row.number for rows in tables.values() for row in rows]
+    assert sorted(rows) == list(ALL)
     titles = re.findall(r"^## (.*)$", text, flags=re.M)
     assert titles == [word.capitalize() for word in VERDICTS]
-    assert text == render(dict(reversed(verdicts.items())))
-    assert [int(row["number"]) for row in read(text)] == [*map(int, rows)]
-
-
-def test_page_says_of_each_verdict_what_it_needs_and_how_many_have_it(verdicts):
-    text = render(verdicts)
-    head = text[: text.index("\n## ")]
-    assert len(VERDICTS) == 5
     for word, needs in VERDICTS.items():
-        count = sum(verdict.verdict == word for verdict in verdicts.values())
-        assert f"| {word} | {count} | {needs} |" in head
+        assert f"| {word} | {len(tables[word])} | {needs} |" in text
 
 
-def test_page_wants_all_verdicts(verdicts):
-    with pytest.raises(ValueError, match="no verdict on 7"):
-        render({number: verdict for number, verdict in verdicts.items() if number != 7})
+def test_the_committed_page_is_rendered_from_the_committed_verdicts():
+    text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
+    verdicts = ledger.read_json(text)
+    assert [verdict.number for verdict in verdicts] == list(ALL)
+    assert ledger.to_json(verdicts) == text
+    assert ledger.render(verdicts) == (ROOT / "CLAIMS.md").read_text(encoding="utf-8")
+    for verdict in verdicts:
+        claim = claims.CLAIMS[verdict.number]
+        assert (verdict.place, verdict.statement) == (claim.place, claim.statement)
+        assert verdict.datasets == claim.data
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '[{"number": 1}]', "nothing <b> of the kind"])
+def test_what_is_no_list_of_verdicts_is_refused(text):
+    with pytest.raises(ValueError, match="validation error"):
+        ledger.read_json(text)
 
 
 # Lines of claims.toml with a mistake: line -> (another, how the message begins).
@@ -350,7 +357,7 @@ def test_a_check_that_no_claim_names_is_one_line():
 def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
     monkeypatch.setattr(claims, "required_datasets", lambda: ["fig22/orbits"])
     with pytest.raises(UsageError, match=r"^config.yaml: no scene makes fig22/orbits"):
-        cli_ledger.dataset_paths({"variants": {}, "sweeps": {}})
+        claim_verdicts.dataset_paths({"variants": {}, "sweeps": {}})
 
 
 @pytest.mark.parametrize(
@@ -363,12 +370,10 @@ def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wron
         claim.judge(datasets, {})
 
 
-@pytest.mark.parametrize("word", ["true", "not computed", "open", ""])
-def test_a_verdict_is_one_of_five_words_and_says_something(word):
+@pytest.mark.parametrize(("word", "value"), [("true", "a value"), ("", "a value"), (UNDECIDED, "")])
+def test_a_verdict_is_one_of_five_words_and_has_a_value(word, value):
     with pytest.raises(ValueError, match="is not allowed"):
-        schema.Verdict(word, "a value", "", "")
-    with pytest.raises(ValueError, match="a verdict without a value is not allowed"):
-        schema.Verdict(UNDECIDED, "", "", "")
+        schema.Verdict(1, "1", "a", word, value, "", "", [])
 
 
 # -- what single rows say -------------------------------------------------------------------------
@@ -376,8 +381,6 @@ def test_a_verdict_is_one_of_five_words_and_says_something(word):
 
 def test_the_derivative_beside_the_jump_curve_is_that_of_differences(datasets):
     """Row 14: the numbers by differences of the map itself, on both sides."""
-    from pseudorigid import Ball
-
     jumps, ball = datasets["jumps/jumps"], Ball(0.2, 0.04)
     middle = jumps.sizes["point"] // 2
     x, y = jumps["x"].values[0], -jumps["y"].values[0]
@@ -446,17 +449,18 @@ def test_rises_are_counted_by_the_share_and_its_intervals():
 
 def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():
     """One rule of rounding: rows 42 to 44 of CLAIMS.md, as committed, and docs/atlas.md."""
-    rows = {row["number"]: row for row in read((ROOT / "CLAIMS.md").read_text(encoding="utf-8"))}
+    text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
+    rows = {row.number: row for row in ledger.read_json(text)}
     page = (ROOT / "docs" / "atlas.md").read_text(encoding="utf-8")
-    rises = re.findall(r"(0\.\d+) at (0\.\d+)", rows["44"]["value"])
+    rises = re.findall(r"(0\.\d+) at (0\.\d+)", rows[44].value)
     assert len(rises) == 6
     for share, energy in rises[:-1]:  # the last is where the line ends
         assert f"{energy} ({share})" in page
     for share, low, high, energy in re.findall(
-        r"(0\.\d+) \((0\.\d+) to (0\.\d+)\) at E = (0\.\d+)", rows["43"]["value"]
+        r"(0\.\d+) \((0\.\d+) to (0\.\d+)\) at E = (0\.\d+)", rows[43].value
     ):
         assert re.search(rf"\| {energy} \([^|]*\) \| {share} \| {low} - {high} \|", page)
-    assert rows["42"]["error"].replace(" to ", " - ") in page
+    assert rows[42].error.replace(" to ", " - ") in page
 
 
 def test_missed_impacts_are_judged_by_the_contact_speeds_of_the_same_orbits(datasets):
