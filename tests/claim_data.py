@@ -1,4 +1,4 @@
-"""All datasets that the checks of claims need, smaller than the shipped ones."""
+"""Small versions of all datasets that the checks of claims need."""
 
 import json
 
@@ -12,18 +12,19 @@ from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.last_curve import last_curve
 from pseudorigid.analyses.rotation import rotation
 from pseudorigid.analyses.spread import spread
-from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
+from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, paper
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.variables import attributes_of
 from pseudorigid.sweep.cell import VARIABLES, cells
 
-BALL, HIGH, LOW = Ball(0.2, 0.04), 0.01, 0.001
+BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
 SEA = (0.55, 0.68)
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
 STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]
 
 
-def atlas(ks, energies, starts, impacts):
+def sweep(ks, energies, starts, impacts):
+    """Return the dataset of a sweep over k and E/g^2."""
     rows = [cells(k, energies, starts, impacts) for k in ks]
     data = {
         name: (
@@ -41,15 +42,15 @@ def atlas(ks, energies, starts, impacts):
 
 
 def made(stage, *inputs, ball=BALL, energy=HIGH, method=None, **fields):
-    """A stage's dataset, with the attributes that its file would have."""
+    """Return a stage's dataset with the attributes of a saved one."""
     config = fields if method is None else fields | {"method": method}
     about = {"k": ball.k, "g": ball.g, "energy": energy, "config": json.dumps(config)}
-    found = stage(ball, energy, *inputs, **fields)
-    return found.assign_attrs(about | found.attrs)
+    dataset = stage(ball, energy, *inputs, **fields)
+    return dataset.assign_attrs(about | dataset.attrs)
 
 
 def datasets(derived):
-    """Name -> dataset, of which one is handed in: what `made(derivations)` gives."""
+    """Return name -> dataset; `derived` is the dataset of the derivations."""
     one, six = (made(symmetric_orbits, period=period) for period in (1, 6))
     scan = ImpactMap((0.1, 1e-12))
     draw = {"starts": [0.6, 0.62, 0.65], "impacts": 200_000}
@@ -86,8 +87,8 @@ def datasets(derived):
         "as_published/fig7/lyapunov": published.assign_attrs(
             impacts=scan.impacts, impacts_missed=scan.missed
         ),
-        "atlas/line": atlas([0.2], line, 300, 3000),
-        "atlas/plane": atlas([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 240, 1500),
+        "atlas/line": sweep([0.2], line, 300, 3000),
+        "atlas/plane": sweep([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 240, 1500),
         "clusters/clusters": made(
             clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,

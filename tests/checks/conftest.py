@@ -1,4 +1,4 @@
-"""What the tests of claims share."""
+"""Fixtures of the tests of claims."""
 
 import pytest
 from claim_data import datasets as computed

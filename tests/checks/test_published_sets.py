@@ -1,4 +1,4 @@
-"""The contract itself: what is missing, broken or too much in it, and accept, which renews it."""
+"""Missing, broken and stale manifests and checksum lists, and accept, which renews them."""
 
 import shutil
 
@@ -17,7 +17,7 @@ def test_a_deleted_figure(moved):
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"garbage"])
-def test_a_figure_that_is_none(moved, content):
+def test_a_file_that_is_no_figure(moved, content):
     for name in ("fig3.png", "fig3.svg"):
         (moved.path / "paper_figures" / name).write_bytes(content)
     found = verified(moved)
@@ -35,13 +35,13 @@ def test_every_line_of_the_manifest_counts(moved):
     for missing in (0, package, digest, len(lines) - 1):
         path.write_text("".join(lines[:missing] + lines[missing + 1 :]))
         found = verified(moved)
-        assert len(found.findings) == 1
-        assert found.findings[0].startswith("paper_figures/MANIFEST.json: ")
+        (words,) = found.findings
+        assert words.startswith("paper_figures/MANIFEST.json: ")
         assert [*found.wrong.values()] == 11 * [["file: as in SHA256SUMS"]]
 
 
 @pytest.mark.parametrize("content", ["", "[]", "null", "{}", "{", "\0"])
-def test_no_manifest_to_speak_of(moved, content):
+def test_a_broken_manifest(moved, content):
     (moved.path / "paper_figures" / "MANIFEST.json").write_text(content)
     assert verified(moved).findings[0].startswith("paper_figures/MANIFEST.json: ")
 
@@ -77,7 +77,7 @@ def test_a_figure_that_no_scene_makes(moved):
     assert found.findings[0] in result.stdout.splitlines()
 
 
-def test_a_scene_that_was_removed_leaves_no_picture_unmentioned(moved):
+def test_the_pictures_of_a_removed_scene_are_listed(moved):
     document = moved.document()
     del document["scenes"]["fig7"]
     moved.write(document)
@@ -94,7 +94,7 @@ def test_a_scene_that_was_removed_leaves_no_picture_unmentioned(moved):
 
 
 def of_the_paper(lines):
-    """The lines of accept but those of the contracts that are made on request."""
+    """Return the lines of accept about the paper's figures."""
     return [line for line in lines if not line.startswith("more_figures/")]
 
 
@@ -104,7 +104,7 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved):
     moved.write(document)
     assert moved.run("paper_figures/again.png").returncode == 0
     found = verified(moved)
-    assert found.notes == ["again.png: new: ./reproduce accept adds it to the contract"]
+    assert found.notes == ["again.png: new: ./reproduce accept adds it to the manifest"]
     assert (found.status, found.findings) == (0, [])
     assert found.wrong == {}
     assert found.lines[-1] == "11 of 12 figures identical; 1 note"

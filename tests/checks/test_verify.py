@@ -82,16 +82,15 @@ def test_a_misspelt_key_is_one_line(moved):
 
 
 def test_source(moved):
-    """Stale until it is made again; then the bytes are the committed ones, and that is a note."""
+    """Results are stale until they are recomputed; then the changed source is a note."""
     module = "src/pseudorigid/dynamics/motion.py"
     with (moved.path / module).open("a") as file:
         file.write("_EDITED = 1\n")
     found = verified(moved)
     assert (found.status, found.wrong) == (1, {})
-    words = f"made by other code than this tree's: {module} differs: run ./reproduce"
-    assert (
-        found.findings[0] == f"results/paper/motion_fig3.nc, results/paper/motion_fig4.nc: {words}"
-    )
+    results = "results/paper/motion_fig3.nc, results/paper/motion_fig4.nc"
+    words = f"{results}: made by other code than this tree's: {module} differs: run ./reproduce"
+    assert found.findings[0] == words
     assert found.notes == [f"fig3.png, fig3.svg, fig4.png, fig4.svg: source: {module} differs"]
     moved.warm()
     assert moved.run("fig3", "fig4").returncode == 0
@@ -102,7 +101,7 @@ def test_source(moved):
 
 
 def test_environment(moved):
-    """Another matplotlib, as far as its metadata go, found before the installed one."""
+    """Metadata of another matplotlib precede those of the installed one."""
     lib = moved.path / "lib"
     about = lib / "matplotlib-3.0.1.dist-info" / "METADATA"
     about.parent.mkdir(parents=True)
@@ -140,7 +139,7 @@ def test_data(moved):
 
 
 def test_the_block_is_named(moved):
-    """In the middle of 2,000 values; the motion has the longest arrays of the small scenes."""
+    """The motion has the longest arrays of the small scenes."""
     change_a_value(moved.path / "results" / "paper" / "motion_fig4.nc", "strain", 1500, 1)
     found = verified(moved)
     assert set(found.wrong) == {"fig4.png", "fig4.svg"}

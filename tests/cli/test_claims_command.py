@@ -1,4 +1,4 @@
-"""./reproduce claims: what it says of the pictures that it makes before it publishes them."""
+"""./reproduce claims reports the state of the pictures that it draws."""
 
 from contextlib import nullcontext
 from types import SimpleNamespace
@@ -13,7 +13,7 @@ DRAWING, DATA, PUBLISHED = "results/claims/a.png", "results/claims/a.nc", "more_
 
 @pytest.fixture
 def project(tmp_path, monkeypatch):
-    """A folder in which `claims` makes one picture, without snakemake and without verdicts."""
+    """A folder in which `claims` draws one picture, without snakemake and without verdicts."""
     for file in (DRAWING, PUBLISHED):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
 
@@ -37,15 +37,15 @@ def project(tmp_path, monkeypatch):
     monkeypatch.setattr(claims, "interruptible", nullcontext)
     monkeypatch.setattr(figures.states, "committed", lambda folder, rows: {})
     monkeypatch.setattr(claim_verdicts, "dataset_paths", lambda checked: {"a": DATA})
-    monkeypatch.setattr(claim_verdicts, "write", lambda checked: {})
+    monkeypatch.setattr(claim_verdicts, "write", lambda checked: [])
     return tmp_path
 
 
 def state(capsys):
-    """What the command said of the picture."""
+    """Run the command, and return the state of the picture that it prints."""
     checked = {"variants": {"claims": {"a": {"picture": "portrait"}}}, "sweeps": {}}
-    given = SimpleNamespace(check=None, data=None, checked=checked, options=[])
-    assert claims.run(given) == 0
+    arguments = SimpleNamespace(check=None, data=None, checked=checked, options=[])
+    assert claims.run(arguments) == 0
     (line,) = [line for line in capsys.readouterr().out.splitlines() if PUBLISHED in line]
     return line.split()[-1]
 

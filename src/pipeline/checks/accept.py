@@ -66,7 +66,7 @@ def _renew(root: Path, findings: Findings) -> None:
     try:
         committed, sums = manifest.read(root, folder), read_sums(root, folder)
     except ChecksumError as error:
-        changes = [f"a new contract ({error})"]
+        changes = [f"a new manifest ({error})"]
     else:
         if fresh == committed and sums == manifest.sums(fresh):
             print(f"{folder}: nothing changed")

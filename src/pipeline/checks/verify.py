@@ -17,7 +17,7 @@ from .difference import UPSTREAM, Comparison, not_as_made
 from .freshness import MISSING
 from .published_sets import PublishedSet
 
-NEW = "new: ./reproduce accept adds it to the contract"
+NEW = "new: ./reproduce accept adds it to the manifest"
 
 
 @dataclass

@@ -136,8 +136,7 @@ class Claim(Row):
             raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
         inputs: list[Any] = [datasets[name] for name in self.data]
         if self.theorems:
-            proved = {name: proofs.get(name) == PROVED for name in self.theorems}
-            inputs.append(_Proved(proved, number=self.number))
+            inputs.append({name: proofs.get(name) == PROVED for name in self.theorems})
         outcome = self.function(*inputs)
         try:
             value, error = self._sentences(outcome)
@@ -164,17 +163,6 @@ def _part(texts: list[str], number: Any, numbers: dict[str, Any]) -> str:
     if isinstance(number, list):
         return "; ".join(texts[0].format_map(row) for row in number)
     return [*texts, ""][0 if number else 1].format_map(numbers)
-
-
-class _Proved(dict[str, bool]):
-    """Theorem that a claim names -> whether it is proved."""
-
-    def __init__(self, proved: dict[str, bool], number: int) -> None:
-        super().__init__(proved)
-        self.number = number
-
-    def __missing__(self, name: str) -> bool:
-        raise KeyError(f"claim {self.number} does not name the theorem {name}")
 
 
 class Document(Block):
