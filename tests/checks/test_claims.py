@@ -3,6 +3,7 @@
 import json
 import os
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -69,11 +70,12 @@ def squeezed(text):
 
 
 @pytest.mark.skipif(PAPER_TEXT not in os.environ, reason=f"{PAPER_TEXT} names no text")
-@pytest.mark.parametrize("number", ALL)
-def test_quotes_are_the_papers_words(number):
-    claim = claims.CLAIMS[number]
+def test_quotes_are_the_papers_words():
     text = squeezed(Path(os.environ[PAPER_TEXT]).read_text(encoding="utf-8"))
-    assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote)
+    for claim in claims.CLAIMS.values():
+        assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote), (
+            claim.number
+        )
 
 
 # -- a wrong dataset changes the verdict ----------------------------------------------------------
@@ -120,48 +122,24 @@ def first_to(value):
     return make
 
 
-def negated(values):
-    return -values
-
-
-def no_valley(values):
-    return np.full_like(values, values.max())
-
-
-def shifted_orbit(values):
-    values[:, 0] += 0.05
-    return values
-
-
 def weak_orbit(values):
     values[:, int(np.argmax(values[:, :, 0].mean(axis=0)))] *= 0.01
     return values
 
 
-def half(values):
-    return np.full_like(values, 0.5)
-
-
-def same_rows(values):
-    return np.broadcast_to(values[:1], values.shape).copy()
-
-
-def small_straight(values):
+def short_line(values):
     return np.linspace(0.0, 1e-3, values.size)
 
 
-def hundredth(values):
-    return 0.01 * values
-
-
-CONSTANT = dict.fromkeys(("regular", "regular_low", "regular_high"), half)
+HUNDREDTH = partial(np.multiply, 0.01)
+CONSTANT = dict.fromkeys(("regular", "regular_low", "regular_high"), lambda v: 0.0 * v + 0.5)
 ONE_WAY = {"rotation": lambda v: np.linspace(0.18, 0.17, v.size).reshape(v.shape)}
 WRONG = {
     1: broken("uncoupled"),
-    2: changed("clusters/clusters", strain_energy=hundredth, kinetic_energy=lambda v: 9.0 * v),
+    2: changed("clusters/clusters", strain_energy=HUNDREDTH, kinetic_energy=lambda v: 9.0 * v),
     3: broken("shell"),
     4: attributes("fig2/orbits", k=0.3),
-    5: changed("clusters/clusters", least_strain=hundredth, largest_strain=hundredth),
+    5: changed("clusters/clusters", least_strain=HUNDREDTH, largest_strain=HUNDREDTH),
     6: broken("contact_speed"),
     7: broken("impulsive_forces"),
     8: broken("jump_conditions"),
@@ -172,7 +150,7 @@ WRONG = {
     13: broken("impact_map"),
     14: changed("jumps/jumps", length=np.zeros_like),
     15: changed("clusters/clusters", energy_error=first_to(1e-6)),
-    16: changed("fig8/orbits", xdot=negated, udot=negated),
+    16: changed("fig8/orbits", xdot=np.negative, udot=np.negative),
     17: broken("bound"),
     18: changed("clusters/clusters", least_strain=first_to(-1.01)),
     19: attributes("as_published/fig7/lyapunov", impacts_missed=0),
@@ -187,11 +165,11 @@ WRONG = {
     28: changed("last_curve/last_curve", residue=np.ones_like),
     29: attributes("fig6/manifolds", point_x=0.2121),
     31: changed("flux/flux", target=lambda v: np.array([0, 1])),
-    32: changed("clusters/clusters", flights=no_valley),
+    32: changed("clusters/clusters", flights=lambda v: np.full_like(v, v.max())),
     33: changed("clusters/clusters", dependence_low=np.zeros_like),
     34: changed("spread/spread", entered_least=lambda v: v // 2),
     35: changed("spread/spread", regular_exponent=lambda v: v + 0.2),
-    36: changed("spread/spread", exponent=shifted_orbit),
+    36: changed("spread/spread", exponent=lambda v: v + 0.05 * np.eye(v.shape[1], 1)),
     37: broken("exponents"),
     38: broken("jacobian"),
     39: shortened("fig7/lyapunov", orbit=slice(0, 2)),
@@ -211,12 +189,12 @@ WRONG = {
     55: changed("flux/flux", sea_inside=first_to(0.1)),
     56: changed("rotation/rotation", rotation=lambda v: v + 1e-3 * np.sin(np.arange(v.shape[1]))),
     59: broken("modes"),
-    60: changed("fig5/manifolds", **dict.fromkeys(("x", "xdot", "udot"), small_straight)),
+    60: changed("fig5/manifolds", **dict.fromkeys(("x", "xdot", "udot"), short_line)),
     61: changed("spread/spread", exponent=lambda v: v + 0.1),
     62: changed("spread/spread", entered_least=lambda v: v // 2),
     63: changed("jumps/jumps", length=np.zeros_like),
     64: broken("flow"),
-    65: changed("atlas/plane", **dict.fromkeys(CONSTANT, same_rows)),
+    65: changed("atlas/plane", **dict.fromkeys(CONSTANT, lambda v: 0.0 * v + v[:1])),
     66: changed("spread/spread", exponent=weak_orbit),
     67: broken("euler_tensor"),
     68: broken("jump_conditions"),
@@ -312,7 +290,6 @@ MISTAKES = {
         "place = 2.1\n": "claims.1.place: 2.1 is not allowed: expected a text",
         "": "claims.1.place: missing: expected a text",
     },
-    'kind = "P"\n': {'kind = "X"\n': "claims.1.kind: 'X' is not allowed: expected letters of ENF"},
     "[claims.2]": {
         "[claims.two]": "claims: 'two' is not allowed: expected a number",
         "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",

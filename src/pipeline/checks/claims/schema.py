@@ -16,7 +16,7 @@ from ...config import ConfigError
 from ...config.schema.fields import Block
 from ...config.schema.stages import STAGES
 from ...config.validation.mistakes import mistakes
-from ...config.validation.words import meant, refusal
+from ...config.validation.words import meant
 
 _Words = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
 VERDICT_WORDS = get_args(_Words)
@@ -86,7 +86,6 @@ class Row(Block):
     """a mapping with the keys of a claim"""
 
     place: Text
-    kind: Text
     quote: Text = ""
     paraphrase: Text = ""
     data: Texts = Field(default=[])
@@ -166,11 +165,10 @@ def _part(texts: list[str], number: Any, numbers: dict[str, Any]) -> str:
 
 
 class Document(Block):
-    """a mapping with the keys head, verdicts, kinds and claims"""
+    """a mapping with the keys head, verdicts and claims"""
 
     head: Text
     verdicts: Annotated[dict[VerdictWord, Text], Field(description="a mapping from verdicts")]
-    kinds: Annotated[dict[str, Text], Field(description="a mapping from letters")]
     claims: Annotated[
         dict[Annotated[str, Field(pattern=r"^[1-9]\d*$", description="a number")], Row],
         Field(description="a mapping from numbers to claims"),
@@ -193,7 +191,7 @@ def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> tuple[Docum
             f"verdicts: missing: {word}" for word in VERDICT_WORDS if word not in document.verdicts
         ]
         for number, row in document.claims.items():
-            lines += _mistakes_of(row, f"claims.{number}", "".join(document.kinds), checks)
+            lines += _mistakes_of(row, f"claims.{number}", checks)
         unused = checks.keys() - {row.check for row in document.claims.values()}
         lines += [f"no claim has the check {name}" for name in sorted(unused)]
     if lines:
@@ -209,12 +207,8 @@ def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> tuple[Docum
     return document, sorted(claims, key=lambda claim: claim.number)
 
 
-def _mistakes_of(
-    row: Row, key: str, kinds: str, checks: Mapping[str, Callable[..., Outcome]]
-) -> Iterator[str]:
+def _mistakes_of(row: Row, key: str, checks: Mapping[str, Callable[..., Outcome]]) -> Iterator[str]:
     """Yield a line for each mistake in a claim whose fields have the right types."""
-    if set(row.kind) - set(kinds):
-        yield refusal((key, "kind"), row.kind, f"letters of {kinds}")
     if bool(row.quote) == bool(row.paraphrase):
         yield f"{key}: expected either quote or paraphrase"
     if sum(map(bool, (row.check, row.formulas, row.verdict))) != 1:
