@@ -1,23 +1,81 @@
-"""Heteroclinic orbits and the areas between them, by differences of action, to many digits.
+"""Heteroclinic orbits and the areas of lobes, by differences of action, to many digits.
 
-The one-form y dx, y = xdot - k udot, changes over an impact and a flight at constant energy by the
-differential of the action S, the integral of xdot^2 + k udot^2 over the flight. So the area between
-an unstable and a stable arc with common ends w1, w2 is the sum, over the whole orbits of w1 and w2,
-of the differences of S (MacKay, Meiss and Percival, Physica D 13, 1984). It comes out of numbers
-that nearly cancel: by balls of python-flint, whose radii enclose every rounding.
+Along an impact and a flight at constant energy, the one-form y dx, y = xdot - k udot, changes by
+the differential of the action S, the integral of xdot^2 + k udot^2 over the flight. So the area
+between an unstable and a stable arc with common ends is the sum, over the whole orbits of the two
+ends, of the differences of S (MacKay, Meiss and Percival, Physica D 13, 1984). The terms nearly
+cancel; they are therefore computed in ball arithmetic, whose radii enclose every rounding.
 """
 
 import numpy as np
 from flint import arb, ctx
 
+from ..dynamics.ball import Ball
 from ..dynamics.variables import chart
+from ..proofs.enclosure.flight import fly, rebound
+from ..proofs.enclosure.jets import Jet, algebra
+from ..proofs.enclosure.surface import Surface
 
-_NEWTON = 30  # steps at most; each doubles the digits
-_SCANNED = 64  # parameters of an unstable segment at which a crossing is looked for
-_FIRST = 1e-6  # where that segment ends, in the plane (x, y)
-_MOST_IMAGES = 60  # by then a branch of a multiplier above 1.26 has grown from there to order one
-_CROSSED = 160  # bits of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
-_GOOD = 0.75  # of the working precision, which a solution by Newton's method must have
+_NEWTON_STEPS = 30  # at most; each doubles the digits
+_SCAN_POINTS = 64  # parameters of an unstable segment at which a crossing is looked for
+_SCAN_END = 1e-6  # where that segment ends, as a distance from the saddle in the plane (x, y)
+_MOST_IMAGES = 60  # a branch of a multiplier above 1.26 has then grown from there to order one
+_CROSSING_BITS = 160  # of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
+_SADDLE_ACCURACY = 0.75  # share of the working precision that Newton's method must reach
+_TANGENT = algebra(1, 1)  # jets of a value and its derivative along a tangent
+
+Vector = tuple[arb, ...]
+
+
+class Law:
+    """The impact map on states (x, xdot, udot), their tangents and actions, in ball arithmetic.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        This, k and g are taken as the decimals that they print as.
+    """
+
+    def __init__(self, ball: Ball, energy: float):
+        self.ball = ball
+        self.surface = Surface(*(repr(float(a)) for a in (ball.k, ball.g, energy)))
+        self.k, self.g, self.energy = self.surface.constants()
+
+    def chart(self, state: Vector) -> Vector:
+        """Project a state, or a tangent, to the chart x, y = xdot - k udot."""
+        return state[0], state[1] - self.k * state[2]
+
+    def lift(self, x: arb, y: arb, dx: arb, dy: arb) -> tuple[Vector, Vector]:
+        """Return the state over a point of the chart, and the tangent over a direction there."""
+        x, y = Jet(_TANGENT, [x, dx]), Jet(_TANGENT, [y, dy])
+        return _value_and_tangent(x, *self.surface.velocities(x, y))
+
+    def flight(self, state: Vector, tangent: Vector) -> tuple[Vector, Vector, arb]:
+        """Follow one impact and the flight after it, eqs. (28) and (33).
+
+        Returns the state and the tangent at the next impact, and the action of the flight. Raises
+        UndecidedError, an ArithmeticError, where the working precision does not enclose the flight.
+        """
+        k, g = self.k, self.g
+        x, v, w = (Jet(_TANGENT, list(pair)) for pair in zip(state, tangent, strict=True))
+        b, c, s = rebound(k, v, w)
+        *after, tau = fly(x, b, c, s, g)
+        x, b, c, tau = (jet.constant for jet in (x, b, c, tau))
+        sine, cosine = tau.sin_cos()
+        mixed = sine * cosine
+        action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
+            (x * x * (tau - mixed) + c * c * (tau + mixed)) / 2 + x * c * sine * sine
+        )
+        return *_value_and_tangent(*after), action
+
+
+def _value_and_tangent(*jets: Jet) -> tuple[Vector, Vector]:
+    return tuple(jet.constant for jet in jets), tuple(jet.coefficients[1] for jet in jets)
+
+
+def _middle(values: Vector) -> Vector:
+    return tuple(a.mid() for a in values)
 
 
 class Saddle:
@@ -34,32 +92,31 @@ class Saddle:
     Attributes
     ----------
     x, y, multiplier, ex, ey : arb
-        The point, the orbit's multiplier and the direction, of length 1, rounded to the working
-        precision.
+        The point, the orbit's multiplier and the unit vector, rounded to the working precision.
 
     Raises
     ------
     ValueError
-        An orbit that is elliptic or inverse hyperbolic.
+        The orbit is elliptic or inverse hyperbolic.
     ArithmeticError
-        Where Newton's method does not find the point.
+        Newton's method does not find the point.
     """
 
-    def __init__(self, law, state, period):
+    def __init__(self, law: Law, state: tuple[float, float, float], period: int):
         self.law, self.period = law, period
         x, y = arb(state[0]), arb(state[1]) - law.k * arb(state[2])
-        for _ in range(_NEWTON):
-            end, (a, b), (c, d) = self._return(x, y)
+        for _ in range(_NEWTON_STEPS):
+            end, (a, b), (c, d) = self._return_map(x, y)
             fx, fy = end[0] - x, end[1] - y
             determinant = (a - 1) * (d - 1) - b * c
             dx = ((b * fy - (d - 1) * fx) / determinant).mid()
             dy = ((c * fx - (a - 1) * fy) / determinant).mid()
             x, y = (x + dx).mid(), (y + dy).mid()
-            if abs(dx) + abs(dy) < arb(2) ** int(-_GOOD * ctx.prec):
+            if abs(dx) + abs(dy) < arb(2) ** int(-_SADDLE_ACCURACY * ctx.prec):
                 break
         else:
             raise ArithmeticError("Newton's method does not find the saddle")
-        _, (a, b), (c, d) = self._return(x, y)
+        _, (a, b), (c, d) = self._return_map(x, y)
         trace = a + d
         if not trace > 2:
             raise ValueError("the orbit is not hyperbolic with positive multipliers")
@@ -69,129 +126,15 @@ class Saddle:
         self.x, self.y, self.multiplier = x, y, multiplier.mid()
         self.ex, self.ey = (ex / length).mid(), (ey / length).mid()
 
-    def _return(self, x, y):
-        """The midpoint of P^period (x, y), and the rows of its derivative."""
+    def _return_map(self, x, y):
+        """Return P^period (x, y), rounded after each impact, and the rows of its derivative."""
         columns = []
         for direction in ((arb(1), arb(0)), (arb(0), arb(1))):
             state, tangent = self.law.lift(x, y, *direction)
             for _ in range(self.period):
                 state, tangent, _ = self.law.flight(_middle(state), _middle(tangent))
             columns.append(self.law.chart(tangent))
-        rows = zip(*columns, strict=True)
-        return self.law.chart(state), *rows
-
-
-class Law:
-    """The map in balls: states (x, v, w) before an impact, their tangents and actions.
-
-    Parameters
-    ----------
-    ball : Ball
-        Its k and g are taken as the decimals they print as; it proposes the flight times.
-    energy : float
-        Taken as the decimal it prints as (m omega^2 R^2).
-    """
-
-    def __init__(self, ball, energy):
-        self.ball = ball
-        self.k, self.g, self.energy = (arb(repr(float(a))) for a in (ball.k, ball.g, energy))
-
-    def chart(self, state):
-        """The point of the chart under a state, or under a tangent.
-
-        Parameters
-        ----------
-        state : (arb, arb, arb)
-            x, xdot, udot.
-
-        Returns
-        -------
-        x, y : arb
-            y = xdot - k udot.
-        """
-        return state[0], state[1] - self.k * state[2]
-
-    def lift(self, x, y, dx, dy):
-        """The state over a point of the chart, and the tangent over one of its directions.
-
-        Parameters
-        ----------
-        x, y, dx, dy : arb
-
-        Returns
-        -------
-        state, tangent : (arb, arb, arb)
-            x, xdot, udot.
-        """
-        k, g = self.k, self.g
-        s = (((1 + k) * (2 * self.energy + 2 * g * x - k * x * x) - y * y) / k).sqrt()
-        ds = ((1 + k) * (g - k * x) * dx - y * dy) / (k * s)
-        state = x, (y + k * s) / (1 + k), (s - y) / (1 + k)
-        return state, (dx, (dy + k * ds) / (1 + k), (ds - dy) / (1 + k))
-
-    def flight(self, state, tangent):
-        """One impact and the flight after it.
-
-        Parameters
-        ----------
-        state, tangent : (arb, arb, arb)
-
-        Returns
-        -------
-        state, tangent : (arb, arb, arb)
-            At the next impact, eqs. (28) and (33).
-        action : arb
-            The integral of xdot^2 + k udot^2 over the flight (omega R^2).
-
-        Raises
-        ------
-        ArithmeticError
-            Where the working precision does not enclose the time of flight.
-        """
-        k, g = self.k, self.g
-        (x, v, w), (dx, dv, dw) = state, tangent
-        jump, step = 2 * (v + w) / (1 + k), 2 * (dv + dw) / (1 + k)
-        b, c = v - k * jump, w - jump
-        db, dc = dv - k * step, dw - step
-        tau = self._time(state, b, c)
-        sine, cosine = tau.sin_cos()
-        x1, v1, w1 = x * cosine - c * sine, b + g * tau, x * sine + c * cosine
-        dtau = -((1 - cosine) * dx + tau * db + sine * dc) / (v1 + w1)
-        after = cosine * dx - sine * dc - w1 * dtau, db + g * dtau, sine * dx + cosine * dc
-        both = sine * cosine
-        action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
-            (x * x * (tau - both) + c * c * (tau + both)) / 2 + x * c * sine * sine
-        )
-        return (x1, v1, w1), (after[0], after[1], after[2] + x1 * dtau), action
-
-    def _time(self, state, b, c):
-        """The ball of the root of the gap next to the certified root of the midpoints."""
-        x, g = state[0], self.g
-        tau = arb(self.ball.time_to_impact(*map(float, state)))
-        middle = x.mid(), b.mid(), c.mid()
-        for _ in range(_NEWTON):
-            f, df = _gap(tau, *middle, g)
-            step = (f / df).mid()
-            tau = (tau - step).mid()
-            if abs(step) < abs(tau) * arb(2) ** int(-_GOOD * ctx.prec):
-                break
-        f, df = _gap(tau, x, b, c, g)
-        room = 4 * abs(f / df).upper() + arb(2) ** -ctx.prec
-        _, df = _gap(tau + arb(0, 1) * room, x, b, c, g)
-        found = tau - f / df
-        if not (df > 0 and (tau + arb(0, 1) * room).contains(found)):
-            raise ArithmeticError("the flight time is not enclosed: more bits are needed")
-        return found
-
-
-def _gap(t, x, b, c, g):
-    sine, cosine = t.sin_cos()
-    value = x * (1 - cosine) + t * (b + g * t / 2) + c * sine
-    return value, b + g * t + x * sine + c * cosine
-
-
-def _middle(values):
-    return tuple(a.mid() for a in values)
+        return self.law.chart(state), *zip(*columns, strict=True)
 
 
 class Heteroclinic:
@@ -201,11 +144,11 @@ class Heteroclinic:
     ----------
     saddle : Saddle
     sign : int
-        The side of the branch, along the saddle's direction or against it.
+        The side of the branch: along the saddle's direction or against it.
     parameter : arb
-        Distance of the orbit's start from the saddle, refined to meet y = 0.
+        Distance of the orbit's start from the saddle; it is refined so that the orbit meets y = 0.
     impacts : int
-        From there to y = 0.
+        From the start to y = 0.
 
     Attributes
     ----------
@@ -219,14 +162,14 @@ class Heteroclinic:
     Raises
     ------
     ValueError
-        Where Newton's method does not find the crossing.
+        Newton's method does not find the crossing.
     ArithmeticError
-        Where the working precision does not enclose a time of flight or the crossing.
+        The working precision does not enclose a flight or the crossing.
     """
 
-    def __init__(self, saddle, sign, parameter, impacts):
-        small = arb(2) ** -_CROSSED
-        for _ in range(_NEWTON):
+    def __init__(self, saddle: Saddle, sign: int, parameter: arb, impacts: int):
+        small = arb(2) ** -_CROSSING_BITS
+        for _ in range(_NEWTON_STEPS):
             self._follow(saddle, sign, parameter, impacts)
             step = (self.points[-1][1] / self.tangent[1]).mid()
             parameter = (parameter - step).mid()
@@ -237,9 +180,10 @@ class Heteroclinic:
                 raise ArithmeticError("the crossing is not enclosed: more bits are needed")
             raise ValueError("Newton's method does not find the crossing with y = 0")
         self._follow(saddle, sign, parameter, impacts)
-        self.parameter, self.impacts = parameter, impacts
+        self.impacts = impacts
 
     def _follow(self, saddle, sign, parameter, impacts):
+        """Set the points, actions and tangent of the orbit that starts at a parameter."""
         law = saddle.law
         ex, ey = sign * saddle.ex, sign * saddle.ey
         state, tangent = law.lift(saddle.x + parameter * ex, saddle.y + parameter * ey, ex, ey)
@@ -250,37 +194,21 @@ class Heteroclinic:
             self.actions.append(action)
         self.tangent = law.chart(tangent)
 
-    def sine(self):
-        """Sine of the angle from the unstable arc to the stable one, its mirror image.
-
-        Returns
-        -------
-        arb
-        """
+    def sine(self) -> arb:
+        """Return the sine of the angle from the unstable arc to its mirror image, the stable."""
         x, y = self.tangent
         return -2 * x * y / (x * x + y * y)
 
-    def action(self, flight):
-        """Action of one flight of the orbit.
-
-        Parameters
-        ----------
-        flight : int
-            From 0 to 2 impacts - 1; those after y = 0 by reversal of time.
-
-        Returns
-        -------
-        arb
-            In omega R^2.
-        """
+    def action(self, flight: int) -> arb:
+        """Return the action of a flight, 0 to 2 impacts - 1; those after y = 0 by time reversal."""
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
-def lobe(saddle, sign, nearer):
-    """The lobe between two neighbouring crossings of an unstable and a stable branch.
+def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclinic, Heteroclinic]]:
+    """Compute the lobe between neighbouring crossings of an unstable and a stable branch.
 
     The branch must lead to the mirror image of its saddle, so that it meets y = 0 on the way, and
-    so must its image half a period later: these are the two primary orbits.
+    so must its image half a period later. These are the two primary orbits.
 
     Parameters
     ----------
@@ -289,21 +217,21 @@ def lobe(saddle, sign, nearer):
     sign : int
         The side of the branch.
     nearer : int
-        By so many images the orbits start nearer to the saddle than _FIRST.
+        The orbits start this number of images nearer to the saddle than _SCAN_END.
 
     Returns
     -------
     area : arb
-        A ball around what the orbits give; their starts on the branch's tangent instead of the
-        branch change it by the cube of their distance from the saddle.
+        The starts lie on the branch's tangent instead of the branch. This changes the area by the
+        cube of their distance from the saddle, which the ball does not contain.
     orbits : (Heteroclinic, Heteroclinic)
 
     Raises
     ------
     ValueError
-        A branch that does not meet y = 0, as far as can be seen.
+        The branch is not seen to meet y = 0.
     ArithmeticError
-        Where the working precision does not enclose a time of flight or the crossing.
+        The working precision does not enclose a flight or a crossing.
 
     References
     ----------
@@ -313,76 +241,71 @@ def lobe(saddle, sign, nearer):
     if None in crossings:
         raise ValueError("the branch does not meet y = 0")
     try:
-        return _between(saddle, sign, nearer, crossings)
-    except ValueError:  # where the branch bends much, Newton's method starts nearer
-        return _between(saddle, sign, nearer, [_refined(saddle, sign, *one) for one in crossings])
+        return _lobe_between(saddle, sign, nearer, crossings)
+    except ValueError:  # the branch bends strongly: Newton's method needs a better start
+        refined = [_refined(saddle, sign, *crossing) for crossing in crossings]
+        return _lobe_between(saddle, sign, nearer, refined)
 
 
-def _between(saddle, sign, nearer, crossings):
-    """`lobe` between two crossings, each a parameter and a number of impacts."""
+def _lobe_between(saddle, sign, nearer, crossings):
+    """Compute the lobe between two crossings, each a parameter and a number of impacts."""
     ratio, period = float(saddle.multiplier), saddle.period
-    (near, impacts), (far, after) = crossings
+    (near, impacts), (far, far_impacts) = crossings
     while far >= near:  # the crossing before that of the first orbit
-        far, after = far / ratio, after + period
+        far, far_impacts = far / ratio, far_impacts + period
     while far * ratio < near:
-        far, after = far * ratio, after - period
+        far, far_impacts = far * ratio, far_impacts - period
     shrink = saddle.multiplier**nearer
     first, second = (
         Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
-        for parameter, count in ((near, impacts), (far, after))
+        for parameter, count in ((near, impacts), (far, far_impacts))
     )
     # y dx around the lobe: along the unstable arc one way, along the stable one back
     flights = 2 * min(first.impacts, second.impacts)
-    area = _under(first.points[0], second.points[0])
+    area = _area_under_line(first.points[0], second.points[0])
     for flight in range(flights):
         area += second.action(flight) - first.action(flight)
     # both orbits are near the other saddle now, at the mirror images of points at the start
     last = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
-    return abs(area + _under(*last)), (first, second)
+    return abs(area + _area_under_line(*last)), (first, second)
 
 
-def _under(one, other):
-    """The integral of y dx along a straight line."""
-    return (one[1] + other[1]) / 2 * (other[0] - one[0])
+def _area_under_line(begin: Vector, end: Vector) -> arb:
+    """Integral of y dx along a straight line."""
+    return (begin[1] + end[1]) / 2 * (end[0] - begin[0])
 
 
-def first_crossing(saddle, sign, impacts):
-    """Where a branch first meets y = 0 after `impacts` + m periods, in doubles.
+def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int] | None:
+    """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
 
-    Parameters
-    ----------
-    saddle : Saddle
-    sign : int
-        The side of the branch.
-    impacts : int
-        Done before the first look.
-
-    Returns
-    -------
-    (float, int) or None
-        The parameter, in the last segment before _FIRST from the saddle, and the impacts from
-        there; None where there is no crossing within _MOST_IMAGES.
+    Returns the parameter of the crossing's start, in the last segment before _SCAN_END from the
+    saddle, and the number of impacts from there; None without a crossing in _MOST_IMAGES images.
     """
-    ball, parameter = saddle.law.ball, _scanned(saddle)
+    ball, parameter = saddle.law.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameter, impacts)
     for _ in range(_MOST_IMAGES):
-        _, height = chart(ball.k, *states)
-        (crossing,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
-        if crossing.size:
-            return float(parameter[crossing[0]]), impacts
+        crossings = _crossings(ball, states)
+        if crossings.size:
+            return float(parameter[crossings[0]]), impacts
         ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(parameter.size))
         impacts += saddle.period
     return None
 
 
-def _scanned(saddle):
-    """The parameters at which the last segment before _FIRST is looked at."""
+def _crossings(ball: Ball, states: list[np.ndarray]) -> np.ndarray:
+    """Indices of the states after which y changes its sign."""
+    _, y = chart(ball.k, *states)
+    return np.flatnonzero(y[1:] * y[:-1] <= 0.0)
+
+
+def _scan_parameters(saddle: Saddle) -> np.ndarray:
+    """Parameters of the last fundamental segment before _SCAN_END."""
     ratio = 1.0 / float(saddle.multiplier)
-    return _FIRST * (ratio + (1.0 - ratio) * np.arange(_SCANNED + 1) / _SCANNED)
+    return _SCAN_END * (ratio + (1.0 - ratio) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS)
 
 
-def _images(saddle, sign, parameter, impacts):
-    """The states, in doubles, after some impacts from the points of the branch's tangent."""
+def _images(saddle: Saddle, sign: int, parameter: np.ndarray, impacts: int) -> list[np.ndarray]:
+    """States, in doubles, some impacts after the points of the branch's tangent."""
     ball = saddle.law.ball
     x = float(saddle.x) + sign * parameter * float(saddle.ex)
     y = float(saddle.y) + sign * parameter * float(saddle.ey)
@@ -391,15 +314,14 @@ def _images(saddle, sign, parameter, impacts):
     return states
 
 
-def _refined(saddle, sign, parameter, impacts):
-    """A crossing seen by `first_crossing`, to a millionth of the distance scanned."""
-    scanned = _scanned(saddle)
+def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> tuple[float, int]:
+    """Refine a crossing of `first_crossing` to a millionth of the distance scanned."""
+    scanned = _scan_parameters(saddle)
     low, high = parameter, parameter + (scanned[1] - scanned[0])
     for _ in range(3):
-        parameter = low + (high - low) * np.arange(_SCANNED + 1) / _SCANNED
-        _, height = chart(saddle.law.ball.k, *_images(saddle, sign, parameter, impacts))
-        (at,) = np.nonzero(height[1:] * height[:-1] <= 0.0)
-        if not at.size:  # where a jump, or rounding, decides
+        parameters = low + (high - low) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS
+        crossings = _crossings(saddle.law.ball, _images(saddle, sign, parameters, impacts))
+        if not crossings.size:  # a jump of the map, or rounding, decides
             break
-        low, high = parameter[at[0]], parameter[at[0] + 1]
+        low, high = parameters[crossings[0]], parameters[crossings[0] + 1]
     return float(low), impacts

@@ -1,114 +1,81 @@
-"""The judge: flight times, orbits and impacts of doubles, proved in ball arithmetic.
+"""Proved flight times, orbits and errors of impacts, of states given as doubles.
 
-A state of three doubles need not lie on any one energy surface: here it is taken as it is. Where
-the precision does not decide which impact is first, it is raised.
+A state of three doubles need not lie on a given energy surface; it is taken exactly as it is. Where
+the precision does not decide which impact is the first, it is raised.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 from flint import arb, ctx
 
-from .enclosure.flight import Gap, UndecidedError, isolate, refine
-from .enclosure.surface import ball_of, exact
+from .enclosure import flight
+from .enclosure.flight import UndecidedError
+from .enclosure.surface import Exact, ball_of, exact
 
-# At first, and where a touch of the floor is given up: it would be closer than 1e-2000.
-START_BITS, MOST_BITS = 256, 8192
-ACCURACY = 150  # bits of a flight time that are proved: nearly three times a double's
-ORBIT_BITS = 512  # a third of a bit is lost an impact in the sea: good for 1,000 impacts
-IMPACT_BITS = 96  # at first: a double's 53, and room for what cancels
+START_BITS, MOST_BITS = 256, 8192  # the last bits decide all touches but those closer than 1e-2000
+ACCURACY_BITS = 150  # of a proved flight time: nearly three times a double's
+ORBIT_BITS = 512  # an impact in the chaotic sea loses a third of a bit: enough for 1,000 impacts
+IMPACT_BITS = 96  # at first: a double's 53, and room for cancellation
+
+Number = float | arb
 
 
-def first_root(k, g, x, v, w):
-    """The time of the next impact, proved: the smallest t > 0 with f(t) = 0, eq. (21) with (26).
+def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
+    """Prove the time of the next impact: the smallest t > 0 with f(t) = 0, eq. (21) with (26).
 
     Parameters
     ----------
-    k, g : float or arb
-        The ball.
-    x, v, w : float or arb
-        A state just before an impact: x (R), xdot (R omega), udot (omega), v + w >= 0.
+    k, g, x, v, w
+        The ball, and a state just before an impact with v + w >= 0.
 
     Returns
     -------
     arb
-        With a relative radius of at most 2**-150 (1/omega); 0 where the ball is pressed onto the
-        floor.
+        With a relative radius of at most 2**-150; 0 where the ball is pressed onto the floor.
 
     Raises
     ------
     ArithmeticError
-        Where a root is double, as far as MOST_BITS can tell.
+        A root is double, as far as MOST_BITS can tell.
     """
     bits = START_BITS
     while bits <= MOST_BITS:
         with ctx.workprec(bits):
             try:
-                root = _time(_after_impact(*(arb(a) for a in (k, g, x, v, w))))
-                if root == 0 or root.rel_accuracy_bits() >= ACCURACY:
-                    return root
+                tau = _impact(*(arb(a) for a in (k, g, x, v, w)))[3]
+                if tau == 0 or tau.rel_accuracy_bits() >= ACCURACY_BITS:
+                    return tau
             except UndecidedError:
                 pass
         bits *= 2
-    raise ArithmeticError("the judge cannot tell a touch from a miss")
+    raise ArithmeticError("the reference solver cannot tell a touch from a miss")
 
 
-def _after_impact(k, g, x, v, w):
-    """The gap after the impact of a state, eq. (25)."""
-    s = v + w
-    return Gap(x, w - 2 * s / (1 + k), s, g)
+def _impact(k: arb, g: arb, x: arb, v: arb, w: arb) -> tuple[arb, arb, arb, arb]:
+    """Return x', v', w' and tau of the next impact; tau = 0 where the ball is pressed down."""
+    b, c, s = flight.rebound(k, v, w)
+    curvature = g + x
+    if s == 0 and (curvature > 0 or (curvature == 0 and c <= 0)):
+        return x, v, w, arb(0)
+    return flight.fly(x, b, c, s, g)
 
 
-def _time(gap):
-    """The time of the next impact, 0 where the ball is pressed onto the floor."""
-    bend = gap.g + gap.x
-    if gap.s == 0 and (bend > 0 or (bend == 0 and gap.c <= 0)):
-        return arb(0)
-    return refine(gap, *isolate(gap))
+def flight_times(ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> list[float]:
+    """Return the proved flight time of each state, rounded to a double.
 
-
-def flight_times(ball, x, xdot, udot):
-    """The proved flight time of each state.
-
-    Parameters
-    ----------
-    ball : Ball
-        Its k and g are taken as the doubles that they are.
-    x, xdot, udot : ndarray, shape (n,)
-        States just before an impact.
-
-    Returns
-    -------
-    list of float
-        tau (1/omega), rounded to a double.
-
-    Raises
-    ------
-    ArithmeticError
-        Where a touch of the floor cannot be told from a miss.
+    The doubles k and g of the ball are taken as exact. Raises ArithmeticError where a touch of the
+    floor cannot be told from a miss.
     """
     states = zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
     return [float(first_root(ball.k, ball.g, *state)) for state in states]
 
 
-def orbit(ball, state, impacts):
-    """The orbit of a state, computed to 512 bits.
+def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float, float]]:
+    """Compute the orbit of a state to 512 bits.
 
-    Parameters
-    ----------
-    ball : Ball
-        Its k and g are taken as the doubles that they are.
-    state : (float, float, float)
-        x, xdot, udot just before an impact.
-    impacts : int
-
-    Returns
-    -------
-    list of (float, float, float)
-        x, xdot, udot of each impact, the start excluded, rounded at the end.
-
-    Raises
-    ------
-    UndecidedError
-        Where a flight grazes to within the precision.
+    The doubles k and g of the ball are taken as exact. Returns x, xdot, udot of each impact without
+    the start, rounded to doubles. Raises UndecidedError where a flight may graze.
     """
     rows = []
     with ctx.workprec(ORBIT_BITS):
@@ -120,53 +87,44 @@ def orbit(ball, state, impacts):
     return rows
 
 
-def impact_errors(k, g, before, after, tau):
-    """Prove impacts that were computed in doubles: each the first one, with a bound on its error.
+def impact_errors(
+    k: Exact, g: Exact, before: np.ndarray, after: np.ndarray, tau: np.ndarray
+) -> np.ndarray:
+    """Bound the errors of impacts that were computed in doubles.
 
     Parameters
     ----------
-    k, g : int, Fraction, Decimal or str
+    k, g
         The ball, exact.
     before, after : ndarray, shape (3, n)
         x, xdot, udot just before an impact and just before the next one, as computed.
     tau : ndarray, shape (n,)
-        The flights' times (1/omega), as computed.
+        Durations of the flights, as computed.
 
     Returns
     -------
     ndarray, shape (n,)
-        Upper bounds of the largest error of x', xdot', udot' and tau, `before` taken as exact;
+        Upper bounds of the largest error of x', xdot', udot' and tau, with `before` taken as exact;
         infinite where the next impact is not proved.
 
     Raises
     ------
     ValueError
-        A k or g that is no exact number.
+        k or g is not an exact number.
     """
     exact_k, exact_g = exact("k", k), exact("g", g)
     bounds = np.full(tau.size, np.inf)
     columns = (*before.tolist(), *after.tolist(), tau.tolist())
-    for i, (x, v, w, *found) in enumerate(zip(*columns, strict=True)):
+    for i, (x, v, w, *computed) in enumerate(zip(*columns, strict=True)):
         bits = IMPACT_BITS
         while bits <= MOST_BITS:
             with ctx.workprec(bits):
                 try:
-                    truth = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))
+                    proved = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))
                 except UndecidedError:
                     bits *= 2
                     continue
-                worst = max(abs(a - b).upper() for a, b in zip(truth, found, strict=True))
-                bounds[i] = np.nextafter(float(worst), np.inf)
+                error = max(abs(a - b).upper() for a, b in zip(proved, computed, strict=True))
+                bounds[i] = np.nextafter(float(error), np.inf)
                 break
     return bounds
-
-
-def _impact(k, g, x, v, w):
-    """(x', v', w', tau) of the next impact."""
-    gap = _after_impact(k, g, x, v, w)
-    tau = _time(gap)
-    if tau == 0:
-        return x, v, w, tau
-    sine, cosine = tau.sin_cos()
-    b = v - 2 * k * gap.s / (1 + k)
-    return x * cosine - gap.c * sine, b + g * tau, x * sine + gap.c * cosine, tau

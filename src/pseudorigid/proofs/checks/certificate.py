@@ -1,15 +1,16 @@
-"""Certificates: TOML files whose numbers are taken as the exact decimals that stand there."""
+"""Certificates: TOML files whose numbers are taken as the exact decimals written there."""
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
 
 from flint import arb
 
-from ..enclosure.surface import Surface, ball_of, exact
+from ..enclosure.surface import Exact, Surface, ball_of, exact
 
-DIGITS = 100  # of the numerator and the denominator of a certificate's number, at most
+MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
 
 
 class NotProvedError(Exception):
@@ -18,7 +19,7 @@ class NotProvedError(Exception):
 
 @dataclass
 class Finding:
-    """What a checker has proved.
+    """The result of a checker.
 
     Attributes
     ----------
@@ -27,7 +28,7 @@ class Finding:
     margins : dict of str to float
         By how much inequalities hold: positive and finite.
     parts : dict
-        What later steps use.
+        Proved objects that later steps use.
     """
 
     digits: dict = field(default_factory=dict)
@@ -41,22 +42,20 @@ class Finding:
 
 
 class Certificate:
-    """The fields of a certificate, asked for by name and shape.
+    """The fields of a certificate, read by name and shape.
+
+    Every method raises NotProvedError for text that is not TOML, and for a field that is missing,
+    misshapen or not as expected.
 
     Parameters
     ----------
     text : str
         TOML.
     kind : str
-        What its field `kind` must be.
-
-    Raises
-    ------
-    NotProvedError
-        For text that is no certificate, of another kind or with a field missing or misshapen.
+        The required value of the field `kind`.
     """
 
-    def __init__(self, text, kind):
+    def __init__(self, text: str, kind: str):
         try:
             self._fields = tomllib.loads(text, parse_float=str)
         except (ValueError, ArithmeticError, RecursionError) as error:
@@ -64,88 +63,67 @@ class Certificate:
         if self._fields.get("kind") != kind:
             raise NotProvedError(f"the certificate is not one of kind {kind!r}")
 
-    def surface(self, expected):
-        """The Surface the certificate is for, which must be the expected one."""
-        found = self.any_surface(expected.k, expected.g)
-        if found != expected:
-            raise NotProvedError(f"the certificate is of {found}, the statement of {expected}")
-        return found
+    def check_surface(self, expected: Surface) -> None:
+        """Check that the certificate is for a Surface."""
+        surface = self.surface(expected.k, expected.g)
+        if surface != expected:
+            raise NotProvedError(f"the certificate is of {surface}, the statement of {expected}")
 
-    def any_surface(self, k, g):
-        """The Surface the certificate is for, which must be of the ball with this k and g."""
-        self.ball(k, g)
+    def surface(self, k: Fraction, g: Fraction) -> Surface:
+        """Return the Surface, at any energy, that the certificate is for; its ball is given."""
+        self.check_ball(k, g)
         try:
             return Surface(k, g, self._exact("energy", self._take("energy", str)))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
-    def ball(self, k, g):
+    def check_ball(self, k: Fraction, g: Fraction) -> None:
         """Check that the certificate is for the ball with this k and g."""
         for name, expected in (("k", k), ("g", g)):
-            found = self._exact(name, self._take(name, str))
-            if found != expected:
-                raise NotProvedError(f"the certificate is of {name} = {found}, not {expected}")
+            value = self._exact(name, self._take(name, str))
+            if value != expected:
+                raise NotProvedError(f"the certificate is of {name} = {value}, not {expected}")
 
-    def number(self, name):
-        """One number, as a Fraction."""
+    def number(self, name: str) -> Fraction:
+        """Return one number."""
         return self._exact(name, self._take(name, object))
 
-    def numbers(self, name, width):
-        """A list of rows of `width` numbers, as Fractions."""
+    def numbers(self, name: str, width: int) -> list[list[Fraction]]:
+        """Return a list of rows of `width` numbers each."""
         rows = self._take(name, list)
         if not rows or any(not isinstance(row, list) or len(row) != width for row in rows):
             raise NotProvedError(f"the certificate's {name} is no list of rows of {width} numbers")
         return [[self._exact(name, value) for value in row] for row in rows]
 
-    def row(self, name, width):
-        """One row of `width` numbers, as Fractions."""
+    def row(self, name: str, width: int) -> list[Fraction]:
+        """Return one row of `width` numbers."""
         self._fields |= {name: [self._fields.get(name)]}
         return self.numbers(name, width)[0]
 
     def _take(self, name, kind):
         value = self._fields.get(name)
         if value is None or not isinstance(value, kind):
-            raise NotProvedError(f"the certificate has no {name}, or not of its form")
+            raise NotProvedError(f"the certificate's {name} is missing or of another form")
         return value
 
     @staticmethod
-    def _exact(name, value):
+    def _exact(name: str, value: Exact) -> Fraction:
         try:
             number = exact(name, value)
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
-        if max(abs(number.numerator), number.denominator) >= 10**DIGITS:
-            raise NotProvedError(f"the certificate's {name} has more than {DIGITS} digits")
+        if max(abs(number.numerator), number.denominator) >= 10**MOST_DIGITS:
+            raise NotProvedError(f"the certificate's {name} has more than {MOST_DIGITS} digits")
         return number
 
 
-def box(centre, radius):
-    """A box around a point, of one radius in each coordinate.
-
-    Parameters
-    ----------
-    centre : sequence of Fraction
-    radius : Fraction
-
-    Returns
-    -------
-    list of arb
-        They contain the exact box.
-    """
+def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
+    """Enclose the box of all points within a radius of a centre, per coordinate."""
     half = ball_of(Fraction(radius)).upper()
     return [arb(ball_of(c).mid(), (half + ball_of(c).rad()).upper()) for c in centre]
 
 
-def lowest(value):
-    """A lower bound of a ball, rounded down.
-
-    Parameters
-    ----------
-    value : arb
-
-    Returns
-    -------
-    float
-    """
+def lowest(value: arb) -> float:
+    """Return a lower bound of a ball, rounded down."""
     low = float(value.lower())
     return low if arb(low) <= value.lower() else float(arb(low) - abs(low) * 2.0**-52)

@@ -1,6 +1,6 @@
-"""The impact map in ball arithmetic (Arb, through python-flint): the one part that proofs share.
+"""The impact map in ball arithmetic (Arb, through python-flint), shared by all proofs.
 
-A ball is a midpoint and a radius; every operation returns a ball that contains all results. What
-is asked of a set of states holds for each state in it. Where balls are too wide, or the precision
-of the context too low, to decide, `UndecidedError` is raised: nothing is ever assumed.
+A ball is a midpoint and a radius. Every operation returns a ball that contains all possible
+results, so a statement about a ball holds for each number in it. `UndecidedError` is raised where
+the balls are too wide, or the precision of the context is too low, to decide.
 """

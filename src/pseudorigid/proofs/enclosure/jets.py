@@ -5,65 +5,50 @@ from functools import cache
 from itertools import product
 from math import prod
 
-from flint import acb
+from flint import acb, arb
 
 
 @dataclass(frozen=True)
 class Algebra:
-    """The monomials of total degree up to `order`, by degree, and which pairs make which.
+    """Monomials of total degree up to `order`, sorted by degree, and their multiplication table.
 
-    Attributes
-    ----------
-    variables, order : int
-    monomials : tuple
-        The exponents of each.
-    products : tuple of (int, int, int)
-        (i, j, k): monomial i times monomial j is monomial k.
+    `monomials` has the exponents of each. A triple (i, j, k) in `products` says that monomial i
+    times monomial j is monomial k.
     """
 
     variables: int
     order: int
     monomials: tuple
-    products: tuple  # (i, j, k): monomial i times monomial j is monomial k
+    products: tuple
 
-    def index(self, *powers):
-        """The place of a monomial."""
+    def index(self, *powers: int) -> int:
+        """Index of the monomial with these powers."""
         return self.monomials.index(powers)
 
 
 @cache
-def algebra(variables, order):
-    """The Algebra of series in some variables up to a total degree.
-
-    Parameters
-    ----------
-    variables, order : int
-
-    Returns
-    -------
-    Algebra
-        The same object for the same numbers.
-    """
-    every = [p for p in product(range(order + 1), repeat=variables) if sum(p) <= order]
-    every.sort(key=lambda p: (sum(p), [-power for power in p]))
-    place = {powers: i for i, powers in enumerate(every)}
+def algebra(variables: int, order: int) -> Algebra:
+    """Return the Algebra of series in some variables up to a total degree (cached)."""
+    monomials = [p for p in product(range(order + 1), repeat=variables) if sum(p) <= order]
+    monomials.sort(key=lambda p: (sum(p), [-power for power in p]))
+    index = {powers: i for i, powers in enumerate(monomials)}
     products = tuple(
-        (i, j, place[total])
-        for i, p in enumerate(every)
-        for j, q in enumerate(every)
-        if (total := tuple(a + b for a, b in zip(p, q, strict=True))) in place
+        (i, j, index[total])
+        for i, p in enumerate(monomials)
+        for j, q in enumerate(monomials)
+        if (total := tuple(a + b for a, b in zip(p, q, strict=True))) in index
     )
-    return Algebra(variables, order, tuple(every), products)
+    return Algebra(variables, order, tuple(monomials), products)
 
 
 class Jet:
-    """A truncated Taylor series, with + - * /, sqrt and sin_cos.
+    """Truncated Taylor series with + - * /, sqrt and sin_cos.
 
     Parameters
     ----------
     algebra : Algebra
     coefficients : list of arb or acb
-        In the algebra's order.
+        In the order of the algebra's monomials.
     """
 
     __slots__ = ("algebra", "coefficients")
@@ -72,20 +57,20 @@ class Jet:
         self.algebra, self.coefficients = algebra, coefficients
 
     @classmethod
-    def constant_of(cls, algebra, value):
+    def constant_of(cls, algebra: Algebra, value: arb | acb) -> "Jet":
         """The series of a constant."""
         return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
 
     @classmethod
-    def variable(cls, algebra, number, value):
-        """value + the variable of this number."""
+    def variable(cls, algebra: Algebra, number: int, value: arb | acb) -> "Jet":
+        """The series value + variable."""
         jet = cls.constant_of(algebra, value)
         jet.coefficients[1 + number] = jet.coefficients[1 + number] + 1
         return jet
 
     @property
-    def constant(self):
-        """The constant term."""
+    def constant(self) -> arb | acb:
+        """Constant term."""
         return self.coefficients[0]
 
     def __getitem__(self, powers):
@@ -133,7 +118,7 @@ class Jet:
         value = self.constant
         return self._compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
 
-    def sqrt(self):
+    def sqrt(self) -> "Jet":
         """The square root with positive constant term."""
         value = self.constant
         terms = [value.sqrt()]
@@ -141,8 +126,8 @@ class Jet:
             terms.append(terms[-1] * (1 - 2 * n) / (value * 2 * (n + 1)))
         return self._compose(terms)
 
-    def sin_cos(self):
-        """(sine, cosine)."""
+    def sin_cos(self) -> tuple["Jet", "Jet"]:
+        """Sine and cosine."""
         sine, cosine = self.constant.sin_cos()
         cycle = (sine, cosine, -sine, -cosine)
         terms, factorial = [], 1
@@ -152,23 +137,13 @@ class Jet:
         shifted = [n * a for n, a in enumerate(terms)][1:]  # cos = sin', term by term
         return self._compose(terms[:-1]), self._compose(shifted)
 
-    def at(self, *places):
-        """The series with other jets of its algebra in the place of its variables.
-
-        Parameters
-        ----------
-        *places : Jet
-            One a variable, with complex balls as coefficients.
-
-        Returns
-        -------
-        Jet
-        """
+    def at(self, *substitutes: "Jet") -> "Jet":
+        """Substitute a complex jet of the same algebra for each variable."""
         total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
-        powers = [[one] for _ in places]
-        for row, place in zip(powers, places, strict=True):
+        powers = [[one] for _ in substitutes]
+        for row, jet in zip(powers, substitutes, strict=True):
             for _ in range(self.algebra.order):
-                row.append(row[-1] * place)
+                row.append(row[-1] * jet)
         for monomial, c in zip(self.algebra.monomials, self.coefficients, strict=True):
             first, *rest = (row[i] for row, i in zip(powers, monomial, strict=True))
             total = total + prod(rest, start=first) * c

@@ -8,30 +8,18 @@ from typing import NamedTuple
 
 from flint import arb, ctx, fmpq
 
-from .flight import UndecidedError, first_root
+from .flight import UndecidedError, fly
 from .jets import Jet, algebra
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
+Exact = int | Fraction | Decimal | str
 
-def exact(name, value):
-    """An exact number as a Fraction.
 
-    Parameters
-    ----------
-    name : str
-        What the message calls it.
-    value : int, Fraction, Decimal or str
-        Text is such as "1/5" or "0.2". A float is refused: 0.2 is not 1/5.
+def exact(name: str, value: Exact) -> Fraction:
+    """Convert an exact number, such as the text "1/5" or "0.2", to a Fraction.
 
-    Returns
-    -------
-    Fraction
-
-    Raises
-    ------
-    ValueError
-        For anything else.
+    Raises ValueError, with the name, for anything else. A float is refused: 0.2 is not 1/5.
     """
     if isinstance(value, float):
         raise ValueError(
@@ -41,8 +29,8 @@ def exact(name, value):
         if isinstance(value, str):
             if not _NUMBER.fullmatch(value):
                 raise ValueError
-            top, _, below = value.partition("/")
-            return Fraction(top.strip()) / Fraction(below.strip() or 1)
+            numerator, _, denominator = value.partition("/")
+            return Fraction(numerator.strip()) / Fraction(denominator.strip() or 1)
         if isinstance(value, (int, Fraction, Decimal)) and not isinstance(value, bool):
             return Fraction(value)
     except (ValueError, ZeroDivisionError, OverflowError):
@@ -50,33 +38,18 @@ def exact(name, value):
     raise ValueError(f"{name} = {value!r} is not an exact number, such as '1/5' or '0.2'")
 
 
-def ball_of(fraction):
-    """The narrowest ball of the context's precision around a Fraction.
-
-    Parameters
-    ----------
-    fraction : Fraction
-
-    Returns
-    -------
-    arb
-    """
+def ball_of(fraction: Fraction) -> arb:
+    """Return the narrowest ball of the context's precision around a Fraction."""
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
 
 class Impact(NamedTuple):
-    """The next impact of a point: the chart's x and y, the flight, and s = xdot + udot there.
+    """The next impact of a point: its x and y, the time of flight tau, and s = xdot + udot."""
 
-    Attributes
-    ----------
-    x, y, tau, s : arb or Jet
-        In R, R omega, 1/omega and R omega.
-    """
-
-    x: object
-    y: object
-    tau: object
-    s: object
+    x: arb | Jet
+    y: arb | Jet
+    tau: arb | Jet
+    s: arb | Jet
 
 
 @dataclass(frozen=True)
@@ -88,13 +61,13 @@ class Surface:
     k, g, energy : int, Fraction, Decimal or str
         Exact: Euler inertia, gravity and total energy, dimensionless.
     width : int, Fraction, Decimal or str
-        With a width the energy is every one from `energy` to `energy + width`: what is proved then
-        holds for each of them.
+        With a width the surface stands for every energy from `energy` to `energy + width`. What is
+        proved then holds for each of them.
 
     Raises
     ------
     ValueError
-        For what is not an exact number or lies outside 0 < k <= 1, g > 0, energy > -g^2/(2k).
+        A number is not exact, or not in 0 < k <= 1, g > 0, energy > -g^2/(2k).
 
     Examples
     --------
@@ -127,13 +100,8 @@ class Surface:
             for name, value in (("k", self.k), ("g", self.g), ("E", self.energy))
         )
 
-    def constants(self):
-        """The surface's numbers in balls of the context's precision.
-
-        Returns
-        -------
-        k, g, energy : arb
-        """
+    def constants(self) -> tuple[arb, arb, arb]:
+        """Return k, g and the energy in balls of the context's precision."""
         if ctx.prec not in self._balls:
             if len(self._balls) > 50:
                 self._balls.clear()
@@ -143,34 +111,15 @@ class Surface:
             self._balls[ctx.prec] = k, g, energy
         return self._balls[ctx.prec]
 
-    def radius(self):
-        """Half the section's width along y = 0.
-
-        Returns
-        -------
-        arb
-            In R.
-        """
+    def radius(self) -> arb:
+        """Return half the section's width along y = 0."""
         k, g, energy = self.constants()
         return ((2 * energy + g * g / k) / k).sqrt()
 
-    def speed(self, x, y):
-        """The contact point's speed s = xdot + udot just before the impact.
+    def speed(self, x: arb | Jet, y: arb | Jet) -> arb | Jet:
+        """Return the contact speed s = xdot + udot just before the impact.
 
-        Parameters
-        ----------
-        x, y : arb or Jet
-            Of the chart.
-
-        Returns
-        -------
-        arb or Jet
-            In R omega.
-
-        Raises
-        ------
-        UndecidedError
-            Where a point may lie on or off the rim.
+        Raises UndecidedError where a point may lie on or off the rim.
         """
         k, g, energy = self.constants()
         square = ((1 + k) * (2 * energy + x * (2 * g - k * x)) - y * y) / k
@@ -178,73 +127,40 @@ class Surface:
             raise UndecidedError("a point is not proved to lie inside the section's rim")
         return square.sqrt()
 
-    def velocities(self, x, y):
-        """The velocities just before the impact.
-
-        Parameters
-        ----------
-        x, y : arb or Jet
-            Of the chart.
-
-        Returns
-        -------
-        xdot, udot : arb or Jet
-            In R omega and omega.
-
-        Raises
-        ------
-        UndecidedError
-            Where a point may lie on or off the rim.
-        """
+    def velocities(self, x: arb | Jet, y: arb | Jet) -> tuple[arb | Jet, arb | Jet]:
+        """Return xdot and udot just before the impact; raises UndecidedError as `speed` does."""
         k = self.constants()[0]
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
-    def impact(self, x, y):
-        """The impact map P, eq. (28), at points of the chart.
+    def impact(self, x: arb | Jet, y: arb | Jet) -> Impact:
+        """Enclose the impact map P, eq. (28).
 
         Parameters
         ----------
-        x, y : arb or Jet
-            Balls stand for all points in them.
+        x, y
+            A ball stands for all points in it.
 
         Returns
         -------
         Impact
-            It contains that of every point.
+            It contains the next impact of every point.
 
         Raises
         ------
         UndecidedError
-            Where a point may lie on the rim, or the next flight may touch the floor earlier.
+            A point may lie on the rim, or the flight may touch the floor earlier.
         """
         k, g, _ = self.constants()
         s = self.speed(x, y)
         b, c = (y - k * s) / (1 + k), -(y + s) / (1 + k)
-        tau = first_root(x, c, s, g)
-        sine, cosine = tau.sin_cos()
-        xdot, udot = b + g * tau, x * sine + c * cosine
-        return Impact(x * cosine - c * sine, xdot - k * udot, tau, xdot + udot)
+        x, xdot, udot, tau = fly(x, b, c, s, g)
+        return Impact(x, xdot - k * udot, tau, xdot + udot)
 
-    def jacobian(self, x, y):
-        """The map's derivative over a box.
+    def jacobian(self, x: arb, y: arb) -> tuple[tuple, Impact]:
+        """Enclose the derivative DP over a box, as two rows, and the box's image.
 
-        Parameters
-        ----------
-        x, y : arb
-            The box.
-
-        Returns
-        -------
-        rows : ((arb, arb), (arb, arb))
-            Every DP of its points is inside.
-        image : Impact
-            Every image is inside.
-
-        Raises
-        ------
-        UndecidedError
-            As for `impact`.
+        Raises UndecidedError as `impact` does.
         """
         plane = algebra(2, 1)
         image = self.impact(Jet.variable(plane, 0, x), Jet.variable(plane, 1, y))

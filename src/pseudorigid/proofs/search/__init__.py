@@ -1,5 +1,4 @@
-"""The searches: floating-point numbers that propose certificates, and prove nothing.
+"""Searches in floating point: they propose certificates, and prove nothing.
 
-Of the package's other parts they use the ball map, for its midpoints, and the dynamics; the
-checkers know nothing of them.
+They use the ball map, for its midpoints, and the dynamics. The checkers do not use the searches.
 """

@@ -1,4 +1,10 @@
-"""Certificates as text."""
+"""Formatting of certificates as text."""
+
+from collections.abc import Iterable
+
+from flint import arb
+
+from ..enclosure.surface import Surface
 
 HEADER = """\
 # Proposed by a search in floating point; every number is meant as the exact decimal that it is.
@@ -9,23 +15,23 @@ energy = "{surface.energy}"
 """
 
 
-def header(kind, surface):
-    """The first lines of a certificate."""
+def header(kind: str, surface: Surface) -> str:
+    """Return the first lines of a certificate."""
     return HEADER.format(kind=kind, surface=surface)
 
 
-def decimal(value, digits):
-    """The midpoint of a ball as a decimal of `digits` significant digits."""
+def decimal(value: arb, digits: int) -> str:
+    """Format the midpoint of a ball with this many significant digits."""
     text = value.mid().str(digits, radius=False)
     return text if "." in text or "e" in text else text + ".0"
 
 
-def decimals(values, digits):
-    """Rows of balls as rows of decimals."""
+def decimals(values: Iterable[Iterable[arb]], digits: int) -> list[list[str]]:
+    """Format the midpoints of rows of balls."""
     return [[decimal(value, digits) for value in row] for row in values]
 
 
-def rows(name, values):
-    """A list of rows of decimals, given as text."""
+def rows(name: str, values: Iterable[Iterable[str]]) -> str:
+    """Return the field of this name, a list of rows of formatted decimals."""
     lines = "".join(f"  [{', '.join(row)}],\n" for row in values)
     return f"{name} = [\n{lines}]\n"

@@ -1,41 +1,46 @@
 """Certificates of horseshoes: sets at the saddles and along a connection between two of them.
 
-Work is in coordinates in which the map stretches by the same factor rho at each saddle. A set's
-expanding side is tangent to the unstable manifold, its contracting side, the mirror image at the
-mirrored set, tangent to the stable one; so the map is all but diagonal from set to set. Along the
-chain the sets grow by the manifold's stretch divided by one factor kappa > 1, which is what they
-stretch beyond each other.
+In the coordinates used here the map stretches by the same factor rho at each saddle. A set's
+expanding side is tangent to the unstable manifold. Its contracting side mirrors the expanding side
+of the mirrored set and is tangent to the stable manifold, so the map is nearly diagonal from set to
+set. Along the chain the sets grow by the manifold's stretch divided by one factor kappa > 1, which
+is the factor by which they stretch beyond each other.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from flint import arb, ctx
 
-from ..checks.certificate import NotProvedError
+from ...dynamics.ball import Ball
+from ..checks.certificate import Finding, NotProvedError
+from ..enclosure.surface import Surface
 from .certificate_text import decimal, decimals, header, rows
 from .periodic import polished
 
-BITS = 320  # for an orbit that starts DEEP rounds nearer to its saddle than a double can tell
-DEEP = 100  # rounds about the saddles before the float's start of the connection
-START = 1e-7  # distance of that start from its saddle, in units of the expanding side
-DIGITS = 20  # ten beyond the width of the smallest sets
-NEARER = 1e-45  # of that start's distance, at least: beyond it BITS hold no difference
-NEWTON_STEPS = 12  # at most; each doubles the digits
-FAR = 0.1  # in R: neighbours that are further apart have a jump of the map between them
-MOST_IMAGES = 60  # rounds from the float's start to y = 0, at most
-# The search tries sizes from the largest down by halves. The chain begins where it is by SHARE as
-# far from its saddle as the image of the saddle's set reaches: farther out the margins of the
-# first sets shrink, nearer to the saddle the chain has more sets than it needs.
-SIZES = [1e-3 * 0.5**i for i in range(31)]
-SHARE = 0.65
-MOST_STEPS = 400  # of a chain; a multiplier so near 1 that it needs more is refused
+_BITS = 320  # for an orbit that starts _EXTRA_ROUNDS nearer to its saddle than a double can tell
+_EXTRA_ROUNDS = 100  # rounds about the saddles before the connection's start in doubles
+_START = 1e-7  # distance of that start from its saddle, in units of the expanding side
+_DIGITS = 20  # ten beyond the width of the smallest sets
+_LEAST_FACTOR = 1e-45  # on that start's distance: below it _BITS hold no difference
+_NEWTON_STEPS = 12  # at most; each doubles the digits
+_JUMP = 0.1  # in R: neighbours that are further apart have a jump of the map between them
+_MOST_IMAGES = 60  # rounds from the start in doubles to y = 0, at most
+# The search tries sizes from the largest down by halves. The chain begins where its distance from
+# the saddle is _SHARE of the reach of the image of the saddle's set. Farther out the margins of the
+# first sets shrink; nearer to the saddle the chain has more sets than it needs.
+_SIZES = [1e-3 * 0.5**i for i in range(31)]
+_SHARE = 0.65
+_MOST_STEPS = 400  # of a chain; a multiplier so near 1 that it needs more is refused
+
+Vector = Sequence[arb]
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Which connection, and the shape of the sets.
+    """The choice of a connection, and the shape of the sets.
 
     Parameters
     ----------
@@ -46,7 +51,7 @@ class Plan:
     size : float
         Of the sets at the saddles, in (x, y).
     room : float
-        How much wider than its image, or narrower, a set is where chain and saddles meet.
+        Factor by which a set is wider than its image, or narrower, where chain and saddles meet.
     """
 
     side: int
@@ -73,74 +78,83 @@ class _Connection:
         Index of its point on y = 0.
     """
 
-    surface: object
-    saddles: list
-    expanding: list
-    mirror: list
-    rho: object
-    points: list
-    tangents: list
+    surface: Surface
+    saddles: list[Vector]
+    expanding: list[Vector]
+    mirror: list[int]
+    rho: arb
+    points: list[Vector]
+    tangents: list[Vector]
     middle: int
 
-    def first(self, steps):
-        """The index of the saddle near which a chain of so many steps begins."""
+    def first(self, steps: int) -> int:
+        """Index of the saddle near which a chain of so many steps begins."""
         return (self.middle - steps) % len(self.saddles)
 
-    def distance(self, steps):
-        """How far from its saddle the chain begins, in units of the expanding side."""
+    def distance(self, steps: int) -> arb:
+        """Distance of the chain's beginning from its saddle, in units of the expanding side."""
         first = self.first(steps)
-        contracting = _mirror(self.expanding[self.mirror[first]])
-        place = self.points[self.middle - steps]
-        return abs(_along(place, self.saddles[first], self.expanding[first], contracting))
+        contracting = _mirrored(self.expanding[self.mirror[first]])
+        point = self.points[self.middle - steps]
+        return abs(_along(point, self.saddles[first], self.expanding[first], contracting))
 
 
-def _connect(surface, ball, points, side, steps):
-    """The _Connection by the branches of a side, with `steps` points after y = 0."""
-    saddles = polished(surface, points, NEWTON_STEPS)
+def _connect(surface: Surface, ball: Ball, points, side: int, steps: int) -> _Connection:
+    """Follow the branches of a side, up to `steps` points after y = 0."""
+    saddles = polished(surface, points, _NEWTON_STEPS)
     mirror = _mirror_images(saddles)
     rho, expanding = _directions(surface, saddles, side)
     multiplier = rho ** len(points)
-    numbers = [[float(a) for a in pair] for pair in (saddles[0], expanding[0])]
-    sigma, impacts = _start(ball, float(surface.energy), *numbers, float(multiplier), len(points))
-    deep = min(DEEP, int(math.log(NEARER) / -math.log(float(multiplier))))
-    impacts += len(points) * deep
-    sigma = arb(sigma) / multiplier**deep
+    saddle, vector = ([float(a) for a in pair] for pair in (saddles[0], expanding[0]))
+    sigma, impacts = _crossing(
+        ball, float(surface.energy), saddle, vector, float(multiplier), len(points)
+    )
+    extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
+    impacts += len(points) * extra
+    sigma = arb(sigma) / multiplier**extra
     track = _follow_to_axis(surface, saddles[0], expanding[0], sigma, impacts, steps)
     return _Connection(surface, saddles, expanding, mirror, rho, *track, impacts)
 
 
-def propose(surface, ball, points, plan, prove):
-    """A certificate of a horseshoe.
+def propose(
+    surface: Surface,
+    ball: Ball,
+    points: Sequence[tuple[float, float]],
+    plan: Plan,
+    prove: Callable[[str], Finding],
+) -> str:
+    """Return a certificate of a horseshoe.
 
     Parameters
     ----------
     surface : Surface
     ball : Ball
-        Near the surface's.
+        With the doubles nearest to the surface's k and g.
     points : list of (float, float)
-        The hyperbolic orbit, (x, y); its own mirror image.
+        (x, y) of the hyperbolic orbit, which must be its own mirror image.
     plan : Plan
     prove : callable
-        What a checker finds of a text, with margins [(beyond, room), ...] of the coverings, in
-        order, among its parts.
-
-    Returns
-    -------
-    str
+        Returns a checker's Finding of a text, with the margins of the coverings among its parts.
 
     Raises
     ------
     ValueError
-        An orbit that is not its own mirror image, a branch that does not meet y = 0, or a plan
-        whose chain does not begin at its saddle.
+        The orbit is not its own mirror image, the branch does not meet y = 0, or the chain does not
+        begin at its saddle.
     """
-    with ctx.workprec(BITS):
-        found = _connect(surface, ball, points, plan.side, plan.steps)
-        return _with_margins(found, plan, prove)
+    with ctx.workprec(_BITS):
+        connection = _connect(surface, ball, points, plan.side, plan.steps)
+        return _with_margins(connection, plan, prove)
 
 
-def search(surface, ball, points, prove, side):
-    """A certificate of a horseshoe, with the largest sets for which a checker takes one.
+def search(
+    surface: Surface,
+    ball: Ball,
+    points: Sequence[tuple[float, float]],
+    prove: Callable[[str], Finding],
+    side: int,
+) -> str:
+    """Return a certificate of a horseshoe with the largest sets that a checker accepts.
 
     Parameters
     ----------
@@ -149,62 +163,62 @@ def search(surface, ball, points, prove, side):
     side : int
         1 the outer, -1 the inner unstable branches.
 
-    Returns
-    -------
-    str
-
     Raises
     ------
     ValueError
-        As for `propose`, or where no size proves it: with the reason at the smallest.
+        As for `propose`, or no size proves it: with the reason at the smallest.
     """
-    with ctx.workprec(BITS):
-        found = _connect(surface, ball, points, side, MOST_STEPS)
-        room = float(found.rho.sqrt())
-        most = min(MOST_STEPS, found.middle)
-        reaches = [float(found.distance(steps) / found.rho) for steps in range(most + 1)]
-        reason = f"its multiplier {float(found.rho) ** len(points):.6g} is too near 1"
-        for size in SIZES:
-            steps = next((n for n in range(1, most + 1) if reaches[n] < SHARE * size), None)
+    with ctx.workprec(_BITS):
+        connection = _connect(surface, ball, points, side, _MOST_STEPS)
+        rho = connection.rho
+        room = float(rho.sqrt())
+        most = min(_MOST_STEPS, connection.middle)
+        reaches = [float(connection.distance(steps) / rho) for steps in range(most + 1)]
+        reason = f"its multiplier {float(rho) ** len(points):.6g} is too near 1"
+        for size in _SIZES:
+            steps = next((n for n in range(1, most + 1) if reaches[n] < _SHARE * size), None)
             if steps is None:
                 break
             try:
-                return _with_margins(found, Plan(side, steps, size, room), prove)
+                return _with_margins(connection, Plan(side, steps, size, room), prove)
             except (NotProvedError, ArithmeticError) as error:
                 reason = str(error)
-    raise ValueError(f"no size of its sets from {SIZES[0]:g} to {size:.2g} proves it: {reason}")
+    raise ValueError(f"no size of its sets from {_SIZES[0]:g} to {size:.2g} proves it: {reason}")
 
 
-def _with_margins(found, plan, prove):
-    """The certificate of a plan, with the margins that its checker measures."""
-    text = _text(found, plan)
-    free = [["0.0", "0.0"]] * (len(found.saddles) + 2 * plan.steps + 2)
-    measured = prove(text + rows("margins", free)).parts["margins"]
+def _with_margins(connection: _Connection, plan: Plan, prove: Callable[[str], Finding]) -> str:
+    """Return the certificate of a plan, with the margins that its checker measures."""
+    text = _text(connection, plan)
+    zeros = [["0.0", "0.0"]] * (len(connection.saddles) + 2 * plan.steps + 2)
+    measured = prove(text + rows("margins", zeros)).parts["margins"]
     margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
     return text + rows("margins", margins)
 
 
-def _times(matrix, vector):
+def _times(matrix: Sequence[Vector], vector: Vector) -> list[arb]:
     return [(row[0] * vector[0] + row[1] * vector[1]).mid() for row in matrix]
 
 
-def _length(vector):
+def _length(vector: Vector) -> arb:
     return (vector[0] * vector[0] + vector[1] * vector[1]).sqrt().mid()
 
 
-def _mirror_images(saddles):
-    """Index of the mirror image of each point; ValueError where the orbit has none."""
-    found = []
+def _mirror_images(saddles: list[Vector]) -> list[int]:
+    """Return the index of the mirror image of each point; ValueError if there is none."""
+    indices = []
     for x, y in saddles:
-        gaps = [float(abs(x - a) + abs(y + b)) for a, b in saddles]
-        found.append(int(np.argmin(gaps)))
-        if min(gaps) > 1e-20:
+        distances = [float(abs(x - a) + abs(y + b)) for a, b in saddles]
+        indices.append(int(np.argmin(distances)))
+        if min(distances) > 1e-20:
             raise ValueError("the orbit is not its own mirror image: no symmetric connection")
-    return found
+    return indices
 
 
-def _directions(surface, saddles, side):
-    """rho, and at each saddle the unstable direction, all stretched by rho; outer for side = 1."""
+def _directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
+    """Return rho, and the unstable direction at each saddle, stretched by rho from one to the next.
+
+    It points outwards for side = 1.
+    """
     slopes = [surface.jacobian(*z)[0] for z in saddles]
     vector = [arb(1), arb(0)]
     for _ in range(400):
@@ -219,18 +233,18 @@ def _directions(surface, saddles, side):
     if (outward > 0) != (side > 0):
         vector = [-a for a in vector]
     rho = (multiplier.log() / len(saddles)).exp().mid()
-    found = [vector]
+    vectors = [vector]
     for matrix in slopes[:-1]:
-        found.append([(a / rho).mid() for a in _times(matrix, found[-1])])
-    return rho, found
+        vectors.append([(a / rho).mid() for a in _times(matrix, vectors[-1])])
+    return rho, vectors
 
 
-def _start(ball, energy, saddle, vector, multiplier, period):
-    """(sigma, impacts): where the branch saddle + sigma vector first meets y = 0 at an x > 0."""
-    ends = START, START * multiplier
+def _crossing(ball, energy, saddle, vector, multiplier, period) -> tuple[float, int]:
+    """Find sigma and impacts: saddle + sigma vector is the first to meet y = 0 at an x > 0."""
+    ends = _START, _START * multiplier
     _, state = _segment(ball, energy, saddle, vector, *ends)
-    for impacts in range(MOST_IMAGES * period):
-        if _changes(ball, state).size:
+    for impacts in range(_MOST_IMAGES * period):
+        if _sign_changes(ball, state).size:
             sigma = _refined(ball, energy, saddle, vector, ends, impacts)
             if sigma is not None:
                 return sigma, impacts
@@ -238,34 +252,34 @@ def _start(ball, energy, saddle, vector, multiplier, period):
     raise ValueError("no branch of the orbit is seen to meet y = 0")
 
 
-def _refined(ball, energy, saddle, vector, ends, impacts):
-    """The sigma from which y = 0 is met after so many impacts; None where y jumps across 0."""
+def _refined(ball, energy, saddle, vector, ends, impacts) -> float | None:
+    """Refine the sigma that meets y = 0 after so many impacts; None where y jumps across 0."""
     for _ in range(4):
         sigma, state = _segment(ball, energy, saddle, vector, *ends)
         ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(sigma.size))
-        changes = _changes(ball, state)
+        changes = _sign_changes(ball, state)
         if not changes.size:
             return None
         ends = sigma[changes[0]], sigma[changes[0] + 1]
     return ends[0]
 
 
-def _segment(ball, energy, saddle, vector, low, high):
-    """Parameters from low to high and the states at saddle + sigma vector."""
+def _segment(ball, energy, saddle, vector, low, high) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Return sigma from low to high, and the states at saddle + sigma vector."""
     sigma = np.linspace(low, high, 1001)
-    place = (saddle[0] + sigma * vector[0], saddle[1] + sigma * vector[1])
-    return sigma, [np.array(a) for a in ball.state_xy(*place, energy)]
+    x, y = (origin + sigma * slope for origin, slope in zip(saddle, vector, strict=True))
+    return sigma, [np.array(a) for a in ball.state_xy(x, y, energy)]
 
 
-def _changes(ball, state):
-    """Where y changes sign from one state to the next, at x > 0, without a jump."""
+def _sign_changes(ball: Ball, state: list[np.ndarray]) -> np.ndarray:
+    """Return the indices after which y changes its sign, at x > 0 and without a jump."""
     x, y = state[0], state[1] - ball.k * state[2]
-    near = (np.abs(np.diff(x)) < FAR) & (x[1:] > 0.0)
+    near = (np.abs(np.diff(x)) < _JUMP) & (x[1:] > 0.0)
     return np.flatnonzero((y[:-1] * y[1:] <= 0.0) & near)
 
 
-def _follow(surface, point, vector, sigma, impacts):
-    """Points of the orbit of point + sigma vector, and their derivatives by sigma."""
+def _follow(surface: Surface, point: Vector, vector: Vector, sigma: arb, impacts: int):
+    """Return the points of the orbit of point + sigma vector, and their derivatives by sigma."""
     points = [[(p + sigma * v).mid() for p, v in zip(point, vector, strict=True)]]
     tangents = [vector]
     for _ in range(impacts):
@@ -276,39 +290,39 @@ def _follow(surface, point, vector, sigma, impacts):
 
 
 def _follow_to_axis(surface, saddle, vector, sigma, before, after):
-    """Points and tangents from `before` impacts before y = 0 to `after` impacts after it."""
-    for _ in range(NEWTON_STEPS):
+    """Return points and tangents from `before` impacts before y = 0 to `after` impacts after it."""
+    for _ in range(_NEWTON_STEPS):
         points, tangents = _follow(surface, saddle, vector, sigma, before)
         step = (points[-1][1] / tangents[-1][1]).mid()
         sigma = (sigma - step).mid()
-        if abs(step) < abs(sigma) * arb(2) ** (-BITS // 2):
+        if abs(step) < abs(sigma) * arb(2) ** (-_BITS // 2):
             break
     return _follow(surface, saddle, vector, sigma, before + after)
 
 
-def _mirror(vector):
+def _mirrored(vector: Vector) -> list[arb]:
     return [vector[0], -vector[1]]
 
 
-def _text(found, plan):
-    """The certificate without its margins."""
-    surface, saddles, expanding = found.surface, found.saddles, found.expanding
-    points, tangents, middle = found.points, found.tangents, found.middle
-    count, steps, first = len(saddles), plan.steps, found.first(plan.steps)
+def _text(connection: _Connection, plan: Plan) -> str:
+    """Return the certificate without its margins."""
+    surface, saddles, expanding = connection.surface, connection.saddles, connection.expanding
+    points, tangents, middle = connection.points, connection.tangents, connection.middle
+    count, steps, first = len(saddles), plan.steps, connection.first(plan.steps)
     chain = range(middle - steps, middle + steps + 1)
     directions = {i: [a / _length(tangents[i]) for a in tangents[i]] for i in chain}
     begin, end = chain[0], chain[-1]
     leaves = (first - 1) % count
-    enters = found.mirror[leaves]
-    contracting = [_mirror(expanding[i]) for i in found.mirror]
-    size, start = arb(plan.size), found.distance(steps)
-    widest = (size * found.rho - start) / plan.room * _length(expanding[first])
+    enters = connection.mirror[leaves]
+    contracting = [_mirrored(expanding[i]) for i in connection.mirror]
+    size, start = arb(plan.size), connection.distance(steps)
+    widest = (size * connection.rho - start) / plan.room * _length(expanding[first])
     if not widest > 0:
         raise ValueError(
             f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "
             f"{float(start):.2g} from its saddle, beyond the saddle's set"
         )
-    # the last set's image is to be `allocate_buffers` times as wide as the saddle's set
+    # the last set's image is to be wider than the saddle's set by the factor `room`
     last = _times(surface.jacobian(*points[end])[0], directions[end])
     reach = _along(last, (0, 0), expanding[enters], contracting[enters])
     stretch = _length(tangents[end]) / _length(tangents[begin])
@@ -322,22 +336,22 @@ def _text(found, plan):
         [*z, *(size * a for a in u), *(size * a for a in s)]
         for z, u, s in zip(saddles, expanding, contracting, strict=True)
     ]
-    approach = [[*points[i], *sides[i], *_mirror(sides[2 * middle - i])] for i in chain[:steps]]
-    half = [decimal(a, DIGITS) for a in (points[middle][0], *sides[middle])]
+    approach = [[*points[i], *sides[i], *_mirrored(sides[2 * middle - i])] for i in chain[:steps]]
+    half = [decimal(a, _DIGITS) for a in (points[middle][0], *sides[middle])]
     return (
         header("horseshoe", surface)
         + f"leaves = {leaves}\nenters = {enters}\n"
         + "# a row: centre, expanding side, contracting side\n"
-        + rows("saddles", decimals(at_saddles, DIGITS))
+        + rows("saddles", decimals(at_saddles, _DIGITS))
         + "# up to y = 0; the rest of the chain is the mirror image\n"
-        + rows("approach", decimals(approach, DIGITS))
+        + rows("approach", decimals(approach, _DIGITS))
         + f"middle = [{', '.join(half)}]\n"
         + "# of each covering: how far beyond its target's edges, and the room within the others\n"
     )
 
 
-def _along(point, origin, expanding, contracting):
-    """How far from the origin a point lies along the expanding side, in units of that side."""
+def _along(point: Vector, origin: Vector, expanding: Vector, contracting: Vector) -> arb:
+    """Return the distance of a point from the origin along the expanding side, in its units."""
     (ux, uy), (sx, sy) = expanding, contracting
     dx, dy = (p - o for p, o in zip(point, origin, strict=True))
     return (dx * sy - dy * sx) / (ux * sy - uy * sx)

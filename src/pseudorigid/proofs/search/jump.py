@@ -1,19 +1,19 @@
-"""Certificates of the jump set: a point of it, its two images and the set's two ends."""
+"""Certificates of the jump set: one of its points with its two images, and the set's two ends."""
 
 from fractions import Fraction
 
 from flint import arb, ctx
 
-from ..enclosure.flight import first_root
-from ..enclosure.surface import ball_of
+from ..enclosure.flight import fly
+from ..enclosure.surface import Surface, ball_of
 from .certificate_text import decimal, header
 
-BITS = 160
-DIGITS = 30  # points are to be good to 1e-28
+_BITS = 160
+_DIGITS = 30  # points are to be good to 1e-28
 
 
-def propose(surface, speed, radius):
-    """A certificate of the jump set.
+def propose(surface: Surface, speed: str, radius: str) -> str:
+    """Return a certificate of the jump set.
 
     Parameters
     ----------
@@ -21,45 +21,31 @@ def propose(surface, speed, radius):
     speed : str
         xdot on the rim where the flight touches.
     radius : str
-        By how much its points may be off.
-
-    Returns
-    -------
-    str
+        Largest error of its points.
     """
-    with ctx.workprec(BITS):
+    with ctx.workprec(_BITS):
         k, g, energy = surface.constants()
         fastest = ((2 * energy - g * g * (2 + k)) / (1 + k)).sqrt().mid()
         xdot = ball_of(Fraction(speed))
         x = (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
-        before, beyond = _flight(surface, x, xdot), _flight(surface, x, -xdot)
-        first = _flight(surface, -g, -fastest)
-        places = {
-            "point": (before[0], -before[1]),
+        point, far_image = _next_impact(surface, x, xdot), _next_impact(surface, x, -xdot)
+        inner_end = _next_impact(surface, -g, -fastest)
+        points = {
+            "point": (point[0], -point[1]),
             "near_image": (x, -(1 + k) * xdot),
-            "far_image": beyond,
+            "far_image": far_image,
             "outer_end": (-g, -(1 + k) * fastest),
-            "inner_end": (first[0], -first[1]),
+            "inner_end": (inner_end[0], -inner_end[1]),
         }
         lines = [
-            f"{name} = [{', '.join(decimal(a, DIGITS) for a in place)}]\n"
-            for name, place in places.items()
+            f"{name} = [{', '.join(decimal(a, _DIGITS) for a in point)}]\n"
+            for name, point in points.items()
         ]
     return header("jump set", surface) + f"radius = {radius}\nspeed = {speed}\n" + "".join(lines)
 
 
-def propose_smooth(k, g):
-    """The certificate that no flight touches the floor at low energies.
-
-    Parameters
-    ----------
-    k, g : Fraction
-        The ball.
-
-    Returns
-    -------
-    str
-    """
+def propose_smooth(k: Fraction, g: Fraction) -> str:
+    """Return the certificate that no flight touches the floor at low energies."""
     threshold = g * g * (1 + k / 2)
     return (
         f'kind = "no touch"\nk = "{k}"\ng = "{g}"\n'
@@ -67,13 +53,11 @@ def propose_smooth(k, g):
     )
 
 
-def _flight(surface, x, xdot):
-    """(x, y) of the impact after a rim point's, midpoints."""
+def _next_impact(surface: Surface, x: arb, xdot: arb) -> tuple[arb, arb]:
+    """Return (x, y) of the impact after a point of the rim, rounded."""
     k, g, _ = surface.constants()
-    after = None
+    start = None
     if xdot < 0:
-        after = (-3.9 * xdot / (x * x + xdot * xdot).sqrt()).mid()
-    tau = first_root(x, -xdot, arb(0), g, after)
-    sine, cosine = tau.sin_cos()
-    udot = x * sine - xdot * cosine
-    return (x * cosine + xdot * sine).mid(), (xdot + g * tau - k * udot).mid()
+        start = (-3.9 * xdot / (x * x + xdot * xdot).sqrt()).mid()
+    x, v, w, _ = fly(x, xdot, -xdot, arb(0), g, start)
+    return x.mid(), (v - k * w).mid()

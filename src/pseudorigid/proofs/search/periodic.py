@@ -1,36 +1,26 @@
-"""Certificates of periodic orbits: centres from Newton's method, and the largest round box."""
+"""Certificates of periodic orbits: centres from Newton's method, and the largest square box."""
 
 from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from fractions import Fraction
 from math import ceil, sqrt
 
 from flint import arb, arb_mat, ctx
 
+from ..enclosure.surface import Surface
 from .certificate_text import decimals, header, rows
 
 BITS = 160
-DIGITS = 36  # the checker holds thirty of them against the orbit
-LARGEST, SMALLEST = 2, 12  # minus the decimal exponents of the sizes that are tried
+DIGITS = 36  # the checker compares thirty of them with the orbit
+_LARGEST, _SMALLEST = 2, 12  # minus the decimal exponents of the radii that are tried
 
 
-def polished(surface, points, steps=8):
-    """Points closer to a periodic orbit, by Newton's method on midpoints.
-
-    Parameters
-    ----------
-    surface : Surface
-    points : sequence of (x, y)
-        Floats or balls.
-    steps : int
-
-    Returns
-    -------
-    list of [arb, arb]
-        Exact.
-    """
+def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[arb]]:
+    """Improve points (x, y) near a periodic orbit, by Newton's method on midpoints."""
     points = [[arb(a).mid() for a in point] for point in points]
     n = len(points)
     for _ in range(steps):
-        slopes, rest = arb_mat(2 * n, 2 * n), arb_mat(2 * n, 1)
+        slopes, residuals = arb_mat(2 * n, 2 * n), arb_mat(2 * n, 1)
         for i, point in enumerate(points):
             j = (i + 1) % n
             matrix, image = surface.jacobian(*point)
@@ -38,57 +28,42 @@ def polished(surface, points, steps=8):
                 for c in range(2):
                     slopes[2 * i + r, 2 * i + c] += matrix[r][c].mid()
                 slopes[2 * i + r, 2 * j + r] -= 1
-                rest[2 * i + r, 0] = (image[r] - points[j][r]).mid()
-        step = slopes.solve(rest)
+                residuals[2 * i + r, 0] = (image[r] - points[j][r]).mid()
+        step = slopes.solve(residuals)
         points = [
-            [_clean(p - step[2 * i + r, 0]) for r, p in enumerate(point)]
+            [_without_rounding(p - step[2 * i + r, 0]) for r, p in enumerate(point)]
             for i, point in enumerate(points)
         ]
     return points
 
 
-def _clean(value):
-    """The midpoint, and 0 where only rounding is left of it."""
+def _without_rounding(value: arb) -> arb:
+    """Return the midpoint, or 0 if it is no larger than rounding errors."""
     middle = value.mid()
     return middle if abs(middle) > arb(2) ** (16 - ctx.prec) else arb(0)
 
 
-def propose(surface, points, holds):
-    """A certificate for an orbit.
+def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) -> str:
+    """Return a certificate for an orbit near points (x, y).
 
-    Parameters
-    ----------
-    surface : Surface
-    points : sequence of (float, float)
-        (x, y) near the orbit's.
-    holds : callable
-        Whether a checker takes a text; the radius is the largest for which it does.
-
-    Returns
-    -------
-    str
+    Its radius is the largest for which the checker `holds` accepts the text.
     """
     with ctx.workprec(BITS):
         centres = rows("points", decimals(polished(surface, points), DIGITS))
-    return largest(header("periodic orbit", surface), centres, holds)
+    return with_largest_radius(header("periodic orbit", surface), centres, holds)
 
 
-def largest(before, after, holds):
-    """A text with the largest radius of one digit for which it holds.
+def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -> str:
+    """Return a text with the largest radius of one digit for which it holds, or the smallest.
 
     Parameters
     ----------
     before, after : str
-        The text up to the line with the radius, and behind it.
+        The text up to the line with the radius, and after it.
     holds : callable
-        Whether a text holds; what holds for a radius must hold for smaller ones.
-
-    Returns
-    -------
-    str
-        That with the smallest radius if none holds.
+        Whether a text holds. What holds for a radius must hold for smaller ones.
     """
-    sizes = [f"{m}e-{e:02}" for e in range(LARGEST, SMALLEST + 1) for m in range(9, 0, -1)]
+    sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]
 
     def text(size):
         return f"{before}radius = {size}\n{after}"
@@ -97,19 +72,10 @@ def largest(before, after, holds):
     return text(sizes[first])
 
 
-def propose_only_fixed_point(k, g, energy):
-    """The certificate that there is no other fixed point up to an energy.
-
-    Parameters
-    ----------
-    k, g, energy : Fraction
-
-    Returns
-    -------
-    str
-    """
-    longest = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
+def propose_only_fixed_point(k: Fraction, g: Fraction, energy: Fraction) -> str:
+    """Return the certificate that there is one fixed point at each energy up to this one."""
+    theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
     return (
         f'kind = "only fixed point"\nk = "{k}"\ng = "{g}"\n'
-        f'energy_up_to = "{energy}"\ntheta_below = {longest}\n'
+        f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
     )

@@ -3,6 +3,7 @@
 The twist is proposed by the closed formula for Birkhoff's first coefficient.
 """
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from flint import acb, arb, arb_mat, ctx
@@ -10,68 +11,58 @@ from flint import acb, arb, arb_mat, ctx
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface
 from .certificate_text import decimal, decimals, header, rows
-from .periodic import BITS, DIGITS, largest, polished
+from .periodic import BITS, DIGITS, polished, with_largest_radius
 
-TWIST_DIGITS = 13  # the checker holds nine of them against the twist
-ENERGY_DIGITS = 13  # decimals of the energy
+_TWIST_DIGITS = 13  # the checker compares nine of them with the twist
+_ENERGY_DECIMALS = 13
 
 
-def propose(surface, points, holds):
-    """A certificate of the twist of an elliptic orbit.
+def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) -> str:
+    """Return a certificate of the twist of an elliptic orbit near points (x, y).
 
-    Parameters
-    ----------
-    surface : Surface
-    points : sequence of (float, float)
-        (x, y) near the orbit's.
-    holds : callable
-        Whether a checker takes a text; the radius is the largest for which it does.
-
-    Returns
-    -------
-    str
+    Its radius is the largest for which the checker `holds` accepts the text.
     """
     with ctx.workprec(BITS):
         points = polished(surface, points)
-        value = decimal(estimate(surface, points), TWIST_DIGITS)
+        value = decimal(estimate(surface, points), _TWIST_DIGITS)
         centres = rows("points", decimals(points, DIGITS))
-    return largest(header("twist", surface) + f"twist = {value}\n" + centres, "", holds)
+    before = header("twist", surface) + f"twist = {value}\n" + centres
+    return with_largest_radius(before, "", holds)
 
 
-def propose_zero(k, g, low, high, start, holds):
-    """A certificate of a zero of the fixed point's twist.
+def propose_zero(
+    k: Fraction, g: Fraction, low: Fraction, high: Fraction, start: tuple[float, float], holds
+) -> str:
+    """Return a certificate of a zero of the fixed point's twist.
 
     Parameters
     ----------
-    k, g : Fraction
-        The ball.
-    low, high : Fraction
-        Energies: the twist is above zero at the first, below at the other.
+    k, g, low, high
+        As for `bisect_zero`.
     start : (float, float)
         (x, y) of the fixed point at one of these energies.
     holds : callable
-        Whether a checker takes a text; the radius is the largest for which it does.
-
-    Returns
-    -------
-    str
+        Whether a checker accepts a text; the radius is the largest for which it does.
     """
     with ctx.workprec(BITS):
         surface, above, point = bisect_zero(k, g, low, high, [start])
         centre = rows("points", decimals(point, DIGITS))
     width = f"width = {float(above.energy - surface.energy):.0e}\n"
-    return largest(header("zero of the twist", surface) + width + centre, "", holds)
+    before = header("zero of the twist", surface) + width + centre
+    return with_largest_radius(before, "", holds)
 
 
-def bisect_zero(k, g, low, high, point):
-    """Two energies, ENERGY_DIGITS decimals each, between which the twist falls through zero.
+def bisect_zero(
+    k: Fraction, g: Fraction, low: Fraction, high: Fraction, point: Sequence
+) -> tuple[Surface, Surface, list[list[arb]]]:
+    """Find two energies with 13 decimals between which the twist falls through zero.
 
     Parameters
     ----------
     k, g : Fraction
         The ball.
     low, high : Fraction
-        Energies: the twist is above zero at the first, below at the other.
+        Energies: the twist is positive at the first and negative at the other.
     point : list of (float, float)
         (x, y) of the fixed point at one of these energies.
 
@@ -81,7 +72,7 @@ def bisect_zero(k, g, low, high, point):
     point : list of (arb, arb)
         The fixed point at the first.
     """
-    unit = 10**ENERGY_DIGITS
+    unit = 10**_ENERGY_DECIMALS
     while high - low > Fraction(1, unit):
         middle = Fraction(round((low + high) / 2 * unit), unit)
         surface = Surface(k, g, middle)
@@ -94,19 +85,10 @@ def bisect_zero(k, g, low, high, point):
     return low, Surface(k, g, high), polished(low, point)
 
 
-def estimate(surface, points):
-    """The twist of the first point of an orbit that is all but exact, by the closed formula.
+def estimate(surface: Surface, points: Sequence) -> arb:
+    """Estimate tau_1 of `checks.birkhoff` at the first point of a nearly exact orbit.
 
-    Parameters
-    ----------
-    surface : Surface
-    points : sequence of (arb, arb)
-        (x, y), exact.
-
-    Returns
-    -------
-    arb
-        tau_1 of `checks.birkhoff`, a midpoint: an estimate.
+    The closed formula is applied to midpoints (x, y).
     """
     matrix = arb_mat([[1, 0], [0, 1]])
     for point in points:
@@ -121,13 +103,12 @@ def estimate(surface, points):
     (x0, y0) = points[0]
     x, y = x0 + q * beta, y0 + q * delta + p / beta
     for _ in points:
-        image = surface.impact(x, y)
-        x, y = image.x, image.y
+        x, y, *_ = surface.impact(x, y)
     q, p = x / beta, (y - x * (delta / beta)) * beta
     pairs = zip(q.coefficients, p.coefficients, strict=True)
     map_ = Jet(plane, [acb(a.mid(), b.mid()) for a, b in pairs])
-    z, bar = (Jet.variable(plane, i, acb(0)) for i in (0, 1))
-    map_ = map_.at((z + bar) * acb(0.5), (z - bar) * acb(0, -0.5))  # from q and p
+    z, conjugate = (Jet.variable(plane, i, acb(0)) for i in (0, 1))
+    map_ = map_.at((z + conjugate) * acb(0.5), (z - conjugate) * acb(0, -0.5))  # from q and p
     g20, g11, g02, g21 = 2 * map_[2, 0], map_[1, 1], 2 * map_[0, 2], 2 * map_[2, 1]
     z, w = acb(cosine, -sine), acb(cosine, sine)
     first = (

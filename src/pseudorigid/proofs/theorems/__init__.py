@@ -1,1 +1,1 @@
-"""What is proved: the statements with their certificates, requests, and data for pictures."""
+"""The theorems with their certificates, proofs on request, and data for the pictures of proofs."""

@@ -1,27 +1,35 @@
-"""Every impact drawn: that each computed impact is the first one, and how far it is off."""
+"""Proofs that each impact of an orbit or a picture is the first one, with bounds on its error."""
 
 import time
 
 import numpy as np
+import xarray as xr
 
+from ...dynamics.ball import Ball
 from ...dynamics.starts import start_state
 from ...dynamics.variables import states_of
+from ..enclosure.surface import Exact
 from ..reference_solver import impact_errors
 from .statements import Result
 
-LIMIT = 1e-6  # an error beyond this is no rounding: another impact was taken
+LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was taken
+
+Impacts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def prove_impacts(k, g, before, after, tau, name="impacts"):
+def prove_impacts(
+    k: Exact,
+    g: Exact,
+    before: np.ndarray,
+    after: np.ndarray,
+    tau: np.ndarray,
+    name: str = "impacts",
+) -> Result:
     """Prove that each of many impacts is the first one.
 
     Parameters
     ----------
-    k, g : int, Fraction, Decimal or str
-        The ball, exact.
-    before, after : ndarray, shape (3, n)
-        As for `reference_solver.impact_errors`.
-    tau : ndarray, shape (n,)
+    k, g, before, after, tau
         As for `reference_solver.impact_errors`.
     name : str
         Of the result.
@@ -38,32 +46,19 @@ def prove_impacts(k, g, before, after, tau, name="impacts"):
         reason = "there are no impacts"
     elif worst == np.inf:
         reason = f"impact {np.argmax(errors)} grazes: which one is first is not decided"
-    elif not worst < LIMIT:
+    elif not worst < LARGEST_ERROR:
         reason = f"impact {np.argmax(errors)} is off by {worst:.3g}: not the first one"
-    statement = f"each of {errors.size:,} impacts computed is the first one, to within {LIMIT:g}"
+    statement = (
+        f"each of {errors.size:,} impacts computed is the first one, to within {LARGEST_ERROR:g}"
+    )
     seconds = time.perf_counter() - begin
     return Result(name, statement, name, reason, {}, {"worst error": worst}, seconds)
 
 
-def of_orbits(ball, energy, orbits, starts):
-    """All impacts of a scene's orbits.
+def of_orbits(ball: Ball, energy: float, orbits: xr.Dataset, starts: list) -> Impacts:
+    """Return `before`, `after` and `tau` of all impacts of a dataset of `scene_orbits`.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    orbits : xarray.Dataset
-        As from `scene_orbits`.
-    starts : list
-        Of the orbits, each as in `starts.start_state`.
-
-    Returns
-    -------
-    before, after : ndarray, shape (3, n)
-        x, xdot, udot just before an impact and just before the next one.
-    tau : ndarray, shape (n,)
-        The flights' times (1/omega).
+    The starts are in the form that `starts.start_state` takes.
     """
     state = states_of(orbits)
     before = np.roll(state, 1, axis=1)
@@ -73,36 +68,13 @@ def of_orbits(ball, energy, orbits, starts):
     return before, state, orbits["tau"].values
 
 
-def of_periodic(orbit):
-    """The impacts of one periodic orbit.
-
-    Parameters
-    ----------
-    orbit : xarray.Dataset
-        One of `symmetric_orbits`.
-
-    Returns
-    -------
-    before, after, tau : ndarray
-        As from `of_orbits`.
-    """
+def of_periodic(orbit: xr.Dataset) -> Impacts:
+    """Return `before`, `after` and `tau` of the impacts of one orbit of `symmetric_orbits`."""
     state = states_of(orbit)
     return state, np.roll(state, -1, axis=1), orbit["tau"].values
 
 
-def of_states(ball, states):
-    """The next impacts of states, computed here.
-
-    Parameters
-    ----------
-    ball : Ball
-    states : ndarray, shape (3, n)
-        x, xdot, udot just before an impact.
-
-    Returns
-    -------
-    before, after, tau : ndarray
-        As from `of_orbits`.
-    """
+def of_states(ball: Ball, states: np.ndarray) -> Impacts:
+    """Compute the next impacts of states x, xdot, udot, (3, n): `before`, `after` and `tau`."""
     *after, tau = ball.impact(*states)
     return states, np.array(after), tau

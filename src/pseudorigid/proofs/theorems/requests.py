@@ -2,32 +2,37 @@
 
 from fractions import Fraction
 
+import xarray as xr
+
+from ...dynamics.ball import Ball
 from ...dynamics.variables import states_of
 from ..checks import horseshoe, periodic
-from ..checks.certificate import NotProvedError
-from ..enclosure.surface import Surface
+from ..checks.certificate import Finding, NotProvedError
+from ..enclosure.surface import Exact, Surface
 from ..search import approximate_orbits
-from ..search import horseshoe as horseshoes
-from ..search import periodic as orbits
+from ..search import horseshoe as horseshoe_search
+from ..search import periodic as orbit_search
 from .statements import Theorem
 
 
-def prove_orbit(ball, orbit, energy=None):
+def prove_orbit(
+    ball: Ball | Surface, orbit: xr.Dataset, energy: Exact | None = None
+) -> periodic.Orbit:
     """Prove that a periodic orbit exists, is alone in a box, and of which type it is.
 
     Parameters
     ----------
     ball : Ball or Surface
-        A Ball's k and g are taken as the doubles that they are; a Surface has exact numbers.
+        The doubles k and g of a Ball are taken as exact; a Surface has exact numbers.
     orbit : xarray.Dataset
         One orbit of `symmetric_orbits`: x, xdot, udot on `point`, type.
     energy : int, Fraction, Decimal or str, optional
-        Exact, of a Ball's orbit; otherwise the double in the orbit's attributes.
+        Exact energy of a Ball's orbit; by default the double in the orbit's attributes.
 
     Returns
     -------
     checks.periodic.Orbit
-        Enclosures: points (x, y), impacts, trace; type; radius, the largest of one digit for
+        Enclosures points (x, y), impacts and trace; type; radius, the largest of one digit for
         which the orbit is proved to be the only one.
 
     Raises
@@ -39,39 +44,39 @@ def prove_orbit(ball, orbit, energy=None):
     --------
     >>> from pseudorigid import symmetric_orbits
     >>> from pseudorigid.dynamics.ball import Ball
-    >>> one = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1).isel(orbit=0)
-    >>> prove_orbit(Surface("1/5", "1/25", "1/100"), one).type
+    >>> orbit = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1).isel(orbit=0)
+    >>> prove_orbit(Surface("1/5", "1/25", "1/100"), orbit).type
     'elliptic'
     """
     surface, points, kind = _request(ball, orbit, energy)
-    what = f"the {kind} orbit of period {len(points)} at {surface}"
+    name = f"the {kind} orbit of period {len(points)} at {surface}"
     bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
-    theorem = Theorem(what, what, periodic.check, bounds)
+    theorem = Theorem(name, name, periodic.check, bounds)
     try:
-        text = orbits.propose(surface, points, theorem.of_any_size)
+        text = orbit_search.propose(surface, points, theorem.holds_for_any_radius)
         return theorem.prove(text).parts["orbit"]
     except (NotProvedError, ArithmeticError) as error:
-        raise ValueError(f"{what} cannot be proved: {error}") from None
+        raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
-def prove_horseshoe(ball, orbit, *, side, energy=None):
+def prove_horseshoe(
+    ball: Ball | Surface, orbit: xr.Dataset, *, side: str, energy: Exact | None = None
+) -> tuple[str, Finding]:
     """Prove a horseshoe on a hyperbolic orbit by its outer or inner symmetric connection.
 
     Parameters
     ----------
-    ball : Ball or Surface
-        As for `prove_orbit`.
-    orbit : xarray.Dataset
+    ball, orbit
         As for `prove_orbit`.
     side : {"outer", "inner"}
-        Which unstable branches the connection belongs to, as its first point's lies.
+        The unstable branches of the connection, on this side at the orbit's first point.
     energy : int, Fraction, Decimal or str, optional
         As for `prove_orbit`.
 
     Returns
     -------
     str, checks.certificate.Finding
-        The certificate, and what its checker proved: digits, margins, parts.
+        The certificate, and the result of its checker: digits, margins, parts.
 
     Raises
     ------
@@ -80,29 +85,33 @@ def prove_horseshoe(ball, orbit, *, side, energy=None):
 
     References
     ----------
-    Those of `checks.horseshoe.check`.
+    See `checks.horseshoe.check`.
     """
     if side not in ("outer", "inner"):
         raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
     surface, points, kind = _request(ball, orbit, energy)
     if kind != "hyperbolic":
         raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
-    radius = prove_orbit(ball, orbit, energy).radius
-    bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
-    what = f"the horseshoe at {surface}"
-    theorem = Theorem(what, what, horseshoe.check, bounds | {"window": None, "crossing": None})
-    sign = 1 if side == "outer" else -1
+    bounds = {
+        "surface": surface,
+        "period": len(points),
+        "radius": prove_orbit(ball, orbit, energy).radius,
+        "window": None,
+        "crossing": None,
+        "entropy": Fraction(0),
+    }
+    name = f"the horseshoe at {surface}"
+    theorem = Theorem(name, name, horseshoe.check, bounds)
+    near, sign = approximate_orbits.ball(surface), 1 if side == "outer" else -1
     try:
-        text = horseshoes.search(
-            surface, approximate_orbits.ball(surface), points, theorem.prove, sign
-        )
+        text = horseshoe_search.search(surface, near, points, theorem.prove, sign)
         return text, theorem.prove(text)
     except (NotProvedError, ValueError, ArithmeticError) as error:
-        raise ValueError(f"{what} cannot be proved: {error}") from None
+        raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
 def _request(ball, orbit, energy):
-    """(surface, points (x, y), type) of a request."""
+    """Return the surface, the points (x, y) and the type of a requested orbit."""
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
     if isinstance(ball, Surface):
@@ -111,7 +120,7 @@ def _request(ball, orbit, energy):
         energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
         surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
     near = approximate_orbits.ball(surface)
-    own, given = float(near.energy(*states_of(orbit))[0]), float(surface.energy)
-    if not abs(own - given) <= 1e-6 * (abs(given) + near.g**2 / near.k):
-        raise ValueError(f"the orbit's energy is {own:.6g}, not that of {surface}")
-    return surface, approximate_orbits.chart(near, orbit), str(orbit["type"].item())
+    actual, expected = float(near.energy(*states_of(orbit))[0]), float(surface.energy)
+    if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
+        raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")
+    return surface, approximate_orbits.chart_points(near, orbit), str(orbit["type"].item())

@@ -1,7 +1,10 @@
-"""The stages behind the pictures of the proofs, for any ball and energy."""
+"""Stages behind the pictures of the proofs, for any ball and energy."""
 
 from fractions import Fraction
 
+import xarray as xr
+
+from ...dynamics.ball import Ball
 from ...dynamics.variables import of_type
 from ..enclosure.surface import Surface
 from .pictures import horseshoe_data, twist_data
@@ -9,24 +12,23 @@ from .requests import prove_horseshoe
 from .statements import THEOREMS
 
 
-def scene_horseshoe(ball, energy, periodic, period, type, connection):
-    """The sets of a proved horseshoe on an orbit, by one of its connections.
+def scene_horseshoe(
+    ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, connection: str
+) -> xr.Dataset:
+    """Prove a horseshoe on an orbit, by one of its connections, and tabulate its sets.
 
-    Where there is a theorem about this connection its certificate is used, otherwise one is
+    The certificate is that of the theorem about this connection, if there is one; otherwise it is
     searched.
 
     Parameters
     ----------
     ball : Ball
-        Its k and g are taken as the decimals that they print as.
     energy : float
-        In m omega^2 R^2, taken likewise.
+        This, k and g are taken as the decimals that they print as.
     periodic : xarray.Dataset
         Orbits of this period, as from `symmetric_orbits`.
     period : int
-        Of the orbit.
     type : {"hyperbolic"}
-        Of the orbit.
     connection : {"outer", "inner"}
 
     Returns
@@ -37,7 +39,7 @@ def scene_horseshoe(ball, energy, periodic, period, type, connection):
     Raises
     ------
     ValueError
-        No such orbit, or what `prove_horseshoe` cannot prove.
+        There is no such orbit, or `prove_horseshoe` cannot prove the horseshoe.
 
     References
     ----------
@@ -56,21 +58,21 @@ def scene_horseshoe(ball, energy, periodic, period, type, connection):
     surface = Surface(*_exact(ball.k, ball.g, energy))
     theorem = THEOREMS[f"horseshoe-{connection}"]
     if (surface, period) == (theorem.bounds["surface"], theorem.bounds["period"]):
-        found = theorem.prove(theorem.text())
+        finding = theorem.prove(theorem.text())
     else:
-        _, found = prove_horseshoe(surface, orbit, side=connection)
-    return horseshoe_data(surface, found)
+        _, finding = prove_horseshoe(surface, orbit, side=connection)
+    return horseshoe_data(surface, finding)
 
 
-def scene_twist(ball, energy, energies):
-    """Proved twists of the elliptic fixed point at some energies.
+def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
+    """Prove and tabulate twists of the elliptic fixed point at some energies.
 
     Parameters
     ----------
     ball : Ball
         Its k and g are taken as the decimals that they print as.
     energy : float
-        Not used: the energies are those of the list.
+        Not used.
     energies : list of float
         Taken as the decimals that they print as.
 
@@ -82,7 +84,7 @@ def scene_twist(ball, energy, energies):
     Raises
     ------
     ValueError
-        An energy at which the twist is not proved.
+        The twist is not proved at one of the energies.
 
     References
     ----------
@@ -98,6 +100,6 @@ def scene_twist(ball, energy, energies):
     return twist_data(*_exact(ball.k, ball.g), _exact(*energies))
 
 
-def _exact(*values):
-    """The decimals that floats print as, as Fractions."""
+def _exact(*values: float) -> list[Fraction]:
+    """Convert floats to the decimals that they print as."""
     return [Fraction(str(value)) for value in values]

@@ -1,56 +1,61 @@
-"""How a certificate of each theorem is sought, by what checks it."""
+"""The search for a certificate of each theorem, by the theorem's checker."""
 
 from fractions import Fraction
 
 from ..checks import horseshoe, jump, periodic, twist
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
-from ..search import horseshoe as horseshoes
-from ..search import jump as jumps
-from ..search import periodic as orbits
-from ..search import twist as twists
+from ..search import horseshoe as horseshoe_search
+from ..search import jump as jump_search
+from ..search import periodic as orbit_search
+from ..search import twist as twist_search
+from .statements import Theorem
 
 PLANS = {
-    "horseshoe-outer": horseshoes.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
-    "horseshoe-inner": horseshoes.Plan(side=-1, steps=177, size=1e-10, room=1.12),
+    "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
+    "horseshoe-inner": horseshoe_search.Plan(side=-1, steps=177, size=1e-10, room=1.12),
 }
 ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
 SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
+JUMP_RADIUS = "1e-28"  # error of the jump set's points
 
 
-def _orbit(theorem):
-    surface, period, kind = (theorem.bounds[name] for name in ("surface", "period", "type"))
-    return orbits.propose(
-        surface, approximate_orbits.points(surface, period, kind), theorem.of_any_size
-    )
+def _points(theorem: Theorem, kind: str) -> list[tuple[float, float]]:
+    return approximate_orbits.points(theorem.bounds["surface"], theorem.bounds["period"], kind)
 
 
-def _twist(theorem):
-    surface, period = theorem.bounds["surface"], theorem.bounds["period"]
-    points = approximate_orbits.points(surface, period, "elliptic")
-    return twists.propose(surface, points, theorem.of_any_size)
+def _orbit(theorem: Theorem) -> str:
+    points = _points(theorem, theorem.bounds["type"])
+    return orbit_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
 
 
-def _zero(theorem):
+def _twist(theorem: Theorem) -> str:
+    points = _points(theorem, "elliptic")
+    return twist_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
+
+
+def _zero(theorem: Theorem) -> str:
     ball = theorem.bounds["k"], theorem.bounds["g"]
     (start,) = approximate_orbits.points(Surface(*ball, ZERO[0]), 1, "elliptic")
-    return twists.propose_zero(*ball, *ZERO, start, theorem.of_any_size)
+    return twist_search.propose_zero(*ball, *ZERO, start, theorem.holds_for_any_radius)
 
 
-def _horseshoe(theorem):
-    surface, period = theorem.bounds["surface"], theorem.bounds["period"]
-    points, plan = approximate_orbits.points(surface, period, "hyperbolic"), PLANS[theorem.name]
-    return horseshoes.propose(
-        surface, approximate_orbits.ball(surface), points, plan, theorem.prove
-    )
+def _horseshoe(theorem: Theorem) -> str:
+    surface, points = theorem.bounds["surface"], _points(theorem, "hyperbolic")
+    ball = approximate_orbits.ball(surface)
+    return horseshoe_search.propose(surface, ball, points, PLANS[theorem.name], theorem.prove)
+
+
+def _jump(theorem: Theorem) -> str:
+    return jump_search.propose(theorem.bounds["surface"], SPEED, JUMP_RADIUS)
 
 
 SEARCHES = {
     periodic.check: _orbit,
-    periodic.check_only_fixed_point: lambda it: orbits.propose_only_fixed_point(**it.bounds),
+    periodic.check_only_fixed_point: lambda it: orbit_search.propose_only_fixed_point(**it.bounds),
     twist.check: _twist,
     twist.check_zero: _zero,
     horseshoe.check: _horseshoe,
-    jump.check: lambda it: jumps.propose(it.bounds["surface"], SPEED, "1e-28"),
-    jump.check_smooth: lambda it: jumps.propose_smooth(it.bounds["k"], it.bounds["g"]),
+    jump.check: _jump,
+    jump.check_smooth: lambda it: jump_search.propose_smooth(it.bounds["k"], it.bounds["g"]),
 }

@@ -1,4 +1,4 @@
-"""The theorems at the paper's numbers, k = 1/5 and g = 1/25: how each is checked and searched.
+"""The theorems at the paper's numbers, k = 1/5 and g = 1/25, with their checkers.
 
 result = THEOREMS["horseshoe-outer"].check()
 result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[0.018... "]}
@@ -14,52 +14,52 @@ import pseudorigid
 
 from ...dynamics import paper
 from ..checks import horseshoe, jump, periodic, twist
-from ..checks.certificate import NotProvedError
+from ..checks.certificate import Finding, NotProvedError
+from ..checks.periodic import Window
 from ..enclosure.surface import Surface
 
 K, G = (Fraction(str(paper.BALL[name])) for name in "kg")
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
 FIGURE_6 = [str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]]
-DIGITS = 30  # of an enclosure as text, at most: as many as certificates state
+MOST_DIGITS = 30  # of an enclosure as text: as many as certificates state
 
 
 @dataclass(frozen=True)
 class Result:
-    """What checking a theorem's certificate gave.
+    """The result of checking a theorem's certificate.
 
     Attributes
     ----------
     name, statement, certificate : str
         Of the theorem, and its certificate's file.
     reason : str
-        Why not; empty where it is proved.
+        Why it is not proved; empty if it is.
     digits : dict of str to str
         Enclosures, with as many digits as are proved.
     margins : dict of str to float
         By how much the inequalities hold.
     seconds : float
-        That it took.
+        Duration of the check.
     """
 
     name: str
     statement: str
     certificate: str
     reason: str
-    digits: dict
-    margins: dict
+    digits: dict[str, str]
+    margins: dict[str, float]
     seconds: float
 
     @property
-    def verdict(self):
+    def verdict(self) -> str:
         """Either "proved" or "not proved"."""
         return "not proved" if self.reason else "proved"
 
-    def line(self):
-        """All of it in one line."""
-        found = ", ".join(f"{name} = {value}" for name, value in self.digits.items())
+    def line(self) -> str:
+        """Format the whole result in one line."""
+        digits = ", ".join(f"{name} = {value}" for name, value in self.digits.items())
         margins = ", ".join(f"{name} {value:.3g}" for name, value in self.margins.items())
-        parts = [f"{self.certificate}: {self.statement}"]
-        parts += [found] if found else []
+        parts = [f"{self.certificate}: {self.statement}", digits]
         parts += [f"margins: {margins}"] if margins else []
         parts += [f"{self.seconds:.2f} s", self.reason, self.verdict]
         return "; ".join(part for part in parts if part)
@@ -80,57 +80,33 @@ class Theorem:
 
     name: str
     statement: str
-    checker: Callable
+    checker: Callable[..., Finding]
     bounds: dict
 
     @property
-    def certificate(self):
-        """The name of the certificate's file in the folder `certificates`."""
+    def certificate(self) -> str:
+        """Name of the certificate's file in the folder `certificates`."""
         return f"{self.name}.toml"
 
-    def text(self):
-        """The certificate as it stands in the package."""
+    def text(self) -> str:
+        """Read the package's own certificate."""
         folder = resources.files(__package__.rpartition(".")[0]) / "certificates"
         data = (folder / self.certificate).read_bytes()
         pseudorigid.note_loaded(folder / self.certificate, data)
         return data.decode("utf-8")
 
-    def prove(self, text):
-        """What the checker finds of a certificate.
-
-        Parameters
-        ----------
-        text : str
-
-        Returns
-        -------
-        Finding
-
-        Raises
-        ------
-        NotProvedError
-            With the reason.
-        """
+    def prove(self, text: str) -> Finding:
+        """Run the checker on a certificate; raises NotProvedError."""
         return self.checker(text, **self.bounds)
 
-    def check(self, text=None):
-        """The verdict on a certificate.
-
-        Parameters
-        ----------
-        text : str, optional
-            By default the package's own certificate.
-
-        Returns
-        -------
-        Result
-        """
+    def check(self, text: str | None = None) -> Result:
+        """Return the verdict on a certificate, by default the package's own."""
         begin = time.perf_counter()
         digits, margins, reason = {}, {}, ""
         try:
-            found = self.prove(self.text() if text is None else text)
-            digits = {name: value.str(DIGITS) for name, value in found.digits.items()}
-            margins = found.margins
+            finding = self.prove(self.text() if text is None else text)
+            digits = {name: value.str(MOST_DIGITS) for name, value in finding.digits.items()}
+            margins = finding.margins
         except FileNotFoundError:
             reason = "there is no such certificate"
         except NotProvedError as error:
@@ -138,17 +114,8 @@ class Theorem:
         seconds = time.perf_counter() - begin
         return Result(self.name, self.statement, self.certificate, reason, digits, margins, seconds)
 
-    def of_any_size(self, text):
-        """Whether the checker takes a certificate whatever the radius that it claims.
-
-        Parameters
-        ----------
-        text : str
-
-        Returns
-        -------
-        bool
-        """
+    def holds_for_any_radius(self, text: str) -> bool:
+        """Whether the checker accepts a certificate whatever radius it claims."""
         try:
             self.checker(text, **self.bounds | {"radius": Fraction(0)})
         except NotProvedError:
@@ -156,8 +123,8 @@ class Theorem:
         return True
 
 
-def search_certificate(name):
-    """A new certificate of a theorem: not proved, but proposed to its checker.
+def search_certificate(name: str) -> str:
+    """Search a new certificate of a theorem, which its checker has yet to prove.
 
     Parameters
     ----------
@@ -171,7 +138,7 @@ def search_certificate(name):
     Raises
     ------
     KeyError
-        Where there is no such theorem.
+        There is no such theorem.
 
     Examples
     --------
@@ -185,16 +152,14 @@ def search_certificate(name):
     return SEARCHES[theorem.checker](theorem)
 
 
-def _among(window):
-    """A window as text."""
+def _region(window: Window) -> str:
+    """Format a window as inequalities of x and xdot."""
     sides = zip(("x", "xdot"), window, strict=True)
     return " and ".join(f"{float(a):g} < {name} < {float(b):g}" for name, (a, b) in sides)
 
 
-def _window(*numbers):
-    """((x low, x high), (xdot low, xdot high)) as Fractions."""
-    low, high, slow, fast = map(Fraction, numbers)
-    return (low, high), (slow, fast)
+def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
+    return (Fraction(x_low), Fraction(x_high)), (Fraction(xdot_low), Fraction(xdot_high))
 
 
 WINDOW = _window(*FIGURE_6)
@@ -202,32 +167,32 @@ WINDOW = _window(*FIGURE_6)
 
 @dataclass(frozen=True)
 class _Orbit:
-    """A periodic orbit of the statements: the only one near its points, one in the window."""
+    """A periodic orbit of the statements, the only one near its points, with one in the window."""
 
     surface: Surface
     period: int
     type: str
     radius: Fraction
-    window: tuple
+    window: Window
 
-    def theorem(self, name):
-        """That it exists."""
+    def existence(self, name: str) -> Theorem:
+        """State that the orbit exists."""
         article = "an" if self.type[0] in "ei" else "a"
         statement = (
             f"at E = {self.surface.energy} there is {article} {self.type} orbit of period "
-            f"{self.period} with a point in {_among(self.window)}; no other of this period "
+            f"{self.period} with a point in {_region(self.window)}; no other of this period "
             f"has its points, in order, within {float(self.radius):g} of these in x and in y"
         )
         return Theorem(name, statement, periodic.check, vars(self))
 
-    def twist(self, name):
-        """That invariant curves surround it."""
-        what = "fixed point" if self.period == 1 else f"orbit of period {self.period}"
+    def invariant_curves(self, name: str) -> Theorem:
+        """State that invariant curves surround the orbit."""
+        kind = "fixed point" if self.period == 1 else f"orbit of period {self.period}"
         power = "P" if self.period == 1 else f"P^{self.period}"
         statement = (
             f"at E = {self.surface.energy} closed curves, invariant under {power}, surround the "
-            f"elliptic {what} with a point in {_among(self.window)} in each of its neighbourhoods: "
-            "it is stable for all time, and they fill a positive area"
+            f"elliptic {kind} with a point in {_region(self.window)} in each of its "
+            "neighbourhoods: it is stable for all time, and they fill a positive area"
         )
         bounds = {name: value for name, value in vars(self).items() if name != "type"}
         return Theorem(name, statement, twist.check, bounds)
@@ -248,10 +213,10 @@ _ORBITS = {
 }  # fmt: skip
 
 
-def _horseshoe_theorem(side, crossing, entropy):
+def _horseshoe_theorem(side: str, crossing: tuple[str, str], entropy: str) -> Theorem:
     low, high = map(Fraction, crossing)
     statement = (
-        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in {_among(WINDOW)} "
+        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in {_region(WINDOW)} "
         f"has a transversal connection, {side}, that passes y = 0 at {float(low):g} < x < "
         f"{float(high):g}, and P has a uniformly hyperbolic invariant set that contains both, "
         f"conjugate to a mixing subshift of entropy above {float(entropy):g}"
@@ -268,7 +233,7 @@ _JUMPS = {
     "jump": Fraction("0.27"),
 }  # fmt: skip
 _THEOREMS = (
-    *(orbit.theorem(name) for name, orbit in _ORBITS.items()),
+    *(orbit.existence(name) for name, orbit in _ORBITS.items()),
     Theorem(
         "one-fixed-point",
         "at each energy above the least, -g^2/(2k), up to k/2 - g, eq. (31), the map has exactly "
@@ -278,11 +243,11 @@ _THEOREMS = (
     ),
     _horseshoe_theorem("outer", ("0.326", "0.327"), "0.0185"),
     _horseshoe_theorem("inner", ("0.187", "0.188"), "0.0083"),
-    _ORBITS["fixed-point"].twist("twist-fixed-point"),
-    _ORBITS["fixed-point-low"].twist("twist-fixed-point-low"),
-    _ORBITS["six-elliptic"].twist("twist-six"),
-    _ORBITS["ten-elliptic"].twist("twist-ten"),
-    _ORBITS["twelve-elliptic"].twist("twist-twelve"),
+    _ORBITS["fixed-point"].invariant_curves("twist-fixed-point"),
+    _ORBITS["fixed-point-low"].invariant_curves("twist-fixed-point-low"),
+    _ORBITS["six-elliptic"].invariant_curves("twist-six"),
+    _ORBITS["ten-elliptic"].invariant_curves("twist-ten"),
+    _ORBITS["twelve-elliptic"].invariant_curves("twist-twelve"),
     Theorem(
         "twist-zero",
         "as E rises through the band below, the fixed point's twist changes from positive to "
