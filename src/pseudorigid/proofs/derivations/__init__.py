@@ -1,6 +1,6 @@
-"""The paper's formulas derived again by computer algebra: which hold, and which when corrected.
+"""Derivations of the paper's formulas by computer algebra.
 
-Each of FORMULAS is derived by the function of that name in `model`, `motion` or `forms`.
+Each formula in FORMULAS is derived by the function of that name in `model`, `motion` or `forms`.
 """
 
 import numpy as np
@@ -45,15 +45,15 @@ FORMULAS = {
 }
 
 
-def derivations(ball, energy):
-    """Every formula of the paper that can be derived, and whether it holds.
+def derivations(ball, energy: float) -> xr.Dataset:
+    """Derive every formula of the paper that can be derived, and say whether it holds.
 
     Parameters
     ----------
     ball : Ball
         Not used: the formulas hold for every ball, or for none.
     energy : float
-        Not used either.
+        Not used.
 
     Returns
     -------
@@ -70,20 +70,22 @@ def derivations(ball, energy):
         for module, names in FORMULAS.items()
         for name in names
     }
-    said = {
+    meanings = {
         "printed": "whether the formula holds as printed; -1 where the paper prints none",
         "corrected": "whether it holds corrected; -1 where it needs no correction",
         "value": "a number that comes with the formula",
     }
     data = {}
-    for name, what in said.items():
+    for name, meaning in meanings.items():
         numbers = [_number(getattr(row, name)) for row in table.values()]
-        data[name] = ("formula", numbers, attributes_of(what))
+        data[name] = ("formula", numbers, attributes_of(meaning))
     names = np.array(list(table), dtype=object)
     label = ("formula", names, {"long_name": "function of this package that derives it"})
     return xr.Dataset(data, coords={"formula": label})
 
 
-def _number(found):
-    """A number, or 1, 0 and -1 for true, false and None."""
-    return found if isinstance(found, float) else -1 if found is None else int(found)
+def _number(result: float | bool | None) -> float | int:
+    """Convert True, False and None to 1, 0 and -1; leave a number as it is."""
+    if isinstance(result, float):
+        return result
+    return -1 if result is None else int(result)

@@ -1,4 +1,4 @@
-"""Jacobian, exponents, one-form and area: the paper's equations (32)-(42)."""
+"""Jacobian, exponents, one-form and area: equations (32)-(42) of the paper."""
 
 import sympy as sp
 
@@ -7,28 +7,28 @@ from .symbols import Formula, action, b, c, energy, flight, g, k, rebound, tau, 
 
 DIRECTION = sp.symbols("dx dv dw", real=True)
 _DIGITS = 40
+_SMALL = sp.Float("1e-25")  # differences that are only rounding
 
 
-def tangent_map():
-    """The tangent map of one impact and flight on DIRECTION, from f = 0 by implicit functions."""
+def tangent_map() -> list[sp.Expr]:
+    """Tangent map of one impact and flight on DIRECTION, by implicit differentiation of f = 0."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)
     gap = position + strain
-    old = (x, v, w)
-    along = [(a, d) for a, d in zip(old, DIRECTION, strict=True)]
-    dtau = -sum(gap.diff(a) * d for a, d in along) / gap.diff(tau)
+    pairs = list(zip((x, v, w), DIRECTION, strict=True))
+    dtau = -sum(gap.diff(a) * d for a, d in pairs) / gap.diff(tau)
     new = (-strain, speed + g * tau, strain.diff(tau))
-    return [sum(n.diff(a) * d for a, d in along) + n.diff(tau) * dtau for n in new]
+    return [sum(n.diff(a) * d for a, d in pairs) + n.diff(tau) * dtau for n in new]
 
 
-def jacobian_matrix():
-    """Its matrix, the Jacobian (33)."""
+def jacobian_matrix() -> sp.Matrix:
+    """Jacobian matrix (33) of the map."""
     rows = map(sp.expand, tangent_map())
     return sp.Matrix([[row.coeff(d) for d in DIRECTION] for row in rows])
 
 
-def some_flights():
-    """Values of x, v, w, tau, k and g of flights that end in an impact, exact."""
+def _flight_examples():
+    """Yield exact values of x, v, w, tau, k and g of flights that end in an impact."""
     for numbers in ((31, -7, 42, 260), (-12, 35, 9, 117), (25, 18, -3, 571)):
         values = {k: sp.Rational(1, 5), tau: sp.Rational(numbers[3], 100)}
         pairs = zip((x, v, w), numbers, strict=False)
@@ -38,34 +38,34 @@ def some_flights():
 
 
 def jacobian() -> Formula:
-    """(33) from the nine linear equations that differentiating (28) gives."""
+    """Derive (33) from the nine linear equations that differentiating (28) gives."""
     (x1, v1, w1), lines = map_residuals(-1)
     lines = sp.Matrix(lines)
-    nine = -lines.jacobian((x1, v1, w1)).LUsolve(lines.jacobian((x, v, w)))
+    implicit = -lines.jacobian((x1, v1, w1)).LUsolve(lines.jacobian((x, v, w)))
     speed, rate = rebound(v, w)
     strain = flight(x, speed, rate, tau)[1]
     after = {x1: -strain, v1: speed + g * tau, w1: strain.diff(tau)}
     direct = jacobian_matrix()
     agree = True
-    for values in some_flights():
+    for values in _flight_examples():
         end = {name: value.subs(values).evalf(_DIGITS) for name, value in after.items()}
-        apart = (nine.subs(values | end) - direct.subs(values)).evalf(_DIGITS)
-        agree &= max(abs(a) for a in apart) < sp.Float("1e-25")
+        difference = (implicit.subs(values | end) - direct.subs(values)).evalf(_DIGITS)
+        agree &= max(abs(a) for a in difference) < _SMALL
     return Formula(bool(agree))
 
 
 def exponents() -> Formula:
-    """(32), of a constant Jacobian e^rate: without 1/i the limit is infinite."""
+    """Check (32) on a constant Jacobian e^rate: without 1/i the limit is infinite."""
     i, rate = sp.symbols("i rate", positive=True)
     growth = i * rate
     return Formula(sp.limit(growth, i, sp.oo) == rate, sp.limit(growth / i, i, sp.oo) == rate)
 
 
 def determinants() -> Formula:
-    """The Jacobian's determinant is s/s' in (x, xdot, udot), s = xdot + udot, and 1 in (x, y).
+    """Derive the Jacobian's determinants: s/s' in (x, xdot, udot), s = xdot + udot; 1 in (x, y).
 
-    The first telescopes along an orbit, so the three exponents add up to 0; the second makes two
-    of them opposite. So the third is 0.
+    The first telescopes along an orbit, so the three exponents add up to 0. The second makes two of
+    them opposite, so the third is 0.
     """
     matrix = jacobian_matrix()
     slope = sp.Matrix([[energy(x, v, w).diff(a) for a in (x, v, w)]])
@@ -73,19 +73,19 @@ def determinants() -> Formula:
     speed, rate = rebound(v, w)
     after = speed + g * tau + flight(x, speed, rate, tau)[1].diff(tau)
     good = True
-    for values in some_flights():
+    for values in _flight_examples():
         numbers = matrix.subs(values).evalf(_DIGITS)
         ratio = ((v + w) / after).subs(values).evalf(_DIGITS)
         basis = sp.Matrix.hstack(*slope.subs(values).evalf(_DIGITS).nullspace())
         flat = chart.subs(values).evalf(_DIGITS)
         area = (flat * numbers * basis).det() / (flat * basis).det()
-        good &= abs(numbers.det() - ratio) < sp.Float("1e-25")
-        good &= abs(area - 1) < sp.Float("1e-25")
+        good &= abs(numbers.det() - ratio) < _SMALL
+        good &= abs(area - 1) < _SMALL
     return Formula(bool(good))
 
 
 def one_form() -> Formula:
-    """(34)-(39): the form on the section, and that the impact keeps it."""
+    """Derive (34)-(39): the form on the section, and that the impact keeps it."""
     velocity, rate, position, strain = sp.symbols("xd ud X U", real=True)
     lagrangian = velocity**2 / 2 + k * rate**2 / 2 + g * position - k * strain**2 / 2
     form = lagrangian.diff(velocity), lagrangian.diff(rate)
@@ -96,10 +96,10 @@ def one_form() -> Formula:
 
 
 def area() -> Formula:
-    """(40)-(42) although flight times vary (Poincare and Cartan).
+    """Derive (40)-(42) although flight times vary (Poincare and Cartan).
 
-    The action's differential is xdot dx + k udot du between the ends plus tau dE, whatever is
-    varied; at fixed energy the form's change is exact, so its differential is kept.
+    The action's differential is xdot dx + k udot du between the ends plus tau dE. At fixed energy
+    the form's change is therefore exact, and its differential is kept.
     """
     position, strain = flight(x, b, c, tau)
     speed, rate = position.diff(tau), strain.diff(tau)
@@ -115,7 +115,7 @@ def area() -> Formula:
 
 
 def reversible() -> Formula:
-    """The reversor (x, v, w) -> (x, -b, -c) undoes a flight, so P^-1 = R P R."""
+    """Derive that the reversor (x, v, w) -> (x, -b, -c) undoes a flight, so that P^-1 = R P R."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)
     end = -strain, speed + g * tau, strain.diff(tau)

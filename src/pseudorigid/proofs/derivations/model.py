@@ -1,4 +1,4 @@
-"""The model: equations of motion, inertia, stiffness, scaling, impulse. Paper, section 2."""
+"""The model of section 2: equations of motion, inertia, stiffness, scaling and impulse."""
 
 import sympy as sp
 
@@ -6,17 +6,17 @@ from .symbols import E0, EV0, GRAVITY, Formula, M, R, T, energy, g, k, rebound, 
 
 
 def equations_of_motion() -> Formula:
-    """(10) between impacts, from the Lagrangian (1)-(3)."""
+    """Derive (10) between impacts from the Lagrangian (1)-(3)."""
     position, strain = sp.Function("X")(T), sp.Function("U")(T)
     kinetic = M * position.diff(T) ** 2 / 2 + E0 * strain.diff(T) ** 2 / 2
     potential = -M * GRAVITY * position + EV0 * strain**2 / 2
-    found = sp.calculus.euler.euler_equations(kinetic - potential, [position, strain], [T])
+    equations = sp.calculus.euler.euler_equations(kinetic - potential, [position, strain], [T])
     printed = [M * position.diff(T, 2) - M * GRAVITY, E0 * strain.diff(T, 2) + EV0 * strain]
-    return Formula(zeros(e.lhs - e.rhs + p for e, p in zip(found, printed, strict=True)))
+    return Formula(zeros(e.lhs - e.rhs + p for e, p in zip(equations, printed, strict=True)))
 
 
 def euler_tensor() -> Formula:
-    """(4): T = integral of rho (X3 udot)^2/2 has a component, not the trace. Value: solid k."""
+    """Check (4): the integral of rho X3^2 is a component, not the trace. Value: k, solid ball."""
     r, theta, phi = sp.symbols("r theta phi", positive=True)
 
     def over_ball(f, power):
@@ -34,17 +34,17 @@ def euler_tensor() -> Formula:
 
 
 def shell() -> Formula:
-    """(5): k = 1 for a shell as printed; a third, which is the value, by the component."""
+    """Check (5): k = 1 for a shell as printed; 1/3, the value, by the component."""
     theta, phi = sp.symbols("theta phi", positive=True)
     ranges = ((theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
     mass = sp.integrate(R**2 * sp.sin(theta), *ranges)
     component = sp.integrate((R * sp.cos(theta)) ** 2 * R**2 * sp.sin(theta), *ranges)
-    found = sp.simplify(component / (mass * R**2))
-    return Formula(found == 1, found == sp.Rational(1, 3), float(found))
+    inertia = sp.simplify(component / (mass * R**2))
+    return Formula(inertia == 1, inertia == sp.Rational(1, 3), float(inertia))
 
 
 def uncoupled() -> Formula:
-    """Without Poisson's ratio, and only so, a force along an axis strains that axis alone."""
+    """Check that only at a Poisson's ratio of 0 a force along an axis strains that axis alone."""
     young, nu = sp.symbols("Y nu", positive=True)
     lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
     moduli = sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0))
@@ -54,10 +54,10 @@ def uncoupled() -> Formula:
 
 
 def modes() -> Formula:
-    """Of the six strain modes an axial force excites two; value: how many.
+    """Count, as the value, which of the six strain modes an axial force excites: two.
 
-    Strains are (11, 22, 33) and the three shears, for which the inertia is the same. What a force
-    along 3 excites is spanned by its direction and what the stiffness makes of that.
+    Strains are (11, 22, 33) and the three shears, which all have the same inertia. A force along 3
+    excites the span of its direction and the images of that under powers of the stiffness.
     """
     young, nu = sp.symbols("Y nu", positive=True)
     lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
@@ -76,7 +76,7 @@ def modes() -> Formula:
 
 
 def softness() -> Formula:
-    """Young's modulus in units of rho g R, the value, that g = 0.04 and k = 1/5 ask for."""
+    """Compute, as the value, Young's modulus in units of rho g R for g = 0.04 and k = 1/5."""
     density, young = sp.symbols("rho Y", positive=True)
     volume = 4 * sp.pi * R**3 / 3
     omega2 = young * volume / (k * density * volume * R**2)  # (16) with (5)
@@ -86,7 +86,7 @@ def softness() -> Formula:
 
 
 def impulse() -> Formula:
-    """(13) from (11) and (12)."""
+    """Derive (13) from (11) and (12)."""
     before_x, before_u, p = sp.symbols("xm um p", real=True)
     inertia = k * M * R**2
     after = before_x - p / M, before_u - R * p / inertia
@@ -97,14 +97,14 @@ def impulse() -> Formula:
 
 
 def impulse_without_stiffness() -> Formula:
-    """(13) has the stiffness EV0 neither in it nor in what it follows from."""
+    """Check that (13) contains no stiffness EV0."""
     before_x, before_u = sp.symbols("xm um", real=True)
     printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
     return Formula(EV0 not in printed.free_symbols and impulse().printed)
 
 
 def jump_conditions() -> Formula:
-    """(14) and (25): energy kept, contact speed reversed, an involution."""
+    """Derive (14) and (25): energy kept, contact speed reversed, an involution."""
     after = rebound(v, w)
     printed = (
         (1 - k) / (1 + k) * v - 2 * k / (1 + k) * w,
@@ -121,7 +121,7 @@ _FORCE, _IMPULSE = _MASS * _LENGTH / _TIME**2, _MASS * _LENGTH / _TIME
 
 
 def impulsive_forces() -> Formula:
-    """(9), by dimensions: p is an impulse, so p without a delta is no force."""
+    """Check (9) by dimensions: p is an impulse, so p without a delta is no force."""
     delta = 1 / _TIME
     multiplier = sp.cancel(_FORCE / delta)  # of the first line's last member, -p delta
     # the slopes of phi_2 = x + R u and the forces conjugate to x and u
@@ -132,19 +132,19 @@ def impulsive_forces() -> Formula:
 
 
 def scaled_impulse() -> Formula:
-    """(24), by dimensions and from (10) with the delta of the scaled time."""
+    """Check (24) by dimensions and from (10) with the delta of the scaled time."""
     rate, p = sp.symbols("omega p", positive=True)
     omega = 1 / _TIME
     scaled = p * rate / (M * R * rate**2)  # delta(t) = omega delta(omega t)
-    found = []
+    holds = []
     for power in (2, 1):
         pure = sp.cancel(_IMPULSE / (_MASS * omega**power * _LENGTH)) == 1
-        found.append(pure and zero(scaled - p / (M * rate**power * R)))
-    return Formula(*found)
+        holds.append(pure and zero(scaled - p / (M * rate**power * R)))
+    return Formula(*holds)
 
 
 def scaling() -> Formula:
-    """(15)-(20): two numbers are left; and the unit of length is free, so that one of them is."""
+    """Derive (15)-(20): two numbers are left, and one of them is free with the unit of length."""
     rate, position, strain, unit = sp.symbols("omega X U L", positive=True)
     dx, du = sp.symbols("dX dU", real=True)
     inertia = k * M * R**2
@@ -156,7 +156,7 @@ def scaling() -> Formula:
     )
     scaled = dx**2 / 2 + k * du**2 / 2 + g * position - k * strain**2 / 2
     scaled = scaled.subs(g, GRAVITY / (rate**2 * R))
-    big = {x: unit * x, v: unit * v, w: unit * w, g: unit * g}
+    scaled_up = {x: unit * x, v: unit * v, w: unit * w, g: unit * g}
     whole = energy(x, v, w)
-    free = whole.subs(big, simultaneous=True) - unit**2 * whole
+    free = whole.subs(scaled_up, simultaneous=True) - unit**2 * whole
     return Formula(zero(lagrangian / (M * rate**2 * R**2) - scaled) and zero(free))

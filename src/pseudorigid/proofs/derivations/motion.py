@@ -1,4 +1,4 @@
-"""Flight, map, energy and bounds: the paper's equations (26)-(31)."""
+"""Flight, map, energy and bounds: equations (26)-(31) of the paper."""
 
 import sympy as sp
 
@@ -7,7 +7,7 @@ from .symbols import Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w,
 
 
 def flights() -> Formula:
-    """(26) and (27)."""
+    """Derive (26) and (27)."""
     position, strain = flight(x, b, c, T)
     start = [position, position.diff(T), strain, strain.diff(T)]
     conditions = [position.diff(T, 2) - g, strain.diff(T, 2) + strain]
@@ -18,7 +18,7 @@ def flights() -> Formula:
 
 
 def flow() -> Formula:
-    """The flow between impacts keeps dx ^ dxdot + k du ^ dudot."""
+    """Derive that the flow between impacts keeps dx ^ dxdot + k du ^ dudot."""
     start = position, strain, speed, rate = sp.symbols("X U xd ud", real=True)
     end = sp.Matrix([
         position + speed * T + g * T**2 / 2,
@@ -33,7 +33,7 @@ def flow() -> Formula:
 
 
 def map_residuals(sign):
-    """(28) as residuals of (x, v, w) -> (x1, v1, w1), with this sign in its first line."""
+    """Return x1, v1, w1 and (28) as residuals in them, with this sign in its first line."""
     x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)
     first = (1 - k) / (1 + k) * v + sign * 2 * k / (1 + k) * w
     angle = (v1 - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g
@@ -46,22 +46,22 @@ def map_residuals(sign):
 
 
 def impact_map() -> Formula:
-    """(28): one sign."""
+    """Derive (28), with the other sign in its first line."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)
-    found = []
+    holds = []
     for sign in (1, -1):
         (x1, v1, w1), lines = map_residuals(sign)
         after = {v1: speed + g * tau, w1: strain.diff(tau)}
         # the first line is about the centre, the others about the strain, u = -x at an impact
         places = (position, -strain, -strain)
         pairs = zip(lines, places, strict=True)
-        found.append(zeros(line.subs(x1, place).subs(after) for line, place in pairs))
-    return Formula(*found)
+        holds.append(zeros(line.subs(x1, place).subs(after) for line, place in pairs))
+    return Formula(*holds)
 
 
 def conserved_energy() -> Formula:
-    """(29): kept by the flight, and an ellipsoid."""
+    """Derive (29): the flight keeps the energy, and its surface is an ellipsoid."""
     position, strain = flight(x, b, c, tau)
     whole = position.diff(tau) ** 2 / 2 + k * strain.diff(tau) ** 2 / 2
     whole += -g * position + k * strain**2 / 2
@@ -70,19 +70,19 @@ def conserved_energy() -> Formula:
     return Formula(zero(whole - energy(x, b, c)) and convex)
 
 
-def _largest():
-    """The largest x of an energy surface."""
+def _largest_x():
+    """Largest x on an energy surface."""
     return g / k + sp.sqrt(2 * LEVEL / k + g**2 / k**2)
 
 
 def bound() -> Formula:
-    """(31) keeps x below 1 where g < k, and not where g > k; value: at k = 0.2, g = 0.04.
+    """Check that (31) keeps x below 1 if g < k, and not if g > k; value: at k = 0.2, g = 0.04.
 
-    (30) is a product that is below zero between x = 2 g/k - 1 and x = 1, not for all x < 1.
+    The product (30) is negative between x = 2 g/k - 1 and x = 1, not for all x < 1.
     """
     potential = k * x**2 / 2 - g * x
     limit = k / 2 - g
-    largest = _largest()
+    largest = _largest_x()
     follows = zero(potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k))
     follows = follows and zero(potential.subs(x, largest) - LEVEL)
     more = sp.symbols("more", positive=True)
@@ -94,10 +94,10 @@ def bound() -> Formula:
 
 
 def bound_in_flight() -> Formula:
-    """(6) in flight as well: the amplitude of u is at most the largest x at an impact."""
+    """Derive (6) in flight as well: the amplitude of u is at most the largest x at an impact."""
     square = sp.solve(energy(x, b, c) - LEVEL, c)[0] ** 2 + x**2
     strain = flight(x, b, c, T)[1]
-    largest = _largest()
+    largest = _largest_x()
     conditions = [
         square - (2 * (LEVEL + g * x) - b**2) / k,
         2 * (LEVEL + g * largest) / k - largest**2,
@@ -107,7 +107,7 @@ def bound_in_flight() -> Formula:
 
 
 def smooth() -> Formula:
-    """The energy up to which no flight can touch the floor; value: at k = 0.2, g = 0.04.
+    """Derive the energy up to which no flight can touch the floor; value: at k = 0.2, g = 0.04.
 
     A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
     """
@@ -119,10 +119,10 @@ def smooth() -> Formula:
 
 
 def contact_speed() -> Formula:
-    """(8) and (22): f' >= 0 where the gap closes, and f' = 0 is possible: a grazing impact.
+    """Check (8) and (22): f' >= 0 where the gap closes, and f' = 0 is possible.
 
-    The gap x + u is below zero before, so its slope at zero is not negative; on the rim v + w = 0
-    there are states of every energy above the lowest, so that equality occurs.
+    The gap x + u is negative before, so its slope at zero is not negative. The rim v + w = 0 has
+    states of every energy above the lowest, so that equality occurs: a grazing impact.
     """
     speed = sp.solve(energy(x, v, -v) - LEVEL, v)
     inside = {k: sp.Rational(1, 5), g: sp.Rational(1, 25), x: 0, LEVEL: sp.Rational(1, 100)}

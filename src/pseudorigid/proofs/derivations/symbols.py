@@ -1,30 +1,31 @@
-"""The symbols of the derivations, and the model in them: law of impact, flight, energy, action."""
+"""Symbols of the derivations, and the model in them: impact law, flight, energy, action."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ...kernel import impact_law
 
-# dimensional: radius, mass, inertia, stiffness EV0, gravity, time
+# Dimensional: radius, mass, inertia, stiffness EV0, gravity, time.
 R, M, E0, EV0, GRAVITY, T = sp.symbols("R m E_0 E_V gamma t", positive=True)
-# dimensionless
+# Dimensionless.
 k, g, tau = sp.symbols("k g tau", positive=True)
 x, v, w, b, c, E = sp.symbols("x v w b c E", real=True)
 
 
 @dataclass(frozen=True)
 class Formula:
-    """What became of one formula.
+    """The result of deriving one formula.
 
     Parameters
     ----------
     printed : bool or None
-        Whether it holds as printed; None where the paper prints none.
+        Whether it holds as printed; None if the paper prints none.
     corrected : bool or None
-        Whether the corrected one holds; None where it needs no correction.
+        Whether the corrected one holds; None if it needs no correction.
     value : float
-        A number that comes with it, NaN without.
+        A number that comes with it, NaN without one.
     """
 
     printed: bool | None
@@ -32,55 +33,37 @@ class Formula:
     value: float = float("nan")
 
 
-def zero(expression):
-    """Whether an expression is zero for all values of its symbols.
-
-    Parameters
-    ----------
-    expression : sympy.Expr
-
-    Returns
-    -------
-    bool
-    """
+def zero(expression: sp.Expr) -> bool:
+    """Whether an expression is zero for all values of its symbols."""
     return sp.simplify(sp.expand(sp.expand_trig(expression))) == 0
 
 
-def zeros(expressions):
-    """Whether each of several expressions is zero for all values of its symbols.
-
-    Parameters
-    ----------
-    expressions : iterable of sympy.Expr
-
-    Returns
-    -------
-    bool
-    """
+def zeros(expressions: Iterable[sp.Expr]) -> bool:
+    """Whether each of several expressions is zero for all values of its symbols."""
     return all(zero(expression) for expression in expressions)
 
 
 def rebound(v, w):
-    """(b, c) after an impact: the code's own law, on symbols."""
+    """Velocities b, c after an impact, by the code's own law on symbols."""
     return impact_law.rebound(v, w, k, (2 / (1 + k), 0))[:2]
 
 
 def flight(x, b, c, t):
-    """Eq. (26): position and strain a time t after an impact."""
+    """Position and strain a time t after an impact, eq. (26)."""
     return x + b * t + g * t**2 / 2, c * sp.sin(t) - x * sp.cos(t)
 
 
 def energy(x, v, w):
-    """Eq. (29)."""
+    """Energy of a state, eq. (29)."""
     return v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2
 
 
 def action(x, b, c, t):
-    """The integral of xdot^2 + k udot^2 over a flight, in closed form."""
-    both = sp.sin(t) * sp.cos(t)
+    """Integral of xdot^2 + k udot^2 over a flight, in closed form."""
+    mixed = sp.sin(t) * sp.cos(t)
     return (
         b**2 * t
         + b * g * t**2
         + g**2 * t**3 / 3
-        + k * ((x**2 * (t - both) + c**2 * (t + both)) / 2 + x * c * sp.sin(t) ** 2)
+        + k * ((x**2 * (t - mixed) + c**2 * (t + mixed)) / 2 + x * c * sp.sin(t) ** 2)
     )

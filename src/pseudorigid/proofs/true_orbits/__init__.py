@@ -1,1 +1,1 @@
-"""Orbits that are the orbits of their starts, every number the rounded true value."""
+"""Orbits of exact starts, each number correctly rounded."""

@@ -3,14 +3,16 @@
 import os
 import time
 import zipfile
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 EVERY = 15.0  # seconds between two checkpoints
 
 
-class Clock:
-    """Progress and checkpoints.
+class Monitor:
+    """Reports the progress of a run, and saves checkpoints.
 
     Parameters
     ----------
@@ -21,64 +23,44 @@ class Clock:
         Written every EVERY seconds.
     """
 
-    def __init__(self, run, progress, checkpoint):
+    def __init__(self, run, progress: Callable | None, checkpoint: Path | None):
         self.progress, self.checkpoint = progress, checkpoint
-        self.begin = self.said = self.saved = time.monotonic()
-        self.first = run.count
-        self.total = self._work(run)
+        self.begin = self.reported = self.saved = time.monotonic()
+        self.total = self._work_left(run)
 
-    def tick(self, run):
-        """Tell and save what is due after an impact."""
+    def after_impact(self, run) -> None:
+        """Report and save what is due."""
         now = time.monotonic()
-        if self.progress is not None and (now - self.said > 1.0 or run.count == run.impacts):
-            self.said = now
-            left = self._work(run)
-            spent = max(self.total - left, 1e-9)
-            self.progress(run.count / run.impacts, (now - self.begin) * left / spent)
+        if self.progress is not None and (now - self.reported > 1.0 or run.count == run.impacts):
+            self.reported = now
+            left = self._work_left(run)
+            done = max(self.total - left, 1e-9)
+            self.progress(run.count / run.impacts, (now - self.begin) * left / done)
         if self.checkpoint is not None and now - self.saved > EVERY and run.count < run.impacts:
             self.saved = now
-            save(
-                self.checkpoint, identity=run.place.identity(run.impacts), state=run.state(),
-                values=run.values[: run.count],
-            )  # fmt: skip
+            identity = run.start.identity(run.impacts)
+            values = run.values[: run.count]
+            save(self.checkpoint, identity=identity, state=run.state(), values=values)
 
     @staticmethod
-    def _work(run):
-        """What is left, in impacts of 64 bits: an impact of b costs about 1 + (b/6000)^1.6."""
-        return (run.impacts - run.count) * (1.0 + (run.digits / 6000.0) ** 1.6 / 2.6)
+    def _work_left(run):
+        """Work left, in impacts of 64 bits: an impact of b bits costs about 1 + (b/6000)^1.6."""
+        return (run.impacts - run.count) * (1.0 + (run.precision / 6000.0) ** 1.6 / 2.6)
 
 
-def save(path, **arrays):
-    """Write arrays to a file, whole or not at all.
-
-    Parameters
-    ----------
-    path : Path
-    **arrays : array
-    """
+def save(path: Path, **arrays) -> None:
+    """Write arrays to a file, whole or not at all."""
     part = path.with_name(path.name + ".writing")
     with open(part, "wb") as file:
         np.savez(file, **arrays)
     os.replace(part, path)
 
 
-def load(path, identity):
-    """The arrays of a file that `save` wrote.
-
-    Parameters
-    ----------
-    path : Path
-    identity : str
-        What the file's own must be.
-
-    Returns
-    -------
-    dict or None
-        None if it is missing, damaged or of something else.
-    """
+def load(path: Path, identity: str) -> dict[str, np.ndarray] | None:
+    """Read the arrays of `save`; None if the file is missing, damaged or has another identity."""
     try:
         with np.load(path) as file:
-            found = {name: file[name] for name in file.files}
-            return found if str(found["identity"]) == identity else None
+            arrays = {name: file[name] for name in file.files}
+            return arrays if str(arrays["identity"]) == identity else None
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         return None

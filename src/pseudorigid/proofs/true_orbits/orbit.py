@@ -1,21 +1,40 @@
 """The orbit of an exact start, correctly rounded."""
 
+import math
 import os
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from flint import ctx
 
+from ...dynamics.ball import Ball
 from ...dynamics.inputs import whole_number
+from ...dynamics.lyapunov import lyapunov_spectrum
 from ...dynamics.variables import attributes_of, variables
-from ..enclosure.surface import Surface
+from ...kernel.arithmetic import log
+from ..enclosure.surface import Exact, Surface
 from . import checkpoints
-from .enclosed_run import Run, ShortOfBitsError
-from .start import Start, bits_needed
+from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError
+from .start import Start
+
+_BYTES_PER_IMPACT = 200  # doubles in the run, the Dataset and a checkpoint
 
 
-def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None, checkpoint=None):
-    """The orbit of an exact start under the impact map, eq. (28), correctly rounded.
+def true_orbit(
+    k: Exact,
+    g: Exact,
+    energy: Exact,
+    impacts: int,
+    *,
+    x: Exact | None = None,
+    y: Exact = 0,
+    start: Exact | Mapping[str, Exact] | None = None,
+    progress: Callable | None = None,
+    checkpoint: str | os.PathLike | None = None,
+) -> xr.Dataset:
+    """Compute the orbit of an exact start under the impact map, eq. (28), correctly rounded.
 
     Parameters
     ----------
@@ -26,25 +45,28 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     x, y : int, Fraction, Decimal or str
         The start in the chart, y = xdot - k udot.
     start : int, Fraction, Decimal, str or mapping
-        In place of x and y: a fraction, -1 to 1, of the section's radius along y = 0; or a mapping
-        with x and either y or xdot.
+        Used instead of x and y: a fraction, -1 to 1, of the section's radius along y = 0; or a
+        mapping with x and either y or xdot.
     progress : callable, optional
         Called now and then with the share done, 0 to 1, and the seconds that are left.
     checkpoint : path, optional
-        A file that holds what has been computed while the run lasts; a run that was killed goes on
-        from there.
+        A file that holds the results while the run lasts; a run that was killed resumes from it.
 
     Returns
     -------
     xarray.Dataset
         x, xdot, udot, tau on `impact`, the start excluded: each the double nearest to the true
-        value, or 0 where that is closer to 0 than 2^-80. Attribute bits: the precision it took.
+        value, or 0 where that is closer to 0 than 2^-80. Attribute bits: the precision used.
 
     Raises
     ------
     ValueError
-        Numbers that are not exact or not allowed, a start on or beyond the rim, a flight that
-        grazes to within the precision, more bits than MOST_BITS, too little memory.
+        A number is not exact or not allowed, the start is on or beyond the rim, a flight grazes to
+        within the precision, or the orbit needs more than MOST_BITS bits or too much memory.
+
+    References
+    ----------
+    Lohner, Enclosing the solutions of ordinary initial and boundary value problems (1987).
 
     Examples
     --------
@@ -53,22 +75,22 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     """
     surface = Surface(k, g, energy)
     if (x is None) == (start is None):
-        raise ValueError("where the orbit starts is given by x and y, or by start: by one of them")
-    place = Start(surface, {"x": x, "y": y} if start is None else start)
+        raise ValueError("give either x and y, or start")
+    exact_start = Start(surface, {"x": x, "y": y} if start is None else start)
     checkpoint = None if checkpoint is None else Path(checkpoint)
     impacts = whole_number("impacts", impacts)
-    _memory(impacts)
-    run = _resumed(checkpoint, surface, place, impacts)
+    _check_memory(impacts)
+    run = _resumed(checkpoint, surface, exact_start, impacts)
     if run is None:
-        run = Run(surface, place, impacts, bits_needed(surface, place, impacts))
-    clock = checkpoints.Clock(run, progress, checkpoint)
+        run = Run(surface, exact_start, impacts, _bits_needed(surface, exact_start, impacts))
+    monitor = checkpoints.Monitor(run, progress, checkpoint)
     while run.count < impacts:
         try:
             run.step()
         except ShortOfBitsError:
-            run = Run(surface, place, impacts, run.bits + run.bits // 4 + 100)
-            clock = checkpoints.Clock(run, progress, checkpoint)
-        clock.tick(run)
+            run = Run(surface, exact_start, impacts, run.bits + run.bits // 4 + 100)
+            monitor = checkpoints.Monitor(run, progress, checkpoint)
+        monitor.after_impact(run)
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
     data = variables("impact", run.values.T)
@@ -76,15 +98,27 @@ def true_orbit(k, g, energy, impacts, *, x=None, y=0, start=None, progress=None,
     return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})
 
 
-def _memory(impacts):
-    """ValueError where the results would not fit into memory."""
-    needed = 200 * impacts  # bytes, as doubles in the run, the Dataset and a checkpoint
-    there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    if needed > there // 2:
+def _check_memory(impacts: int) -> None:
+    """Raise ValueError if the results would take more than half of the memory."""
+    needed = _BYTES_PER_IMPACT * impacts
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed > memory // 2:
         raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
 
 
-def _resumed(checkpoint, surface, place, impacts):
-    """The run of a checkpoint of this very orbit, or None."""
-    saved = checkpoint and checkpoints.load(checkpoint, place.identity(impacts))
-    return saved and Run.restored(surface, place, impacts, str(saved["state"]), saved["values"])
+def _resumed(checkpoint, surface, start, impacts) -> Run | None:
+    """Return the run of a checkpoint of this very orbit, if there is one."""
+    saved = checkpoint and checkpoints.load(checkpoint, start.identity(impacts))
+    return saved and Run.restored(surface, start, impacts, str(saved["state"]), saved["values"])
+
+
+def _bits_needed(surface: Surface, start: Start, impacts: int) -> int:
+    """Estimate the precision to start with, from the stretch along the orbit in doubles."""
+    ball = Ball(k=float(surface.k), g=float(surface.g))
+    with ctx.workprec(FRAME_BITS):
+        x, y = (float(a) for a in start.balls())
+    spectrum = lyapunov_spectrum(ball, ball.state_xy(x, y, float(surface.energy)), impacts)
+    stretch = spectrum["exponent"].values[:, 0] * spectrum["impact"].values
+    growth = float(np.nanmax(stretch, initial=0.0)) / log(2.0)
+    # the true orbit stretches equally only in the mean: the spread grows like the square root
+    return RESULT_BITS + GUARD_BITS + int(growth + 12.0 * math.sqrt(growth)) + 64

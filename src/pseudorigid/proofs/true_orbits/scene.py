@@ -1,34 +1,46 @@
 """The orbits of a scene from exact starts."""
 
+import os
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
 from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
 from ...dynamics.starts import start_state
-from ..enclosure.surface import Surface
+from ..enclosure.surface import Exact, Surface
 from . import checkpoints
 from .orbit import true_orbit
 from .start import Start
 
 
-def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=None):
-    """The orbits of a scene, one after the other (CF), from exact starts and correctly rounded.
+def true_scene_orbits(
+    k: Exact,
+    g: Exact,
+    energy: Exact,
+    starts: list,
+    impacts: int | list[int],
+    *,
+    progress: Callable | None = None,
+    folder: str | os.PathLike | None = None,
+) -> xr.Dataset:
+    """Compute the orbits of a scene, one after the other (CF), correctly rounded.
 
     Parameters
     ----------
     k, g, energy : int, Fraction, Decimal or str
         The ball and its energy, exact.
     starts : list
-        Exact, each what `start` of `true_orbit` is.
+        Exact starts in the form of the argument `start` of `true_orbit`.
     impacts : int or list of int
         How many of each orbit.
     progress : callable, optional
-        Called with the share done and the seconds left of the orbit at work, and its index.
+        Called with the share done and the seconds left of the current orbit, and its index.
     folder : path, optional
-        Where finished orbits and the checkpoint of the one at work are while the run lasts.
+        Holds finished orbits and the checkpoint of the current one while the run lasts.
 
     Returns
     -------
@@ -48,28 +60,31 @@ def true_scene_orbits(k, g, energy, starts, impacts, *, progress=None, folder=No
     """
     surface = Surface(k, g, energy)
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
-    places = [Start(surface, start) for start in starts]
+    exact_starts = [Start(surface, start) for start in starts]
     pieces = [
-        _kept(folder, index, place, start, count, progress)
-        for index, (place, start, count) in enumerate(zip(places, starts, impacts, strict=True))
+        _orbit_or_saved(folder, index, exact_start, start, count, progress)
+        for index, (exact_start, start, count) in enumerate(
+            zip(exact_starts, starts, impacts, strict=True)
+        )
     ]
     if folder is not None:
         shutil.rmtree(folder, ignore_errors=True)
     ball = Ball(k=float(surface.k), g=float(surface.g))
-    floats = [place.floats() for place in places]
+    floats = [start.floats() for start in exact_starts]
     states = [start_state(ball, float(surface.energy), start) for start in floats]
     return ragged_orbits(pieces, floats, states, impacts)
 
 
-def _kept(folder, index, place, start, count, progress):
-    """One orbit of a scene, (4, count), from the folder if it is there."""
+def _orbit_or_saved(folder, index, exact_start, start, count, progress):
+    """Return one orbit of a scene, (4, count), from the folder if it is there."""
     report = None if progress is None else lambda *done: progress(*done, index)
-    exact = (place.surface.k, place.surface.g, place.surface.energy)
+    surface = exact_start.surface
+    exact = (surface.k, surface.g, surface.energy)
     if folder is None:
         return _columns(true_orbit(*exact, count, start=start, progress=report))
     Path(folder).mkdir(parents=True, exist_ok=True)
     file = Path(folder) / f"orbit_{index}.npz"
-    identity = place.identity(count)
+    identity = exact_start.identity(count)
     if saved := checkpoints.load(file, identity):
         return saved["values"]
     part = Path(folder) / f"orbit_{index}.part.npz"

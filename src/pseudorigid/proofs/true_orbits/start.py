@@ -1,20 +1,15 @@
-"""Exact starts, and how many bits their orbits need."""
+"""Exact starts of orbits."""
 
 import json
-import math
+from collections.abc import Mapping
 
-import numpy as np
-from flint import arb, ctx
+from flint import arb
 
-from ...dynamics.ball import Ball
-from ...dynamics.lyapunov import lyapunov_spectrum
-from ...kernel.arithmetic import log
-from ..enclosure.surface import ball_of, exact
-from .enclosed_run import FRAME_BITS, GUARD, RESULT_BITS
+from ..enclosure.surface import Exact, Surface, ball_of, exact
 
 
 class Start:
-    """An exact start: balls of its coordinates at any precision.
+    """An exact start, which gives balls of its coordinates at any precision.
 
     Parameters
     ----------
@@ -25,10 +20,10 @@ class Start:
     Raises
     ------
     ValueError
-        Numbers that are not exact, or a start on or beyond the rim.
+        A number is not exact, or the start is on or beyond the rim.
     """
 
-    def __init__(self, surface, start):
+    def __init__(self, surface: Surface, start: Exact | Mapping[str, Exact]):
         self.surface = surface
         names = sorted(start) if isinstance(start, dict) else ["start"]
         if names not in (["start"], ["x", "y"], ["x", "xdot"]):
@@ -37,31 +32,27 @@ class Start:
             )
         values = start if isinstance(start, dict) else {"start": start}
         self.numbers = {name: exact(name, values[name]) for name in names}
-        if not self._inside():
+        if not self._is_inside():
             raise ValueError(f"the start {self} is not inside the section's rim at {surface}")
 
     def __str__(self):
         return ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
 
-    def _inside(self):
-        """Exactly: whether s > 0 there."""
+    def _is_inside(self) -> bool:
+        """Whether s > 0, decided in exact arithmetic."""
         k, g, energy = self.surface.k, self.surface.g, self.surface.energy
         if "start" in self.numbers:
             return -1 < self.numbers["start"] < 1
         x = self.numbers["x"]
-        kinetic = 2 * energy + x * (2 * g - k * x)  # twice of it
+        twice_kinetic = 2 * energy + x * (2 * g - k * x)
         if "y" in self.numbers:
-            return (1 + k) * kinetic > self.numbers["y"] ** 2
-        xdot = self.numbers["xdot"]  # with udot > 0 of two, k udot^2 = 2 T - xdot^2
-        return kinetic > xdot * xdot and (xdot >= 0 or kinetic > (1 + k) * xdot * xdot)
+            return (1 + k) * twice_kinetic > self.numbers["y"] ** 2
+        xdot = self.numbers["xdot"]  # of the two udot = ±sqrt((2 T - xdot^2)/k), the positive one
+        square = xdot * xdot
+        return twice_kinetic > square and (xdot >= 0 or twice_kinetic > (1 + k) * square)
 
-    def balls(self):
-        """The point of the chart at the context's precision.
-
-        Returns
-        -------
-        x, y : arb
-        """
+    def balls(self) -> tuple[arb, arb]:
+        """Enclose x and y at the context's precision."""
         k, g, energy = self.surface.constants()
         numbers = {name: ball_of(value) for name, value in self.numbers.items()}
         if "start" in numbers:
@@ -73,49 +64,11 @@ class Start:
         udot = ((2 * energy + x * (2 * g - k * x) - xdot * xdot) / k).sqrt()
         return x, xdot - k * udot
 
-    def floats(self):
-        """The start as `dynamics.starts.start_state` takes it.
-
-        Returns
-        -------
-        float or dict
-        """
+    def floats(self) -> float | dict[str, float]:
+        """Return the start in the form that `dynamics.starts.start_state` takes."""
         numbers = {name: float(value) for name, value in self.numbers.items()}
         return numbers.get("start", numbers)
 
-    def identity(self, impacts):
-        """What a checkpoint must be of.
-
-        Parameters
-        ----------
-        impacts : int
-
-        Returns
-        -------
-        str
-        """
+    def identity(self, impacts: int) -> str:
+        """Return a text that identifies the orbit of so many impacts in a checkpoint."""
         return json.dumps([str(self.surface), str(self), impacts])
-
-
-def bits_needed(surface, place, impacts):
-    """Bits to start with, from the stretch along the orbit in double precision.
-
-    Parameters
-    ----------
-    surface : Surface
-    place : Start
-    impacts : int
-
-    Returns
-    -------
-    int
-    """
-    ball = Ball(k=float(surface.k), g=float(surface.g))
-    with ctx.workprec(FRAME_BITS):
-        x, y = (float(a) for a in place.balls())
-    state = ball.state_xy(x, y, float(surface.energy))
-    spectrum = lyapunov_spectrum(ball, state, impacts)
-    stretch = spectrum["exponent"].values[:, 0] * spectrum["impact"].values
-    growth = float(np.nanmax(stretch, initial=0.0)) / log(2.0)
-    # the true orbit stretches by as much only in the mean: its spread grows like the root
-    return RESULT_BITS + GUARD + int(growth + 12.0 * math.sqrt(growth)) + 64
