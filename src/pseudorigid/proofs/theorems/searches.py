@@ -9,7 +9,6 @@ from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
 from ..search import periodic as orbit_search
 from ..search import twist as twist_search
-from .statements import Theorem
 
 PLANS = {
     "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
@@ -20,33 +19,33 @@ SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump 
 JUMP_RADIUS = "1e-28"  # error of the jump set's points
 
 
-def _points(theorem: Theorem, kind: str) -> list[tuple[float, float]]:
+def _points(theorem, kind: str) -> list[tuple[float, float]]:
     return approximate_orbits.points(theorem.bounds["surface"], theorem.bounds["period"], kind)
 
 
-def _orbit(theorem: Theorem) -> str:
+def _orbit(theorem) -> str:
     points = _points(theorem, theorem.bounds["type"])
     return orbit_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
 
 
-def _twist(theorem: Theorem) -> str:
+def _twist(theorem) -> str:
     points = _points(theorem, "elliptic")
     return twist_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
 
 
-def _zero(theorem: Theorem) -> str:
+def _zero(theorem) -> str:
     ball = theorem.bounds["k"], theorem.bounds["g"]
     (start,) = approximate_orbits.points(Surface(*ball, ZERO[0]), 1, "elliptic")
     return twist_search.propose_zero(*ball, *ZERO, start, theorem.holds_for_any_radius)
 
 
-def _horseshoe(theorem: Theorem) -> str:
+def _horseshoe(theorem) -> str:
     surface, points = theorem.bounds["surface"], _points(theorem, "hyperbolic")
     ball = approximate_orbits.ball(surface)
     return horseshoe_search.propose(surface, ball, points, PLANS[theorem.name], theorem.prove)
 
 
-def _jump(theorem: Theorem) -> str:
+def _jump(theorem) -> str:
     return jump_search.propose(theorem.bounds["surface"], SPEED, JUMP_RADIUS)
 
 
