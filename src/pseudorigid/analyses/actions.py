@@ -30,11 +30,7 @@ Vector = tuple[arb, ...]
 class Law:
     """The impact map on states (x, xdot, udot), their tangents and actions, in ball arithmetic.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        This, k and g are taken as the decimals that they print as.
+    The energy, k and g are taken as the decimals that they print as.
     """
 
     def __init__(self, ball: Ball, energy: float):
@@ -152,19 +148,15 @@ class Heteroclinic:
 
     Attributes
     ----------
-    points : list of (arb, arb)
-        (x, y) of the orbit from its start to y = 0.
-    actions : list of arb
-        Of its flights.
+    points, actions : list
+        (x, y) of the orbit from its start to y = 0, and the actions of its flights.
     tangent : (arb, arb)
         Of the branch at y = 0.
 
     Raises
     ------
-    ValueError
-        Newton's method does not find the crossing.
-    ArithmeticError
-        The working precision does not enclose a flight or the crossing.
+    ValueError, ArithmeticError
+        Newton's method does not find the crossing, or the precision encloses too little.
     """
 
     def __init__(self, saddle: Saddle, sign: int, parameter: arb, impacts: int):
@@ -207,17 +199,9 @@ class Heteroclinic:
 def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclinic, Heteroclinic]]:
     """Compute the lobe between neighbouring crossings of an unstable and a stable branch.
 
-    The branch must lead to the mirror image of its saddle, so that it meets y = 0 on the way, and
-    so must its image half a period later. These are the two primary orbits.
-
-    Parameters
-    ----------
-    saddle : Saddle
-        Of even period.
-    sign : int
-        The side of the branch.
-    nearer : int
-        The orbits start this number of images nearer to the saddle than _SCAN_END.
+    The branch on the side `sign` of a saddle of even period must lead to the mirror image of the
+    saddle, so that it meets y = 0 on the way, and so must its image half a period later. These are
+    the two primary orbits. They start `nearer` images nearer to the saddle than _SCAN_END.
 
     Returns
     -------
@@ -228,10 +212,8 @@ def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclini
 
     Raises
     ------
-    ValueError
-        The branch is not seen to meet y = 0.
-    ArithmeticError
-        The working precision does not enclose a flight or a crossing.
+    ValueError, ArithmeticError
+        As from Heteroclinic, or where the branch is not seen to meet y = 0.
 
     References
     ----------

@@ -13,10 +13,10 @@ from .enclosure import flight
 from .enclosure.flight import UndecidedError
 from .enclosure.surface import Exact, ball_of, exact
 
-START_BITS, MOST_BITS = 256, 8192  # the last bits decide all touches but those closer than 1e-2000
-ACCURACY_BITS = 150  # of a proved flight time: nearly three times a double's
-ORBIT_BITS = 512  # an impact in the chaotic sea loses a third of a bit: enough for 1,000 impacts
-IMPACT_BITS = 96  # at first: a double's 53, and room for cancellation
+_START_BITS, _MOST_BITS = 256, 8192  # a touch closer than 1e-2000 is not decided
+_ACCURACY_BITS = 150  # of a proved flight time: nearly three times a double's
+_ORBIT_BITS = 512  # an impact in the chaotic sea loses a third of a bit: enough for 1,000 impacts
+_IMPACT_BITS = 96  # at first: a double's 53, and room for cancellation
 
 Number = float | arb
 
@@ -37,14 +37,14 @@ def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
     Raises
     ------
     ArithmeticError
-        A root is double, as far as MOST_BITS can tell.
+        A root is double, as far as the last bits can tell.
     """
-    bits = START_BITS
-    while bits <= MOST_BITS:
+    bits = _START_BITS
+    while bits <= _MOST_BITS:
         with ctx.workprec(bits):
             try:
                 tau = _impact(*(arb(a) for a in (k, g, x, v, w)))[3]
-                if tau == 0 or tau.rel_accuracy_bits() >= ACCURACY_BITS:
+                if tau == 0 or tau.rel_accuracy_bits() >= _ACCURACY_BITS:
                     return tau
             except UndecidedError:
                 pass
@@ -78,7 +78,7 @@ def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float
     the start, rounded to doubles. Raises UndecidedError where a flight may graze.
     """
     rows = []
-    with ctx.workprec(ORBIT_BITS):
+    with ctx.workprec(_ORBIT_BITS):
         k, g = arb(ball.k), arb(ball.g)
         x, v, w = (arb(float(a)) for a in state)
         for _ in range(impacts):
@@ -116,8 +116,8 @@ def impact_errors(
     bounds = np.full(tau.size, np.inf)
     columns = (*before.tolist(), *after.tolist(), tau.tolist())
     for i, (x, v, w, *computed) in enumerate(zip(*columns, strict=True)):
-        bits = IMPACT_BITS
-        while bits <= MOST_BITS:
+        bits = _IMPACT_BITS
+        while bits <= _MOST_BITS:
             with ctx.workprec(bits):
                 try:
                     proved = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))

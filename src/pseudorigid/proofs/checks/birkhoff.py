@@ -26,15 +26,7 @@ I = acb(0, 1)  # noqa: E741
 
 @dataclass(frozen=True)
 class NormalForm:
-    """Birkhoff's normal form at an elliptic orbit.
-
-    Attributes
-    ----------
-    twists : tuple of arb
-        tau_1, tau_2, ..., up to the order.
-    nonresonance : arb
-        The least |lambda^j - 1|, j up to the order + 1.
-    """
+    """Birkhoff's normal form: tau_1, tau_2, ..., and the least |lambda^j - 1|, j <= order + 1."""
 
     twists: tuple[arb, ...]
     nonresonance: arb
@@ -43,18 +35,9 @@ class NormalForm:
 def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
     """Compute the normal form of P^n at the first of an elliptic orbit's n points.
 
-    Parameters
-    ----------
-    surface : Surface
-    orbit : Orbit
-    order : int
-        Of the map's jet: 3 gives tau_1, 5 also tau_2.
-
-    Raises
-    ------
-    NotProvedError
-        The point may not be elliptic, a power of the multiplier may be 1, the form drifts, or a
-        flight from the orbit's boxes may touch the floor earlier.
+    A jet of order 3 gives tau_1, one of order 5 also tau_2. Raises NotProvedError where the point
+    may not be elliptic, a power of the multiplier may be 1, the form drifts, or a flight from the
+    orbit's boxes may touch the floor earlier.
     """
     plane = algebra(2, order)
     x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))

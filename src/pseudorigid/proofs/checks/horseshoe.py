@@ -130,10 +130,7 @@ def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
 
 
 def _check_symmetry(rows: list[list[Fraction]], total: int) -> None:
-    """Check that the reversor maps set i to set `total` - i, its two sides exchanged.
-
-    Then it maps the connection to itself, and this meets M_0 on y = 0.
-    """
+    """Check that the reversor maps set i to set `total` - i, and so the connection to itself."""
     for i, (x, y, ux, uy, sx, sy) in enumerate(rows):
         if rows[(total - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
             raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")

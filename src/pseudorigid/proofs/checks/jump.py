@@ -58,10 +58,6 @@ def check(
     Raises
     ------
     NotProvedError
-
-    References
-    ----------
-    The paper's section 3: "The map (28) is smooth and invertible with a smooth inverse".
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "jump set")
@@ -106,14 +102,8 @@ def check(
 def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
     """Prove that no flight touches the floor below an energy, so that P is a diffeomorphism there.
 
-    Returns
-    -------
-    Finding
-        digits: energy below. margins: above least, its distance from the least energy, -g^2/(2k).
-
-    Raises
-    ------
-    NotProvedError
+    Returns a Finding with digits energy below, and margins above least, the distance from the least
+    energy, -g^2/(2k). Raises NotProvedError.
     """
     certificate = Certificate(text, "no touch")
     certificate.check_ball(k, g)

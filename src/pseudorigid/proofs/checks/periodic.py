@@ -32,10 +32,8 @@ class Orbit:
 
     Attributes
     ----------
-    points : tuple of (arb, arb)
-        (x, y = xdot - k udot).
-    impacts : tuple of Impact
-        After each point.
+    points, impacts : tuple
+        The points (x, y = xdot - k udot), and the Impact after each.
     matrix : arb_mat
         The product of DP along the orbit, from the first point.
     type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
@@ -55,38 +53,17 @@ class Orbit:
         return self.matrix[0, 0] + self.matrix[1, 1]
 
 
-def check(
-    text: str,
-    surface: Surface,
-    *,
-    period: int,
-    type: str,
-    radius: Fraction,
-    window: Window | None = None,
-) -> Finding:
-    """Prove a certificate's orbit.
+def check(text: str, surface: Surface, **bounds) -> Finding:
+    """Prove a certificate's orbit; the bounds are those of `prove_stated`.
 
-    Parameters
-    ----------
-    text : str
-        The certificate.
-    surface, period, type, radius, window
-        As for `prove_stated`.
-
-    Returns
-    -------
-    Finding
-        digits: x, xdot, udot of the first point, period (the sum of the flight times) and trace.
-        margins: radius, and the distance of the trace from 2 and -2. parts: orbit, an Orbit.
-
-    Raises
-    ------
-    NotProvedError
+    Returns a Finding with digits x, xdot, udot of the first point, period (the sum of the flight
+    times) and trace; margins radius, and the distance of the trace from 2 and -2; parts orbit, an
+    Orbit. Raises NotProvedError.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "periodic orbit")
         certificate.check_surface(surface)
-        orbit = prove_stated(certificate, surface, period, type, radius, window)
+        orbit = prove_stated(certificate, surface, **bounds)
         margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
         return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
 
@@ -94,14 +71,8 @@ def check(
 def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
     """Prove that the map has one fixed point at each energy from -g^2/(2k) up to a given one.
 
-    Returns
-    -------
-    Finding
-        digits: energies up to. margins: theta and earlier, of the two inequalities.
-
-    Raises
-    ------
-    NotProvedError
+    Returns a Finding with digits energies up to, and margins theta and earlier of the two
+    inequalities. Raises NotProvedError.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "only fixed point")
@@ -125,15 +96,16 @@ def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction
 def prove_stated(
     certificate: Certificate,
     surface: Surface,
+    *,
     period: int,
     type: str,
     radius: Fraction,
-    window: Window | None = None,
+    window=None,
 ) -> Orbit:
     """Prove that an orbit meets its certificate, is of a type, and is alone in its boxes.
 
     The boxes are larger than the certificate's by CLOSE, so that they contain the stated boxes
-    around the orbit's own points.
+    around the orbit's own points. Raises NotProvedError.
 
     Parameters
     ----------
@@ -147,10 +119,6 @@ def prove_stated(
         The least radius of the boxes.
     window : ((x low, x high), (xdot low, xdot high)), optional
         Must contain one of the orbit's points.
-
-    Raises
-    ------
-    NotProvedError
     """
     centres, size = certificate.numbers("points", 2), certificate.number("radius")
     if len(centres) != period:

@@ -21,32 +21,12 @@ from .certificate import Certificate, Finding, NotProvedError, lowest
 CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
 
-def check(
-    text: str,
-    surface: Surface,
-    *,
-    period: int,
-    radius: Fraction,
-    window: periodic.Window | None = None,
-) -> Finding:
+def check(text: str, surface: Surface, **bounds) -> Finding:
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
-    Parameters
-    ----------
-    text : str
-        The certificate.
-    surface, period, radius, window
-        As for `periodic.prove_stated`.
-
-    Returns
-    -------
-    Finding
-        digits: twist, in radians per unit of the action, and trace. margins: twist, nonresonance.
-        parts: orbit, an Orbit.
-
-    Raises
-    ------
-    NotProvedError
+    The bounds are those of `periodic.prove_stated`. Returns a Finding with digits twist, in radians
+    per unit of the action, and trace; margins twist and nonresonance; parts orbit, an Orbit. Raises
+    NotProvedError.
 
     References
     ----------
@@ -56,7 +36,7 @@ def check(
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist")
         certificate.check_surface(surface)
-        orbit = periodic.prove_stated(certificate, surface, period, "elliptic", radius, window)
+        orbit = periodic.prove_stated(certificate, surface, type="elliptic", **bounds)
         form = birkhoff.normal_form(surface, orbit)
         (twist,) = form.twists
         stated = certificate.number("twist")
@@ -74,26 +54,9 @@ def check_zero(
 ) -> Finding:
     """Prove that the fixed point's twist changes from positive to negative in a band of energies.
 
-    Parameters
-    ----------
-    text : str
-        The certificate.
-    k, g : Fraction
-        The ball.
-    radius : Fraction
-        The fixed point must be the only one within this.
-    width : Fraction
-        The largest width of the certificate's band of energies.
-
-    Returns
-    -------
-    Finding
-        digits: energy, the band, and second twist, over the band. margins: twist, at the two ends,
-        second twist and nonresonance, over the band.
-
-    Raises
-    ------
-    NotProvedError
+    The fixed point must be the only one within the radius, and `width` is the largest width of the
+    certificate's band. Returns a Finding with digits energy (the band) and second twist (over the
+    band); margins twist, at the two ends, second twist and nonresonance. Raises NotProvedError.
 
     References
     ----------
@@ -109,7 +72,7 @@ def check_zero(
             )
         high = Surface(low.k, low.g, low.energy + band)
         between = Surface(low.k, low.g, low.energy, band)
-        orbit = periodic.prove_stated(certificate, low, 1, "elliptic", radius)
+        orbit = periodic.prove_stated(certificate, low, period=1, type="elliptic", radius=radius)
         centres = certificate.numbers("points", 2)
         orbits = [(low, orbit)]
         orbits += [(s, periodic.prove(s, centres, orbit.radius)) for s in (high, between)]

@@ -11,38 +11,16 @@ from ...dynamics.variables import attributes_of
 # Module -> its functions that derive a formula each, in the order of the dataset.
 FORMULAS = {
     "model": (
-        "equations_of_motion",
-        "euler_tensor",
-        "shell",
-        "uncoupled",
-        "modes",
-        "softness",
-        "impulse",
-        "impulse_without_stiffness",
-        "jump_conditions",
-        "impulsive_forces",
-        "scaled_impulse",
+        "equations_of_motion", "euler_tensor", "shell", "uncoupled", "modes", "softness", "impulse",
+        "impulse_without_stiffness", "jump_conditions", "impulsive_forces", "scaled_impulse",
         "scaling",
     ),
     "motion": (
-        "flights",
-        "flow",
-        "impact_map",
-        "conserved_energy",
-        "bound",
-        "bound_in_flight",
-        "smooth",
+        "flights", "flow", "impact_map", "conserved_energy", "bound", "bound_in_flight", "smooth",
         "contact_speed",
     ),
-    "forms": (
-        "jacobian",
-        "exponents",
-        "determinants",
-        "one_form",
-        "area",
-        "reversible",
-    ),
-}
+    "forms": ("jacobian", "exponents", "determinants", "one_form", "area", "reversible"),
+}  # fmt: skip
 
 
 def derivations(ball, energy: float) -> xr.Dataset:

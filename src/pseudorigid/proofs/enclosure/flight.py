@@ -15,7 +15,7 @@ from flint import arb, ctx
 
 from .jets import Jet
 
-MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly touches the floor
+_MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly touches the floor
 # A step is shortened by far more than the rounding of the parabola's root, so that the check in
 # ball arithmetic that the parabola is negative there succeeds.
 _STEP_FACTOR = 1.0 - 1e-6
@@ -30,14 +30,9 @@ class UndecidedError(ArithmeticError):
 
 @dataclass(frozen=True)
 class Gap:
-    """Gap f(t) of a set of flights, eq. (21) with (26), from an impact on.
+    """Gap f(t) of a set of flights after an impact, eq. (21) with (26).
 
-    Parameters
-    ----------
-    x, c, s : arb or Jet
-        Position at the impact, rate of strain after it, and s = xdot + udot before it.
-    g : arb
-        Gravity.
+    x and c are the position and the rate of strain after it, s = xdot + udot before it.
     """
 
     x: arb | Jet
@@ -80,24 +75,10 @@ def rebound(k: arb, v: arb | Jet, w: arb | Jet) -> tuple:
 
 
 def fly(x: arb | Jet, b: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: arb | None = None):
-    """Follow the flight after an impact to the next one, eqs. (26) and (28).
+    """Follow the flight after an impact with x, xdot = b and udot = c to the next one, eq. (28).
 
-    Parameters
-    ----------
-    x, b, c : arb or Jet
-        Position, xdot and udot just after the impact.
-    s, g, start
-        As for `first_root`.
-
-    Returns
-    -------
-    x, xdot, udot, tau : arb or Jet
-        The state just before the next impact, and the duration of the flight.
-
-    Raises
-    ------
-    UndecidedError
-        As from `first_root`.
+    Returns x, xdot and udot just before the next impact, and the duration tau. The arguments s, g
+    and start, and the errors, are those of `first_root`.
     """
     tau = first_root(x, c, s, g, start)
     sine, cosine = tau.sin_cos()
@@ -135,7 +116,7 @@ def first_root(
 
 def _isolate(gap: Gap, start: arb | None) -> tuple[arb, arb]:
     """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0."""
-    most, bits = ctx.prec, MARCH_BITS
+    most, bits = ctx.prec, _MARCH_BITS
     while True:
         with ctx.workprec(bits):
             try:
@@ -150,7 +131,7 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
     """Narrow a root by interval Newton, T = t - f(t)/f'(T), with twice the bits at each level."""
     root = low.union(high)
     levels = [ctx.prec]
-    while levels[-1] > 2 * MARCH_BITS:
+    while levels[-1] > 2 * _MARCH_BITS:
         levels.append(levels[-1] // 2 + 8)
     for bits in reversed(levels):
         with ctx.workprec(bits):

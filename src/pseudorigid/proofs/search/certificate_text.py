@@ -6,7 +6,7 @@ from flint import arb
 
 from ..enclosure.surface import Surface
 
-HEADER = """\
+_HEADER = """\
 # Proposed by a search in floating point; every number is meant as the exact decimal that it is.
 kind = "{kind}"
 k = "{surface.k}"
@@ -17,7 +17,7 @@ energy = "{surface.energy}"
 
 def header(kind: str, surface: Surface) -> str:
     """Return the first lines of a certificate."""
-    return HEADER.format(kind=kind, surface=surface)
+    return _HEADER.format(kind=kind, surface=surface)
 
 
 def decimal(value: arb, digits: int) -> str:

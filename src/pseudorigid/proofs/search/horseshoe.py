@@ -62,21 +62,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class _Connection:
-    """A hyperbolic orbit and an orbit that leads from its points back to them.
-
-    Parameters
-    ----------
-    surface : Surface
-    saddles, expanding : list of (arb, arb)
-        The orbit's points, and their unstable directions, all stretched by `rho`.
-    mirror : list of int
-        The index of each point's mirror image.
-    rho : arb
-    points, tangents : list of (arb, arb)
-        Of the connection.
-    middle : int
-        Index of its point on y = 0.
-    """
+    """A hyperbolic orbit and an orbit that leads from its points back to them."""
 
     surface: Surface
     saddles: list[Vector]
@@ -127,9 +113,8 @@ def propose(
 
     Parameters
     ----------
-    surface : Surface
-    ball : Ball
-        With the doubles nearest to the surface's k and g.
+    surface, ball : Surface, Ball
+        The ball has the doubles nearest to the surface's k and g.
     points : list of (float, float)
         (x, y) of the hyperbolic orbit, which must be its own mirror image.
     plan : Plan
@@ -156,17 +141,8 @@ def search(
 ) -> str:
     """Return a certificate of a horseshoe with the largest sets that a checker accepts.
 
-    Parameters
-    ----------
-    surface, ball, points, prove
-        As for `propose`.
-    side : int
-        1 the outer, -1 the inner unstable branches.
-
-    Raises
-    ------
-    ValueError
-        As for `propose`, or no size proves it: with the reason at the smallest.
+    The parameters are those of `propose`, and the side of `Plan`. Raises ValueError as `propose`
+    does, or if no size proves it: with the reason at the smallest.
     """
     with ctx.workprec(_BITS):
         connection = _connect(surface, ball, points, side, _MOST_STEPS)
@@ -215,10 +191,7 @@ def _mirror_images(saddles: list[Vector]) -> list[int]:
 
 
 def _directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
-    """Return rho, and the unstable direction at each saddle, stretched by rho from one to the next.
-
-    It points outwards for side = 1.
-    """
+    """Return rho, and the unstable directions, stretched by rho from one to the next."""
     slopes = [surface.jacobian(*z)[0] for z in saddles]
     vector = [arb(1), arb(0)]
     for _ in range(400):

@@ -15,13 +15,7 @@ _DIGITS = 30  # points are to be good to 1e-28
 def propose(surface: Surface, speed: str, radius: str) -> str:
     """Return a certificate of the jump set.
 
-    Parameters
-    ----------
-    surface : Surface
-    speed : str
-        xdot on the rim where the flight touches.
-    radius : str
-        Largest error of its points.
+    `speed` is xdot on the rim where the flight touches, `radius` the largest error of its points.
     """
     with ctx.workprec(_BITS):
         k, g, energy = surface.constants()

@@ -56,12 +56,8 @@ def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) ->
 def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -> str:
     """Return a text with the largest radius of one digit for which it holds, or the smallest.
 
-    Parameters
-    ----------
-    before, after : str
-        The text up to the line with the radius, and after it.
-    holds : callable
-        Whether a text holds. What holds for a radius must hold for smaller ones.
+    The line with the radius stands between `before` and `after`. What holds for a radius must hold
+    for smaller ones.
     """
     sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]
 

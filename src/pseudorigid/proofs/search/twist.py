@@ -33,16 +33,10 @@ def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) ->
 def propose_zero(
     k: Fraction, g: Fraction, low: Fraction, high: Fraction, start: tuple[float, float], holds
 ) -> str:
-    """Return a certificate of a zero of the fixed point's twist.
+    """Return a certificate of a zero of the fixed point's twist, between two energies.
 
-    Parameters
-    ----------
-    k, g, low, high
-        As for `bisect_zero`.
-    start : (float, float)
-        (x, y) of the fixed point at one of these energies.
-    holds : callable
-        Whether a checker accepts a text; the radius is the largest for which it does.
+    `start` is (x, y) of the fixed point at one of them. The radius is the largest for which the
+    checker `holds` accepts the text.
     """
     with ctx.workprec(BITS):
         surface, above, point = bisect_zero(k, g, low, high, [start])
@@ -57,20 +51,8 @@ def bisect_zero(
 ) -> tuple[Surface, Surface, list[list[arb]]]:
     """Find two energies with 13 decimals between which the twist falls through zero.
 
-    Parameters
-    ----------
-    k, g : Fraction
-        The ball.
-    low, high : Fraction
-        Energies: the twist is positive at the first and negative at the other.
-    point : list of (float, float)
-        (x, y) of the fixed point at one of these energies.
-
-    Returns
-    -------
-    low, high : Surface
-    point : list of (arb, arb)
-        The fixed point at the first.
+    It must be positive at the energy `low` and negative at `high`; `point` has (x, y) of the fixed
+    point at one of them. Returns the two surfaces, and the fixed point at the first.
     """
     unit = 10**_ENERGY_DECIMALS
     while high - low > Fraction(1, unit):

@@ -12,7 +12,7 @@ from ..enclosure.surface import Exact
 from ..reference_solver import impact_errors
 from .statements import Result
 
-LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was taken
+_LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was taken
 
 Impacts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
@@ -25,19 +25,9 @@ def prove_impacts(
     tau: np.ndarray,
     name: str = "impacts",
 ) -> Result:
-    """Prove that each of many impacts is the first one.
+    """Prove that each of many impacts is the first one; arguments as for `impact_errors`.
 
-    Parameters
-    ----------
-    k, g, before, after, tau
-        As for `reference_solver.impact_errors`.
-    name : str
-        Of the result.
-
-    Returns
-    -------
-    Result
-        margins: worst error.
+    The Result has the margin worst error.
     """
     begin = time.perf_counter()
     errors = impact_errors(k, g, before, after, tau)
@@ -46,10 +36,10 @@ def prove_impacts(
         reason = "there are no impacts"
     elif worst == np.inf:
         reason = f"impact {np.argmax(errors)} grazes: which one is first is not decided"
-    elif not worst < LARGEST_ERROR:
+    elif not worst < _LARGEST_ERROR:
         reason = f"impact {np.argmax(errors)} is off by {worst:.3g}: not the first one"
     statement = (
-        f"each of {errors.size:,} impacts computed is the first one, to within {LARGEST_ERROR:g}"
+        f"each of {errors.size:,} impacts computed is the first one, to within {_LARGEST_ERROR:g}"
     )
     seconds = time.perf_counter() - begin
     return Result(name, statement, name, reason, {}, {"worst error": worst}, seconds)

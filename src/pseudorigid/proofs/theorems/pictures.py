@@ -20,19 +20,10 @@ _RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, a
 def horseshoe_data(surface: Surface, finding: Finding) -> xr.Dataset:
     """Tabulate the sets of a proved horseshoe, and one covering in the target's coordinates.
 
-    Parameters
-    ----------
-    surface : Surface
-    finding : Finding
-        As from `checks.horseshoe.check`.
-
-    Returns
-    -------
-    xarray.Dataset
-        x, y (set): centres; corner_x, corner_y (set, corner): around each; chain (set): the index
-        along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
-        of the set before the middle one, in units of the middle one's half widths, its two exit
-        edges first.
+    Returns a Dataset with x, y (set): centres; corner_x, corner_y (set, corner): around each;
+    chain (set): the index along the chain, from -K to K, NaN at the saddles; image_p, image_q
+    (edge, point): the image of the set before the middle one, in units of the middle one's half
+    widths, its two exit edges first.
     """
     saddles, chain = finding.parts["saddles"], finding.parts["chain"]
     sets, steps = [*saddles, *chain], len(chain) // 2
@@ -76,24 +67,10 @@ def _image(surface: Surface, source: HSet, target: HSet, p: arb, q: arb) -> list
 def twist_data(k: Exact, g: Exact, energies: list[Exact]) -> xr.Dataset:
     """Tabulate the fixed point's twist against the energy, and where it falls through zero.
 
-    Parameters
-    ----------
-    k, g : int, Fraction, Decimal or str
-        The ball, exact.
-    energies : list of int, Fraction, Decimal or str
-        Exact, in rising order. The fixed point must be elliptic there, and no power of its
-        multiplier up to the fourth be 1.
-
-    Returns
-    -------
-    xarray.Dataset
-        energy, twist (energy); zero (a number): the middle of a band of width 1e-13 in which the
-        twist is proved to fall through zero, NaN without one between two of the energies.
-
-    Raises
-    ------
-    ValueError
-        The fixed point, its type or its twist is not proved at an energy; with the reason.
+    The energies are in rising order. The fixed point must be elliptic there, and no power of its
+    multiplier up to the fourth be 1. Returns a Dataset with energy, twist (energy) and zero, the
+    middle of a band of width 1e-13 in which the twist is proved to fall through zero, NaN without
+    one between two of the energies. Raises ValueError where a twist is not proved.
     """
     from ..search import approximate_orbits
 

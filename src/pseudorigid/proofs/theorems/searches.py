@@ -10,13 +10,13 @@ from ..search import jump as jump_search
 from ..search import periodic as orbit_search
 from ..search import twist as twist_search
 
-PLANS = {
+_PLANS = {
     "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
     "horseshoe-inner": horseshoe_search.Plan(side=-1, steps=177, size=1e-10, room=1.12),
 }
-ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
-SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
-JUMP_RADIUS = "1e-28"  # error of the jump set's points
+_ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
+_SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
+_JUMP_RADIUS = "1e-28"  # error of the jump set's points
 
 
 def _points(theorem, kind: str) -> list[tuple[float, float]]:
@@ -35,18 +35,18 @@ def _twist(theorem) -> str:
 
 def _zero(theorem) -> str:
     ball = theorem.bounds["k"], theorem.bounds["g"]
-    (start,) = approximate_orbits.points(Surface(*ball, ZERO[0]), 1, "elliptic")
-    return twist_search.propose_zero(*ball, *ZERO, start, theorem.holds_for_any_radius)
+    (start,) = approximate_orbits.points(Surface(*ball, _ZERO[0]), 1, "elliptic")
+    return twist_search.propose_zero(*ball, *_ZERO, start, theorem.holds_for_any_radius)
 
 
 def _horseshoe(theorem) -> str:
     surface, points = theorem.bounds["surface"], _points(theorem, "hyperbolic")
     ball = approximate_orbits.ball(surface)
-    return horseshoe_search.propose(surface, ball, points, PLANS[theorem.name], theorem.prove)
+    return horseshoe_search.propose(surface, ball, points, _PLANS[theorem.name], theorem.prove)
 
 
 def _jump(theorem) -> str:
-    return jump_search.propose(theorem.bounds["surface"], SPEED, JUMP_RADIUS)
+    return jump_search.propose(theorem.bounds["surface"], _SPEED, _JUMP_RADIUS)
 
 
 SEARCHES = {

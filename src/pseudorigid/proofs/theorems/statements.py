@@ -20,7 +20,7 @@ from ..enclosure.surface import Surface
 
 K, G = (Fraction(str(paper.BALL[name])) for name in "kg")
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
-FIGURE_6 = [str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]]
+_FIGURE_6 = [str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]]
 MOST_DIGITS = 30  # of an enclosure as text: as many as certificates state
 
 
@@ -162,7 +162,7 @@ def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
     return (Fraction(x_low), Fraction(x_high)), (Fraction(xdot_low), Fraction(xdot_high))
 
 
-WINDOW = _window(*FIGURE_6)
+_WINDOW = _window(*_FIGURE_6)
 
 
 @dataclass(frozen=True)
@@ -204,7 +204,7 @@ _ORBITS = {
         ("fixed-point", HIGH, 1, "elliptic", "4e-3", "0.0212", "0.0213", "0.06", "0.0601"),
         ("fixed-point-low", LOW, 1, "elliptic", "2e-3", "0.1325", "0.1326", "0.0389", "0.039"),
         ("six-elliptic", HIGH, 6, "elliptic", "1e-4", "-0.1519", "-0.1518", "0.0232", "0.0233"),
-        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", *FIGURE_6),
+        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", *_FIGURE_6),
         ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4", "0.3869", "0.387", "0.0877",
          "0.0878"),
         ("ten-elliptic", LOW, 10, "elliptic", "6e-6", "0.0141", "0.0142", "0.0226", "0.0227"),
@@ -216,13 +216,14 @@ _ORBITS = {
 def _horseshoe_theorem(side: str, crossing: tuple[str, str], entropy: str) -> Theorem:
     low, high = map(Fraction, crossing)
     statement = (
-        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in {_region(WINDOW)} "
-        f"has a transversal connection, {side}, that passes y = 0 at {float(low):g} < x < "
-        f"{float(high):g}, and P has a uniformly hyperbolic invariant set that contains both, "
-        f"conjugate to a mixing subshift of entropy above {float(entropy):g}"
+        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in "
+        f"{_region(_WINDOW)} has a transversal connection, {side}, that passes y = 0 at "
+        f"{float(low):g} < x < {float(high):g}, and P has a uniformly hyperbolic "
+        "invariant set that contains both, conjugate to a mixing subshift of entropy above "
+        f"{float(entropy):g}"
     )
     bounds = {
-        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": WINDOW,
+        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _WINDOW,
         "crossing": (low, high), "entropy": Fraction(entropy),
     }  # fmt: skip
     return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)

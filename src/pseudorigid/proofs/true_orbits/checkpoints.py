@@ -12,15 +12,10 @@ EVERY = 15.0  # seconds between two checkpoints
 
 
 class Monitor:
-    """Reports the progress of a run, and saves checkpoints.
+    """Reports the progress of a run, and saves checkpoints every EVERY seconds.
 
-    Parameters
-    ----------
-    run : Run
-    progress : callable or None
-        Called at most once a second, and at the end, with the share done and the seconds left.
-    checkpoint : Path or None
-        Written every EVERY seconds.
+    `progress` is called at most once a second, and at the end, with the share done and the seconds
+    left.
     """
 
     def __init__(self, run, progress: Callable | None, checkpoint: Path | None):

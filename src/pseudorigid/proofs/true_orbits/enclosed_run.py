@@ -74,12 +74,8 @@ class Run:
     def step(self) -> None:
         """Advance by one impact.
 
-        Raises
-        ------
-        ValueError
-            The flight grazes to within the precision.
-        ShortOfBitsError
-            The bound has grown too large to round.
+        Raises ValueError if the flight grazes to within the precision, and ShortOfBitsError if the
+        bound has grown too large to round.
         """
         before = self._box(RESULT_BITS + GUARD_BITS)
         with ctx.workprec(self.precision):

@@ -11,16 +11,8 @@ from ..enclosure.surface import Exact, Surface, ball_of, exact
 class Start:
     """An exact start, which gives balls of its coordinates at any precision.
 
-    Parameters
-    ----------
-    surface : Surface
-    start : int, Fraction, Decimal, str or mapping
-        A fraction of the section's radius along y = 0, or a mapping with x and y or xdot.
-
-    Raises
-    ------
-    ValueError
-        A number is not exact, or the start is on or beyond the rim.
+    It is a fraction of the section's radius along y = 0, or a mapping with x and y or xdot. Raises
+    ValueError if a number is not exact, or the start is on or beyond the rim.
     """
 
     def __init__(self, surface: Surface, start: Exact | Mapping[str, Exact]):
