@@ -148,17 +148,30 @@ def test_a_band_without_a_zero_of_the_twist_is_refused():
     assert "as stated" in refused("twist-zero", with_field(text, "radius", "1e-3"))
 
 
-def test_the_map_is_not_proved_smooth_above_its_threshold():
-    text = THEOREMS["diffeomorphism"].text()
-    for other in ("1/100", "11/6249", "11/6251"):
-        assert "not 11/6250" in refused("diffeomorphism", text.replace("11/6250", other))
+@pytest.mark.parametrize(
+    ("energy", "roots"),
+    [("1/100", None), ("11/6249", None), ("11/6251", None), ("-3/1000", ("1/10", "3/10")),
+     ("0.00129", ("-0.03", "0.43")), ("0", ("0", "0.4")), ("-0.004", ("0.2", "0.2"))],
+)  # fmt: skip
+def test_the_map_is_not_proved_smooth_below_another_energy(energy, roots):
+    text = THEOREMS["diffeomorphism"].text().replace("11/6250", energy)
+    if roots:  # those of the energy, so that the certificate is consistent
+        text = with_field(text, "roots", f'["{roots[0]}", "{roots[1]}"]')
+    assert "not 11/6250" in refused("diffeomorphism", text)
+
+
+def test_no_jump_is_proved_where_the_map_is_smooth():
     with pytest.raises(NotProvedError, match="no flight touches the floor"):
         at = Surface("1/5", "1/25", "11/6250")
         text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
         jump.check(text, at, radius=Fraction(1), length=Fraction(0), jump=Fraction(0))
 
 
-def test_three_fixed_points_are_not_excluded_where_they_exist():
+def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are_three():
+    ball, low = (Fraction(1, 5), Fraction(1, 25)), Fraction(1, 100)
+    text = propose_only_fixed_point(*ball, low)
+    assert periodic.check_only_fixed_point(text, *ball, low)
+    assert "up to 1/100" in refused("one-fixed-point", text)
     assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
     k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
     text = propose_only_fixed_point(k, g, energy)
@@ -167,24 +180,6 @@ def test_three_fixed_points_are_not_excluded_where_they_exist():
 
 
 # ---- certificates that are consistent and prove less than the statement
-
-
-@pytest.mark.parametrize(
-    ("energy", "roots"),
-    [("-3/1000", ("1/10", "3/10")), ("0.00129", ("-0.03", "0.43")), ("0", ("0", "0.4")),
-     ("-0.004", ("0.2", "0.2"))],
-)  # fmt: skip
-def test_the_map_is_not_proved_smooth_below_a_lower_energy_only(energy, roots):
-    text = THEOREMS["diffeomorphism"].text().replace("11/6250", energy)
-    text = with_field(text, "roots", f'["{roots[0]}", "{roots[1]}"]')
-    assert "not 11/6250" in refused("diffeomorphism", text)
-
-
-def test_one_fixed_point_up_to_a_lower_energy_is_refused():
-    ball = Fraction(1, 5), Fraction(1, 25)
-    text = propose_only_fixed_point(*ball, Fraction(1, 100))
-    assert periodic.check_only_fixed_point(text, *ball, Fraction(1, 100))
-    assert "up to 1/100" in refused("one-fixed-point", text)
 
 
 @pytest.mark.parametrize("name", [*ORBITS, *TWISTS])
@@ -275,7 +270,7 @@ def test_a_longer_chain_is_refused_for_its_entropy():
     assert "entropy is not proved" in refused("horseshoe-outer", text)
 
 
-@pytest.mark.parametrize("margin", ["-1.0", "nan", "inf", "-inf", '"-1e-9"'])
+@pytest.mark.parametrize("margin", ["-1.0", "nan", "inf", "-inf"])
 def test_margins_that_are_negative_or_not_numbers_are_refused(margin):
     text = THEOREMS["horseshoe-outer"].text()
     rows = [[margin, margin] for _ in numbers(text, "margins")]
@@ -318,22 +313,19 @@ def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeyp
     assert "longer than 0.4048" in refused("jump-set", theorem.text())
 
 
-@pytest.mark.parametrize("number", ["1e-999999999", "1e999999999", '"1e400"', "1e400", "1_0.5",
-                                    "true", "0x10", '"1/0"', "[1]"])  # fmt: skip
-@pytest.mark.parametrize("name", ["six-elliptic", "twist-zero", "jump-set"])
-def test_a_number_out_of_bounds_is_refused(name, number):
-    refused(name, with_field(THEOREMS[name].text(), "radius", number))
-
-
-@pytest.mark.parametrize("name", THEOREMS)
-def test_a_ball_or_energy_of_too_many_digits_is_refused(name):
+@pytest.mark.parametrize(
+    "name", ["six-elliptic", "twist-zero", "jump-set", "one-fixed-point", "diffeomorphism"]
+)
+@pytest.mark.parametrize(
+    "number",
+    ["1e-999999999", "1e999999999", "1e400", "1e-999", "1_0.5", "true", "0x10", '"1/0"', "[1]"],
+)
+def test_a_number_of_too_many_digits_or_of_another_form_is_refused(name, number):
     text = THEOREMS[name].text()
-    for field in ("k", "g", "energy", "energy_up_to", "energy_below"):
-        for number in ("1e-999", "1e999", "1e-9999", "1e9999"):
-            other = with_field(text, field, f'"{number}"')
-            if other != text:
-                reason = refused(name, other)
-                assert "digits" in reason or "not an exact number" in reason
+    for field in ("k", "g", "energy", "energy_up_to", "energy_below", "radius"):
+        for value in (number, f'"{number}"'):
+            if (other := with_field(text, field, value)) != text:
+                refused(name, other)
 
 
 FIELDS = {
