@@ -118,11 +118,11 @@ def test_derivatives_of_a_flight_time():
         state[1], state[2], BALL.k, impact_law.impact_coefficients(BALL.k)
     )[:2]
     speeds = state[0], speed, rate, state[1] + state[2], BALL.g, end[3]
-    found = impact.flight_derivatives(*speeds, quadrant(end[3]))
+    derivatives = impact.flight_derivatives(*speeds, quadrant(end[3]))
     slope = float(gap.diff(tau).subs(values))
     expected = [-float((1 - sp.cos(tau)).subs(values)) / slope, end[3] / slope]
     expected.append(-float((sp.sin(tau) - tau).subs(values)) / slope)
-    np.testing.assert_allclose(found[2:], expected, rtol=1e-12)
+    np.testing.assert_allclose(derivatives[2:], expected, rtol=1e-12)
 
 
 def test_jacobian_of_the_code():

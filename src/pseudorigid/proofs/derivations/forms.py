@@ -91,8 +91,10 @@ def one_form() -> Formula:
     form = lagrangian.diff(velocity), lagrangian.diff(rate)
     on_section = (form[0] - form[1]).subs({velocity: v, rate: w})  # du = -dx
     speed, after = rebound(v, w)
-    kept = (speed - k * after) - (v - k * w)
-    return Formula(zeros([form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), kept]))
+    change = (speed - k * after) - (v - k * w)
+    return Formula(
+        zeros([form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), change])
+    )
 
 
 def area() -> Formula:

@@ -90,8 +90,8 @@ def impulse() -> Formula:
     before_x, before_u, p = sp.symbols("xm um p", real=True)
     inertia = k * M * R**2
     after = before_x - p / M, before_u - R * p / inertia
-    kept = M * (after[0] ** 2 - before_x**2) + inertia * (after[1] ** 2 - before_u**2)
-    nontrivial = [s for s in sp.solve(kept, p) if s != 0]
+    energy_change = M * (after[0] ** 2 - before_x**2) + inertia * (after[1] ** 2 - before_u**2)
+    nontrivial = [s for s in sp.solve(energy_change, p) if s != 0]
     printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
     return Formula(len(nontrivial) == 1 and zero(nontrivial[0] - printed))
 
@@ -111,7 +111,7 @@ def jump_conditions() -> Formula:
         -2 / (1 + k) * v - (1 - k) / (1 + k) * w,
     )
     again = rebound(*after)
-    conditions = [one - other for one, other in zip(after, printed, strict=True)]
+    conditions = [a - b for a, b in zip(after, printed, strict=True)]
     conditions += [energy(x, *after) - energy(x, v, w), sum(after) + v + w]
     return Formula(zeros([*conditions, again[0] - v, again[1] - w]))
 

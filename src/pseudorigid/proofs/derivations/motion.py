@@ -37,11 +37,11 @@ def map_residuals(sign):
     x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)
     first = (1 - k) / (1 + k) * v + sign * 2 * k / (1 + k) * w
     angle = (v1 - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g
-    other = 2 / (1 + k) * v + (1 - k) / (1 + k) * w
+    minus_rate = 2 / (1 + k) * v + (1 - k) / (1 + k) * w
     return (x1, v1, w1), (
         g * (x1 - x) - v1**2 / 2 + first**2 / 2,
-        x1 - x * sp.cos(angle) - other * sp.sin(angle),
-        w1 - x * sp.sin(angle) + other * sp.cos(angle),
+        x1 - x * sp.cos(angle) - minus_rate * sp.sin(angle),
+        w1 - x * sp.sin(angle) + minus_rate * sp.cos(angle),
     )
 
 
@@ -85,10 +85,10 @@ def bound() -> Formula:
     largest = _largest_x()
     follows = zero(potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k))
     follows = follows and zero(potential.subs(x, largest) - LEVEL)
-    more = sp.symbols("more", positive=True)
+    excess = sp.symbols("excess", positive=True)
     at_limit = largest.subs(LEVEL, limit)
-    below = sp.simplify(at_limit.subs(k, g + more)) == 1
-    above = sp.simplify(at_limit.subs(g, k + more)) == 1
+    below = sp.simplify(at_limit.subs(k, g + excess)) == 1
+    above = sp.simplify(at_limit.subs(g, k + excess)) == 1
     value = float(limit.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
     return Formula(follows and below and above, follows and below, value)
 
@@ -112,10 +112,10 @@ def smooth() -> Formula:
     A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
     """
     smallest = g / k - sp.sqrt(2 * LEVEL / k + g**2 / k**2)
-    found = sp.solve(smallest + g, LEVEL)
+    energies = sp.solve(smallest + g, LEVEL)
     threshold = g**2 * (1 + k / 2)
     value = float(threshold.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
-    return Formula(None, len(found) == 1 and zero(found[0] - threshold), value)
+    return Formula(None, len(energies) == 1 and zero(energies[0] - threshold), value)
 
 
 def contact_speed() -> Formula:
