@@ -81,7 +81,7 @@ def test_theorems_are_called_as_their_certificates():
 
 
 def test_the_config_knows_the_words():
-    assert {*arguments.COMMANDS, "all"} == set(document.WORDS)
+    assert {*arguments.COMMANDS, "all"} == set(document.COMMANDS)
 
 
 def test_the_version_is_ours_and_snakemakes(capsys):
@@ -209,5 +209,5 @@ def test_no_scene_is_named_like_a_word():
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
         with pytest.raises(document.ConfigError) as caught:
             document.check(given)
-        expected = f"{key}: 'verify' is not allowed: expected a name that is no word of ./reproduce"
-        assert caught.value.lines == (expected,)
+        allowed = "a name that is no command of ./reproduce"
+        assert caught.value.lines == (f"{key}: 'verify' is not allowed: expected {allowed}",)

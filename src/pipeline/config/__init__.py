@@ -1,7 +1,7 @@
-"""Read config.yaml, check it, and say what each scene needs computed.
+"""Reading of config.yaml, and what has to be computed for each scene.
 
-Whatever is wrong with the file becomes one `ConfigError`, with a line for each mistake that names
-the key, its value and what is allowed. Importing this package is cheap: it is part of every start.
+Mistakes in the file raise one `ConfigError`, with a line for each mistake that names the key, its
+value and what is allowed. Every command imports this package, so importing it must be fast.
 """
 
 from .paths import PAPER, PUBLISHED, figures

@@ -1,96 +1,94 @@
-"""What each scene needs computed, and where data and figures are, from the project's root."""
+"""Stages of each scene, and paths of data and figures relative to the project's root."""
 
 import json
+from pathlib import PurePath
 
 from pseudorigid.sweep import grid
 
+from .schema.fields import YamlMapping
 from .schema.kinds import KINDS
+from .schema.published import FOLDERS, PAPER, PUBLISHED
 from .schema.stages import STAGES, upstream
-from .validation.variants import PAPER
 
-# Where the figures of a set of scenes are published; those of variants are not.
-PUBLISHED = {
-    PAPER: "paper_figures",
-    "claims": "more_figures/claims",
-    "proofs": "more_figures/proofs",
-}
+__all__ = ["ATLAS", "DERIVATIONS", "LEDGER", "PAPER", "PUBLISHED", "SHOWN"]
+
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
-ATLAS = "more_figures/atlas"
+ATLAS = FOLDERS["sweep"]
 LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 DERIVATIONS = "results/claims/derivations.nc"
 
+Variants = dict[str, dict[str, YamlMapping]]  # variant -> scene -> complete block
 
-def stages(block: dict) -> dict[str, dict]:
-    """Stage -> the smallest block that decides its data, for one scene of a checked config."""
-    found = {}
+
+def stages(block: YamlMapping) -> dict[str, YamlMapping]:
+    """Map each stage of a scene to the part of the scene's complete block that decides its data."""
+    parameters = {}
     for name in upstream(KINDS[block["picture"]].stages):
         stage = STAGES[name]
         method = ("method",) if stage.takes(block.get("method", {})) else ()
         fields = ("ball", "energy", *stage.fields, *method)
-        found[name] = {field: block[field] for field in fields if field in block}
-    return found
+        parameters[name] = {field: block[field] for field in fields if field in block}
+    return parameters
 
 
-def drawing(block: dict) -> dict:
-    """What decides how a scene is drawn."""
+def drawing(block: YamlMapping) -> YamlMapping:
+    """Return the part of a scene's block that decides its drawing."""
     return {key: value for key, value in block.items() if key != "formats"}
 
 
-def artifact_paths(variants: dict[str, dict]) -> dict[tuple[str, str, str], str]:
-    """The dataset of each stage of each scene: (variant, scene, stage) -> its path.
+def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
+    """Map (variant, scene, stage) to the path of the stage's dataset.
 
     A variant shares a scene's dataset with the first variant that gives this scene the same
-    parameters. Scenes of other names never share: a scene that is added changes no path.
+    parameters. Scenes of other names never share, so that an added scene changes no path.
     """
-    first, found_paths = {}, {}
+    first_paths: dict[tuple[str, str, str], str] = {}
+    dataset_paths = {}
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
             for stage, parameters in stages(block).items():
                 key = scene, stage, json.dumps(parameters, sort_keys=True)
-                path = first.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
-                found_paths[variant, scene, stage] = path
-    return found_paths
+                path = first_paths.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
+                dataset_paths[variant, scene, stage] = path
+    return dataset_paths
 
 
 def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
-    """Where a figure is drawn."""
+    """Return the path where a figure is drawn, before it is published."""
     return f"results/{variant}/figures/{scene}.{extension}"
 
 
-def figures(variants: dict[str, dict], variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
-    """Each figure, where users look for it -> its scene, its data files and last its drawing."""
-    found_paths = artifact_paths(variants)
-    found = {}
+def figures(variants: Variants, variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
+    """Map each figure, where users find it, to its scene, and to its data and last its drawing."""
+    dataset_paths = artifact_paths(variants)
+    figure_paths = {}
     for name, block in variants[variant].items():
-        data = [found_paths[variant, name, stage] for stage in stages(block)]
+        data = [dataset_paths[variant, name, stage] for stage in stages(block)]
         for extension in block["formats"]:
-            made = drawn(name, extension, variant)
-            public = variant in PUBLISHED and extension in SHOWN
-            path = f"{PUBLISHED[variant]}/{name}.{extension}" if public else made
-            found[path] = name, [*data, made]
-    return found
+            drawing_path = drawn(name, extension, variant)
+            published = variant in PUBLISHED and extension in SHOWN
+            path = f"{PUBLISHED[variant]}/{name}.{extension}" if published else drawing_path
+            figure_paths[path] = name, [*data, drawing_path]
+    return figure_paths
 
 
-# ---- sweeps ----
-
-
-def block_files(name, sweep) -> list[str]:
-    """Where its blocks are kept, in the order of their cells."""
+def block_files(name: str, sweep: YamlMapping) -> list[str]:
+    """Return the paths of a sweep's blocks, in the order of their cells."""
     return [f"results/sweep/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
 
 
-def sweep_dataset(name) -> str:
-    """Where the whole sweep is."""
+def sweep_dataset(name: str) -> str:
+    """Return the path of a whole sweep's dataset."""
     return f"results/sweep/{name}.nc"
 
 
-def sweep_pictures(name, sweep) -> list[str]:
-    """Where its pictures are drawn; of a plane, whose cells are many, no vectors."""
+def sweep_pictures(name: str, sweep: YamlMapping) -> list[str]:
+    """Return the paths where a sweep is drawn. A plane has too many cells for vector graphics."""
     formats = SHOWN if len(sweep["k"]) == 1 else SHOWN[:1]
     return [f"results/sweep/figures/{name}.{extension}" for extension in formats]
 
 
-def atlas_published(drawing) -> str:
-    """Where users look for a picture of a sweep."""
-    return f"{ATLAS}/{drawing.rpartition('/')[2]}"
+def atlas_published(drawing_path: str) -> str:
+    """Return the published path of a sweep's drawing."""
+    return f"{ATLAS}/{PurePath(drawing_path).name}"

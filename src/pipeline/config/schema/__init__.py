@@ -1,1 +1,1 @@
-"""What there is: fields, kinds of picture, stages, variants, sweeps, parts of the study."""
+"""Declarations: fields, kinds of picture, stages, variants, sweeps, and parts of the study."""

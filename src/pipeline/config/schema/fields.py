@@ -1,224 +1,264 @@
-"""The types of the fields of config.yaml: pydantic's checks, and the words for what is allowed.
+"""The types of the fields of config.yaml.
 
-A field's description is what a refusal says is allowed; the text below a field says what it means.
-docs/config.md has both. Models only check:
-blocks stay the plain mappings that were written, so that 1 and 1.0 stay what they are.
+Each field has three parts: pydantic's constraints; the words for what is allowed, which error
+messages and docs/config.md quote; and, as its docstring, what it means, for docs/config.md.
+
+The models only validate. Blocks stay the mappings that YAML made, so that 1 and 1.0 stay distinct.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from annotated_types import Predicate
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model
-from pydantic.types import Strict
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic.fields import FieldInfo
 
-LARGEST = 10_000_000  # impacts of a scene, and points of a manifold: above it a number is a slip
+YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it
+ABSENT: Any = None  # the default of a field that may be left out and then has no value
+
+# Largest count of impacts, or of points of a manifold, in a scene. A larger number is a slip.
+LARGEST = 10_000_000
 
 
 class Block(BaseModel):
-    """A mapping of the config: unknown keys are mistakes, and so are numbers in quotes."""
+    """A mapping of the config. Unknown keys are mistakes, and so are numbers in quotes."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-
-
-def real(allowed: str, **bounds):
-    """The type of a number, with pydantic's bounds (gt, ge, lt, le) and the words for them."""
-    return Annotated[float, Strict(), Field(description=allowed, **bounds)]
+    model_config = ConfigDict(
+        extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
 
 
-def whole(low: int, high: int, multiple: int = 1):
-    """The type of a whole number from `low` to `high`, a multiple of another."""
+def allowed(words: str, **constraints: Any) -> Any:
+    """Return a pydantic field with these constraints, and the words that describe them."""
+    return Field(json_schema_extra={"allowed": words}, **constraints)
+
+
+def whole(low: int, high: int, multiple: int = 1) -> Any:
+    """Return the field of a whole number from `low` to `high`, a multiple of `multiple`."""
     more = f", a multiple of {multiple}" if multiple > 1 else ""
-    allowed = f"a whole number from {low} to {high}{more}"
-    bounds = Field(description=allowed, ge=low, le=high, multiple_of=multiple)
-    return Annotated[int, Strict(), bounds]
+    words = f"a whole number from {low} to {high}{more}"
+    return allowed(words, ge=low, le=high, multiple_of=multiple)
 
 
-def listed(item, allowed: str, low: int = 1, high: int | None = None, *fits: Callable):
-    """The type of a list of `low` to `high` items of which all `fits` are true."""
-    bounds = Field(description=allowed, min_length=low, max_length=high)
-    return Annotated[list[item], bounds, *map(Predicate, fits)]
+def fields_of(model: type[Block]) -> dict[str, FieldInfo]:
+    """Return the fields of a model by the keys that config.yaml has for them."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
-def distinct(items) -> bool:
-    """Whether no item is there twice."""
+def distinct(items: Sequence[Any]) -> bool:
+    """Return whether no item occurs twice."""
     return len(set(items)) == len(items)
 
 
-def rising(numbers) -> bool:
-    """Whether each number is above the one before."""
+def rising(numbers: Sequence[float]) -> bool:
+    """Return whether each number is above the one before."""
     return all(a < b for a, b in pairwise(numbers))
 
 
-def one_of(*texts: str, more: str = ""):
-    """The type of one of some texts; there may be `more` to say."""
-    return Annotated[Literal[texts], Field(description=f"one of {', '.join(texts)}{more}")]
+# A union of two types names them by tags, of which pydantic makes a part of an error's location.
+TAGS = ("(first)", "(second)")
+_FIRST, _SECOND = map(Tag, TAGS)
 
 
-def one_or(other, one, is_other: Callable, allowed: str):
-    """The type of what is either `other`, where `is_other` says so of what is given, or `one`."""
-    return Annotated[
-        Annotated[one, Tag("(one)")] | Annotated[other, Tag("(other)")],
-        Discriminator(lambda value: "(other)" if is_other(value) else "(one)"),
-        Field(description=allowed),
-    ]
+def first_if(*types: type) -> Discriminator:
+    """Return the rule that a value of these types is validated by the first type of a union."""
+    return Discriminator(lambda value: TAGS[not isinstance(value, types)])
 
 
-TAGS = ("(one)", "(other)")  # of one_or, which pydantic puts into the place of a mistake
-
-Number = real("a number")
-Inertia = real("a number with 0 < k <= 1", gt=0, le=1)
-Gravity = real("a number with 0 < g < k", gt=0)
-Energy = real("a number with -g^2/(2k) < energy < k/2 - g")
-Range = listed(Number, "a list of two increasing numbers", 2, 2, rising)
+Inertia = Annotated[float, allowed("a number with 0 < k <= 1", gt=0, le=1)]
+Gravity = Annotated[float, allowed("a number with 0 < g < k", gt=0)]
+Energy = Annotated[float, allowed("a number with -g^2/(2k) < energy < k/2 - g")]
+Energies = Annotated[list[Energy], allowed("a list of energies", min_length=1, max_length=20)]
+Number = Annotated[float, allowed("a number")]
+Range = Annotated[
+    list[Number],
+    allowed("a list of two increasing numbers", min_length=2, max_length=2),
+    Predicate(rising),
+]
 Name = Annotated[
     str,
-    Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$",
-          description="a name of letters, digits, - and _ that does not begin with -"),
-]  # fmt: skip
+    allowed(
+        "a name of letters, digits, - and _ that does not begin with -",
+        pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$",
+    ),
+]
 
 
 class BallBlock(Block):
     """a mapping with the keys k and g"""
 
     k: Inertia
-    """dimensionless Euler inertia: 1/5 for a solid sphere, 1/3 for a thin shell"""
+    """Dimensionless Euler inertia of the ball: how its mass is distributed. Use 1/5 = 0.2 for a
+    solid sphere and 1/3 for a thin shell. Values above 1/3 belong to no sphere."""
     g: Gravity
-    """gravity, in units of R omega^2"""
+    """Gravity in units of R omega^2, where R is the ball's radius and omega the frequency of its
+    stretching. The dynamics depends only on k and E/g^2."""
 
 
 class PartOfBall(Block):
     """a mapping with the keys k and g, or one of them"""
 
-    k: Inertia = None
-    """inertia"""
-    g: Gravity = None
-    """gravity"""
+    k: Inertia = ABSENT
+    g: Gravity = ABSENT
 
 
 class Scan(Block):
     """a mapping with the keys scan and tolerance"""
 
-    scan: real("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
-    """the step with which the sign of the gap is looked at"""
-    tolerance: real("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
-    """the width at which bisection ends"""
+    scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
+    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected. A
+    smaller step misses fewer impacts and takes longer; a ball whose impact is missed falls through
+    the floor. 0.1 is a typical choice."""
+    tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
+    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding."""
 
 
 class FineScan(Scan):
     """a mapping with the keys scan and tolerance"""
 
     # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
-    tolerance: real("a number from 1e-15 to 1e-12, for manifolds", ge=1e-15, le=1e-12)
+    tolerance: float = allowed("a number from 1e-15 to 1e-12, for manifolds", ge=1e-15, le=1e-12)
 
 
 class Exact(Block):
     """a mapping with the key exact"""
 
-    exact: Annotated[Literal[True], Field(description="true, or no method at all")]
-    """orbits of the starts as written, each number a rounded true value"""
+    exact: Annotated[Literal[True], allowed("true, or no method at all")]
+    """Compute the true orbit of each start, so that every number is a rounded true value. This
+    takes effect in portraits and in backdrops of other pictures; other stages compute as usual."""
 
 
-def _is_exact(value):
-    return isinstance(value, dict) and "exact" in value
+def _if_exact(value: Any) -> str:
+    return TAGS[not (isinstance(value, dict) and "exact" in value)]
 
 
-METHODS = "a mapping with the keys scan and tolerance, or {exact: true}"
-Method = one_or(Exact, Scan, _is_exact, METHODS)
-FineMethod = one_or(Exact, FineScan, _is_exact, METHODS)
+_METHODS = allowed("a mapping with the keys scan and tolerance, or {exact: true}")
+Method = Annotated[
+    Annotated[Exact, _FIRST] | Annotated[Scan, _SECOND], Discriminator(_if_exact), _METHODS
+]
+FineMethod = Annotated[
+    Annotated[Exact, _FIRST] | Annotated[FineScan, _SECOND], Discriminator(_if_exact), _METHODS
+]
 
 
 class Axis(Block):
     """a mapping with the keys limits and ticks"""
 
     limits: Range
-    """the ends of the axis"""
-    ticks: listed(Number, "a list of 1 to 50 numbers", 1, 50)
-    """where its numbers stand"""
+    """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn."""
+    ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
+    """Positions of the tick marks and their labels, within the limits."""
 
 
 class View(Block):
     """a mapping with the keys elevation and azimuth"""
 
-    elevation: real("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
-    """the eye's angle above the plane of x and xdot"""
-    azimuth: real("a number of degrees from -360 to 360", ge=-360, le=360)
-    """its angle around the axis of udot"""
+    elevation: float = allowed("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
+    """Angle of the viewing direction above the plane of x and xdot, in degrees. Small angles show
+    the surface from the side, large ones from above."""
+    azimuth: float = allowed("a number of degrees from -360 to 360", ge=-360, le=360)
+    """Angle of the viewing direction around the axis of udot, in degrees, from the axis of x
+    towards the axis of xdot. Turn it until the islands of interest face the viewer."""
 
 
 class Point(Block):
     """a mapping with the keys x and xdot, or x and y = xdot - k udot"""
 
     x: Number
-    xdot: Number = None
-    y: Number = None
+    """Position of the mass centre at impact, downwards, in R."""
+    xdot: Number = ABSENT
+    """Velocity of the mass centre just before impact, in omega R. Give either this or `y`; udot
+    follows from the energy."""
+    y: Number = ABSENT
+    """The coordinate y = xdot - k udot of the section, in omega R."""
 
 
 class Branch(Block):
     """a mapping with the key length"""
 
-    length: real("a positive number, in radii of the section", gt=0)
-    """how far the branch is followed from the orbit"""
+    length: float = allowed("a positive number, in radii of the section", gt=0)
+    """Arc length along which each of these branches is traced from its periodic point, in section
+    radii. Longer branches fold more often, and need more points and more time."""
 
 
-class _Branches(Block):
+class BothBranches(Block):
     """a mapping with the keys outer and inner, or one of them"""
 
-    outer: Branch = None
-    """the branches that leave away from the fixed point"""
-    inner: Branch = None
-    """the branches on the fixed point's side"""
+    outer: Branch = ABSENT
+    """Branches that leave the periodic points away from the fixed point. They fold in the chaotic
+    sea."""
+    inner: Branch = ABSENT
+    """Branches that leave the periodic points on the fixed point's side. They enclose the main
+    island."""
 
 
-Branches = Annotated[_Branches, Predicate(lambda given: given.model_fields_set)]
+Branches = Annotated[BothBranches, Predicate(lambda given: given.model_fields_set)]
 
 
 class Resolution(Block):
     """a mapping with the keys distance and bend"""
 
-    distance: real("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
-    """the longest piece of a line"""
-    bend: real("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
-    """the largest angle between neighbouring pieces"""
+    distance: float = allowed("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
+    """Largest distance between neighbouring points of a traced line, in section radii. Use 0.01
+    for a picture of the whole section. Points are inserted until it holds."""
+    bend: float = allowed("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
+    """Largest angle between neighbouring pieces of a traced line, in degrees. A smaller angle
+    resolves folds better. 10 looks smooth."""
 
 
 class Window(Block):
     """a mapping with the keys x and xdot"""
 
     x: Range
-    """ends of the window, from the point, in section radii"""
+    """Ends of the window in x, measured from the point, in section radii."""
     xdot: Range
-    """the same in xdot"""
+    """Ends of the window in xdot, measured from the point, in section radii times omega."""
 
 
-Fraction = real("a fraction with -1 < start < 1", gt=-1, lt=1)
-Between = listed(Fraction, "two fractions of the section's radius", 2, 2)
-Start = one_or(
-    Point,
-    real("a fraction of the section's radius with -1 < start < 1 (others are off the section)",
-         gt=-1, lt=1),
-    lambda value: isinstance(value, dict),
-    "a fraction of the section's radius, or a point {x, xdot} or {x, y}",
-)  # fmt: skip
-_STARTS = "a list of fractions of the section's radius, each with -1 < start < 1, or of points "
-Starts = listed(Start, _STARTS + "{x, xdot} or {x, y}")
-Impacts = one_or(
-    listed(whole(1, LARGEST), "a list of whole numbers, one for each start"),
-    whole(1, LARGEST),
-    lambda value: isinstance(value, list),
-    "a whole number, or a list of them, one for each start",
-)
-Period = whole(1, 12)
-OrbitType = one_of("elliptic", "hyperbolic", "inverse hyperbolic")
-Saddle = one_of("hyperbolic", "inverse hyperbolic", more=" (others have no manifolds)")
-Format = one_of("png", "svg", "pdf")
-_FORMATS = "a list of png, svg, pdf that has png in it, none of them twice"
-Formats = listed(Format, _FORMATS, 1, None, distinct, lambda given: "png" in given)
-
-
-def axes_of(*names: str) -> Any:
-    """The type of `axes:` with these names, each of which may be left out."""
-    keys = f"the keys {', '.join(names[:-1])} and {names[-1]}"
-    allowed = f"a mapping with {keys}, or some of them"
-    return create_model("Axes", __base__=Block, __doc__=allowed, **{n: (Axis, None) for n in names})
+Fraction = Annotated[float, allowed("a fraction with -1 < start < 1", gt=-1, lt=1)]
+Between = Annotated[
+    list[Fraction], allowed("two fractions of the section's radius", min_length=2, max_length=2)
+]
+Start = Annotated[
+    Annotated[Point, _FIRST]
+    | Annotated[
+        float,
+        allowed(
+            "a fraction of the section's radius with -1 < start < 1 (others are off the section)",
+            gt=-1,
+            lt=1,
+        ),
+        _SECOND,
+    ],
+    first_if(dict),
+    allowed("a fraction of the section's radius, or a point {x, xdot} or {x, y}"),
+]
+Starts = Annotated[
+    list[Start],
+    allowed(
+        "a list of fractions of the section's radius, each with -1 < start < 1, "
+        "or of points {x, xdot} or {x, y}",
+        min_length=1,
+    ),
+]
+_Count = Annotated[int, whole(1, LARGEST)]
+_Counts = Annotated[
+    list[_Count], allowed("a list of whole numbers, one for each start", min_length=1)
+]
+Impacts = Annotated[
+    Annotated[_Counts, _FIRST] | Annotated[_Count, _SECOND],
+    first_if(list),
+    allowed("a whole number, or a list of them, one for each start"),
+]
+OrbitType = Literal["elliptic", "hyperbolic", "inverse hyperbolic"]
+Saddle = Annotated[
+    Literal["hyperbolic", "inverse hyperbolic"],
+    allowed("one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
+]
+Formats = Annotated[
+    list[Literal["png", "svg", "pdf"]],
+    allowed("a list of png, svg, pdf that has png in it, none of them twice", min_length=1),
+    Predicate(distinct),
+    Predicate(lambda given: "png" in given),
+]

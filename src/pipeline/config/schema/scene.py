@@ -1,21 +1,26 @@
-"""What a scene is, and the groups of fields that kinds of picture are made of.
+"""Scenes of config.yaml, and the groups of fields that kinds of picture are made of.
 
-A kind of picture is one class in `kinds`, derived from these; the checks of a group that need more
-than one field stand with it. Numbers are compared as the decimals that were written.
+A kind of picture is one class in `kinds`, derived from these. Checks that need more than one field
+stand with the group. They compare numbers as the decimals that were written.
 """
 
 import inspect
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
 
-from pydantic import Field
+from annotated_types import Predicate
 
 from . import fields
+from .fields import ABSENT, YamlMapping, allowed
 
-CrossFieldError = tuple[tuple, Any, str]  # place in the scene, value, what is allowed
-SECTION = fields.axes_of("x", "xdot", "udot")
+if TYPE_CHECKING:  # importing xarray takes longer than checking a config
+    import xarray
+
+Dataset: TypeAlias = "xarray.Dataset"
+CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
+SectionAxes = dict[Literal["x", "xdot", "udot"], fields.Axis]
 
 
 class Scene(fields.Block):
@@ -25,38 +30,43 @@ class Scene(fields.Block):
     with the scene's block as `s`; what the picture shows, and what to see in it.
     """
 
-    # In the order in which the kind's `draw` takes them.
+    # Stages that compute the data, in the order in which the kind's `draw` takes their datasets.
     stages: ClassVar[tuple[str, ...]]
-    # A variant that changes one of these, the ball or the energy has axes of its own.
+    # A variant that changes one of these, the ball or the energy does not inherit `axes`.
     axes_depend_on: ClassVar[tuple[str, ...]] = ()
     # Axis -> the field whose values lie along it.
     along: ClassVar[dict[str, str]] = {}
     # The quantity of `numbers` that stands for the figure in a list.
     headline: ClassVar[str]
-    # Another scene of the kind than the committed one, small: YAML, its fields without `picture`.
+    # A small scene of this kind, other than the committed one, in YAML without `picture`.
     example: ClassVar[str]
-    # Which measure of error the study applies to it (pseudorigid.study.figure_errors), or None.
+    # The measure of error that the study applies (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
+    # Quantity -> value as text, measured in the datasets: numbers(block, **{stage: dataset}).
+    numbers: ClassVar[Callable[..., dict[str, str]]]
 
-    picture: Annotated[str, Field(description="the kind of picture: one of those below")]
-    """what is drawn"""
-    ball: fields.BallBlock = None
-    """the ball of this scene, where it is another"""
+    picture: str = allowed("the kind of picture: one of those below")
+    """What the figure shows."""
+    ball: fields.BallBlock = ABSENT
+    """The ball of this scene. Without it the scene has the ball at the top of the file."""
     energy: fields.Energy
-    """the energy, which each impact keeps"""
-    method: fields.Method = None
-    """how impacts are found, where not by the certified first root"""
+    """Total energy of the ball, in m omega^2 R^2; every impact keeps it. Below the lower bound
+    there is no motion, above the upper one the ball could flatten to nothing, eq. (31). Islands of
+    regular motion mostly shrink as the energy rises."""
+    method: fields.Method = ABSENT
+    """How the next impact is found. Without it, the first impact is found with a certificate that
+    none was missed; leave it out unless you want to compare methods."""
     formats: fields.Formats = ["png"]
-    """the files drawn"""
+    """File formats of the figure. png and svg are published; pdf stays in `results/`."""
 
     @classmethod
     def caption(cls) -> str:
-        """The caption of its figures, a template."""
-        return inspect.getdoc(cls).partition("\n\n")[2]
+        """Return the Jinja template of the captions of this kind's figures."""
+        return (inspect.getdoc(cls) or "").partition("\n\n")[2]
 
     @classmethod
-    def hidden(cls, block: dict) -> Iterator[str]:
-        """A line for each field of a checked block that asks for more than its axes show."""
+    def hidden(cls, block: YamlMapping) -> Iterator[str]:
+        """Yield a line for each field of a checked block whose values lie outside its axes."""
         for axis, field in cls.along.items():
             limits = block.get("axes", {}).get(axis, {}).get("limits")
             values = block[field] if isinstance(block[field], list) else [block[field]]
@@ -64,38 +74,37 @@ class Scene(fields.Block):
             if outside:
                 yield f"{field} {max(outside)} lies outside {beyond(axis, limits)}"
 
-    @staticmethod
-    def numbers(block: dict, **data) -> dict[str, str]:
-        """Quantity -> value in words, measured in the datasets of its stages (for the report)."""
-        raise NotImplementedError
-
     @classmethod
-    def cross_field_errors(cls, block: dict) -> Iterator[CrossFieldError]:
-        """What is wrong with a complete block whose fields have their types."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Yield what is wrong between fields of a complete block, each of which has its type."""
         ball = block["ball"]
         if not ball["g"] < ball["k"]:
             yield ("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"
             return
         yield from _energy_errors(block)
-        for axis, drawn in block.get("axes", {}).items():
-            low, high = drawn["limits"]
-            what = f"numbers within the limits {drawn['limits']}"
-            for tick in drawn["ticks"]:
+        for name, axis in block.get("axes", {}).items():
+            low, high = axis["limits"]
+            for tick in axis["ticks"]:
                 if low < high and not low <= tick <= high:
-                    yield ("axes", axis, "ticks"), tick, what
+                    words = f"numbers within the limits {axis['limits']}"
+                    yield ("axes", name, "ticks"), tick, words
 
 
 class OfOrbits(Scene):
     """A scene of orbits from given starts."""
 
     starts: fields.Starts
-    """where the orbits start, on y = 0 or at a point of the section"""
+    """Start of each orbit. A number is a fraction of the section's radius along the symmetry line
+    y = 0, from the section's centre: -1 and 1 are the rim, where impacts graze. A mapping is a
+    point of the section. Fractions carry over to another ball or energy, points do not."""
     impacts: fields.Impacts
-    """how many impacts of each orbit"""
+    """Number of impacts of each orbit. Where each impact is drawn as a dot, a few thousand fill a
+    closed curve and some ten thousand the chaotic sea. Exponents converge slowly: the paper takes
+    200000."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """Each start on the section, impacts for each of them, not too many in all."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that starts lie on the section, and that impacts fit them and are not too many."""
         yield from super().cross_field_errors(block)
         starts, impacts = block["starts"], block["impacts"]
         for i, start in enumerate(starts):
@@ -103,22 +112,44 @@ class OfOrbits(Scene):
                 yield from _start_errors(block, start, ("starts", i))
         if isinstance(impacts, list) and len(impacts) != len(starts):
             yield ("impacts",), impacts, f"one number for each of the {len(starts)} starts"
-        elif sum(each(impacts, starts)) > fields.LARGEST:
-            what = f"at most {fields.LARGEST} impacts in a scene, counted over all its starts"
-            yield ("impacts",), impacts, what
+        elif sum(_impacts_of_each(block)) > fields.LARGEST:
+            words = f"at most {fields.LARGEST} impacts in a scene, counted over all its starts"
+            yield ("impacts",), impacts, words
+
+
+class OfChaoticOrbits(OfOrbits):
+    """A scene of orbits, some of which are drawn as chaotic."""
+
+    sea: Annotated[
+        list[Annotated[int, fields.whole(0, fields.LARGEST)]],
+        allowed("a list of places in starts, counted from 0, none of them twice"),
+        Predicate(fields.distinct),
+    ] = []
+    """Places in `starts`, counted from 0, of the chaotic orbits. These are drawn in grey and below
+    the others; each other orbit has a colour of its own."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that places in `sea` are places in `starts`."""
+        yield from super().cross_field_errors(block)
+        last = len(block["starts"]) - 1
+        for place in block["sea"]:
+            if place > last:
+                yield ("sea",), place, f"a place in starts, from 0 to {last}"
 
 
 class OfRecords(OfOrbits):
     """A scene of exponents along orbits."""
 
-    records: fields.whole(2, 10_000)
-    """how many numbers of impacts have their exponents kept"""
+    records: int = fields.whole(2, 10_000)
+    """Number of points of each exponent's line: the exponents so far are kept after this many
+    equal stretches of impacts. 400 points make a smooth line."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """No more records than impacts."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that there are no more records than impacts."""
         yield from super().cross_field_errors(block)
-        least = min(each(block["impacts"], block["starts"]))
+        least = min(_impacts_of_each(block))
         if block["records"] > least:
             yield ("records",), block["records"], f"at most impacts = {least}"
 
@@ -126,14 +157,16 @@ class OfRecords(OfOrbits):
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
-    period: fields.Period
-    """impacts after which the orbit closes"""
+    period: int = fields.whole(1, 12)
+    """Number of impacts after which the periodic orbit closes; 1 is the fixed point. Only orbits
+    that are symmetric under the reversor are found. A run says if there is none."""
     type: fields.OrbitType
-    """its stability"""
+    """Stability of the periodic orbit: an elliptic orbit is surrounded by islands, a hyperbolic or
+    inverse hyperbolic one is a saddle with manifolds. It selects among the orbits of the period."""
 
     @staticmethod
-    def about_orbit(periodic, block) -> dict[str, str]:
-        """The orbit in words, its energy, and what tells its kind of stability."""
+    def about_orbit(periodic: Dataset, block: YamlMapping) -> dict[str, str]:
+        """Return the orbit's type and period, its energy, and its rotation number or multiplier."""
         from pseudorigid.dynamics.variables import of_type
 
         orbit = of_type(periodic, block["type"])
@@ -147,40 +180,37 @@ class OfPeriodicOrbit(Scene):
 class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
 
-    method: fields.FineMethod = None
+    method: fields.FineMethod = ABSENT
     type: fields.Saddle
     resolution: fields.Resolution
-    """how finely the manifolds are traced"""
-
-    sides: ClassVar[int] = 2  # of a point on which branches leave it
+    """How finely the manifolds are traced. A finer resolution takes more time and more memory."""
 
     @classmethod
-    def lengths(cls, block) -> dict[tuple, float]:
-        """Place in the block -> the length of a branch."""
+    def lengths(cls, block: YamlMapping) -> dict[tuple[str, ...], float]:
+        """Return the lengths of branches by their places in the block."""
         raise NotImplementedError
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """No branches longer than their points allow."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that no branch is longer than the largest number of points allows."""
         yield from super().cross_field_errors(block)
-        # each of them leaves every point twice, stable and unstable
-        branches = 2 * block["period"] * cls.sides
+        branches = 4 * block["period"]  # stable and unstable, on both sides of each point
         longest = fields.LARGEST * block["resolution"]["distance"] / branches
         for place, length in cls.lengths(block).items():
             if length > longest:
-                what = f"at most {fields.LARGEST} times resolution.distance"
-                yield place, length, f"{what}, shared by {branches} branches = {longest}"
+                words = f"at most {fields.LARGEST} times resolution.distance"
+                yield place, length, f"{words}, shared by {branches} branches = {longest}"
 
 
 class OfBranches(OfManifolds):
-    """A scene of branches of both sides, each as long as it says."""
+    """A scene of branches of both sides, each with its own length."""
 
     branches: fields.Branches
-    """which branches, and how far"""
+    """Which branches of the manifolds are traced, and how far."""
 
     @classmethod
-    def lengths(cls, block):
-        """Those of the branches."""
+    def lengths(cls, block: YamlMapping) -> dict[tuple[str, ...], float]:
+        """Return the length of each side's branches."""
         branches = block["branches"]
         return {("branches", side, "length"): branches[side]["length"] for side in branches}
 
@@ -188,36 +218,33 @@ class OfBranches(OfManifolds):
 class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
-    view: fields.View = {"elevation": 40, "azimuth": 115}
-    """from where the surface is seen"""
-    axes: SECTION = None
+    view: fields.View = {"elevation": 40, "azimuth": 115}  # type: ignore[assignment]
+    """Direction from which the surface is seen. The surface is opaque and hides its far side."""
+    axes: SectionAxes = ABSENT
+    """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
+    rate, omega). An axis that is left out has limits that hold its data."""
 
 
-def bounded(block, first, second, what) -> Iterator[CrossFieldError]:
-    """The fault of two whole numbers whose product counts numbers that are held at once."""
+def bounded(block: YamlMapping, first: str, second: str, what: str) -> Iterator[CrossFieldError]:
+    """Yield an error if the product of two fields, a count held in memory, is too large."""
     if block[first] * block[second] > fields.LARGEST:
-        allowed = f"at most {fields.LARGEST} {what}, {first} times {second}"
-        yield (second,), block[second], f"{allowed}: here {fields.LARGEST // block[first]}"
+        words = f"at most {fields.LARGEST} {what}, {first} times {second}"
+        yield (second,), block[second], f"{words}: here {fields.LARGEST // block[first]}"
 
 
-def beyond(axis, limits) -> str:
-    """Limits of an axis that hide something, and what to do about them."""
+def beyond(axis: str, limits: list[float]) -> str:
+    """Name limits of an axis that hide something, and say what to do about them."""
     return f"axes.{axis}.limits {limits}: widen them, or leave axes.{axis} out"
 
 
-def listing(data, words, *names) -> str:
-    """The values of some variables of a dataset side by side, each time in these words."""
+def listing(data: Dataset, template: str, *names: str) -> str:
+    """Format the values of some variables of a dataset side by side, with commas between rows."""
     rows = zip(*(data[name].values for name in names), strict=True)
-    return ", ".join(words.format(*row) for row in rows)
+    return ", ".join(template.format(*row) for row in rows)
 
 
-def each(impacts, starts) -> list[int]:
-    """Impacts of each start, given as one number or as a list."""
-    return impacts if isinstance(impacts, list) else [impacts] * len(starts)
-
-
-def measured_energy(block, states) -> dict[str, str]:
-    """The energy of a dataset's states, eq. (29), to twelve digits."""
+def measured_energy(block: YamlMapping, states: Dataset) -> dict[str, str]:
+    """Return the energy of a dataset's states, eq. (29), to twelve digits."""
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.variables import states_of
 
@@ -227,28 +254,30 @@ def measured_energy(block, states) -> dict[str, str]:
     return {"energy": " to ".join(ends)}
 
 
-def not_elliptic(block, name) -> Iterator[CrossFieldError]:
-    """Faults of energies, of a field that is one or a list, where the fixed point is hyperbolic."""
-    energies = block[name] if isinstance(block[name], list) else [block[name]]
-    for i, energy in enumerate(energies):
-        if not fixed_point_trace(block["ball"], energy) > -2:
-            low, high = -(block["ball"]["g"] ** 2) / (2 * block["ball"]["k"]), energy
-            for _ in range(40):
-                middle = (low + high) / 2
-                elliptic = fixed_point_trace(block["ball"], middle) > -2
-                low, high = (middle, high) if elliptic else (low, middle)
-            place = (name, i) if isinstance(block[name], list) else (name,)
-            yield place, energy, f"an energy below {low:.6g}, where the fixed point is elliptic"
+def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:
+    """Yield an error for each energy of a field at which the fixed point is hyperbolic."""
+    several = isinstance(block[name], list)
+    for i, energy in enumerate(block[name] if several else [block[name]]):
+        if fixed_point_trace(block["ball"], energy) > -2:
+            continue
+        low, high = -(block["ball"]["g"] ** 2) / (2 * block["ball"]["k"]), energy
+        for _ in range(40):
+            middle = (low + high) / 2
+            elliptic = fixed_point_trace(block["ball"], middle) > -2
+            low, high = (middle, high) if elliptic else (low, middle)
+        place = (name, i) if several else (name,)
+        yield place, energy, f"an energy below {low:.6g}, where the fixed point is elliptic"
 
 
-def fixed_point_trace(ball, energy) -> float:
-    """The trace at the fixed point, as in `pseudorigid.dynamics.fixed_point`, to some digits.
+def fixed_point_trace(ball: YamlMapping, energy: float) -> float:
+    """Return the trace of the map's derivative at the fixed point, to about nine digits.
 
-    That module compiles code when it is imported, which takes too long for a check.
+    `pseudorigid.dynamics.fixed_point` computes it too, but compiles code when it is imported, which
+    takes too long for a check of the config.
     """
     k, energy = ball["k"], energy / ball["g"] ** 2
 
-    def one_minus_theta_cot(theta):
+    def one_minus_theta_cot(theta: float) -> float:
         return 1 - theta / math.tan(theta)
 
     low, high = 0.0, math.pi
@@ -256,44 +285,53 @@ def fixed_point_trace(ball, energy) -> float:
         below = ((1 + k) * theta * theta + one_minus_theta_cot(theta) ** 2 - 1) / (2 * k) < energy
         low, high = (theta, high) if below else (low, theta)
     shear = one_minus_theta_cot(theta) * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
-    return 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
+    return float(2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k))
 
 
-def exact(value) -> Fraction:
-    """The decimal as written: as floats 0.2 / 2 - 0.04 is a little more than 0.06."""
+def exact(value: float) -> Fraction:
+    """Return a number as the decimal that was written. As floats, 0.2 / 2 - 0.04 exceeds 0.06."""
     return Fraction(str(value))
 
 
-def _energy_errors(block):
+def _impacts_of_each(block: YamlMapping) -> list[int]:
+    impacts = block["impacts"]
+    return impacts if isinstance(impacts, list) else [impacts] * len(block["starts"])
+
+
+def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
     k, g = (exact(block["ball"][name]) for name in "kg")
     lowest, highest = -g * g / (2 * k), k / 2 - g
-    more = {("energies", i): energy for i, energy in enumerate(block.get("energies", ()))}
-    for place, energy in ({("energy",): block["energy"]} | more).items():
+    energies: dict[tuple[str | int, ...], float] = {("energy",): block["energy"]}
+    energies |= {("energies", i): energy for i, energy in enumerate(block.get("energies", ()))}
+    for place, energy in energies.items():
         if not exact(energy) > lowest:
-            where = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
-            yield place, energy, f"a number above {where}"
+            bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
+            yield place, energy, f"a number above {bound}"
         elif not exact(energy) < highest:
-            where = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
-            yield place, energy, f"a number below {where}"
+            bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
+            yield place, energy, f"a number below {bound}"
 
 
-def _start_errors(block, start, place):
-    """A point {x, xdot} or {x, y} must lie inside the section at the scene's energy."""
+def _start_errors(
+    block: YamlMapping, start: YamlMapping, place: tuple[str, int]
+) -> Iterator[CrossFieldError]:
+    """Check that a point lies inside the section at the scene's energy."""
     if ("xdot" in start) == ("y" in start):
         yield place, start, "a point {x, xdot} or {x, y}"
         return
     k, g, energy = (exact(x) for x in (*(block["ball"][n] for n in "kg"), block["energy"]))
     x = exact(start["x"])
-    rest = 2 * energy + 2 * g * x - k * x * x  # twice the kinetic energy
-    least = Fraction(1, 10**12) * (2 * energy + g * g / k)  # that near the rim roundings decide
+    twice_kinetic_energy = 2 * energy + 2 * g * x - k * x * x
+    # Nearer to the rim than this, rounding decides whether the ball leaves the floor.
+    margin = Fraction(1, 10**12) * (2 * energy + g * g / k)
     if "y" in start:
         y = exact(start["y"])
-        inside = (1 + k) * rest - y * y > least
-        where = "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"
+        inside = (1 + k) * twice_kinetic_energy - y * y > margin
+        condition = "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"
     else:
         v = exact(start["xdot"])
-        square = rest - v * v  # k udot^2
-        inside = square > least and (v >= 0 or square - k * v * v > least)
-        where = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"
+        square = twice_kinetic_energy - v * v  # k udot^2
+        inside = square > margin and (v >= 0 or square - k * v * v > margin)
+        condition = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"
     if not inside:
-        yield place, start, f"a point on the section at energy {block['energy']}, {where}"
+        yield place, start, f"a point on the section at energy {block['energy']}, {condition}"

@@ -1,25 +1,27 @@
-"""The stages: what computes each, from what, and which fields of a scene decide its data."""
+"""The stages: the function of each, its inputs, and the fields that decide its data."""
 
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 
 class Stage(NamedTuple):
-    """A function of the science, called as f(ball, energy, *inputs, **fields) -> Dataset."""
+    """A function of pseudorigid, called as f(ball, energy, *inputs, **fields) -> Dataset."""
 
     module: str
     function: str
-    fields: tuple[str, ...]  # of those that the scene has
+    fields: tuple[str, ...]  # the scene's fields that it takes, as far as the scene has them
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
-    follows: bool = True  # orbits, so that a scene's `method` decides its data too
+    follows: bool = True  # it follows orbits, so that a scene's `method` decides its data too
     exact: tuple[str, str] | None = None  # module and function for `method: {exact: true}`
 
-    def maker(self, block) -> tuple[str, str]:
-        """Module and function for a block of the config."""
-        exact = "exact" in block.get("method", {})
-        return self.exact if exact else (self.module, self.function)
+    def maker(self, block: Mapping[str, Any]) -> tuple[str, str]:
+        """Return module and function for a block of the config."""
+        if self.exact is not None and "exact" in block.get("method", {}):
+            return self.exact
+        return self.module, self.function
 
-    def takes(self, method) -> bool:
-        """Whether a scene's `method` decides the data of this stage."""
+    def takes(self, method: Mapping[str, Any]) -> bool:
+        """Return whether a scene's `method` decides the data of this stage."""
         return self.follows and (self.exact is not None or "exact" not in method)
 
 
@@ -64,9 +66,9 @@ STAGES = {
 }
 
 
-def upstream(stages) -> list[str]:
-    """These stages and those that they take datasets of, each after its inputs."""
-    found = []
+def upstream(stages: Iterable[str]) -> list[str]:
+    """Return these stages and those whose datasets they take, each after its inputs."""
+    ordered: list[str] = []
     for stage in stages:
-        found += [s for s in (*upstream(STAGES[stage].inputs), stage) if s not in found]
-    return found
+        ordered += [s for s in (*upstream(STAGES[stage].inputs), stage) if s not in ordered]
+    return ordered

@@ -1,15 +1,19 @@
-"""What the study consists of: data, which of them are the same everywhere, and charts."""
+"""The parts of the study: its data, which of them are the same on every machine, and its charts."""
 
+from collections.abc import Iterable, Mapping
+
+from .fields import YamlMapping
 from .kinds import KINDS
+from .published import FOLDERS, PAPER
 
-# Data whose bytes are part of the contract, and measurements.
+# Data that are the same on every machine, and measurements.
 FIXED = ("work", "edges", "orbits", "needs", "verdicts")
 MEASURED = ("work_all", "edges_all", "missed_all")
-# Beside these no other job runs: `verdicts` uses all cores, and `work_all` measures seconds.
+# Parts beside which no other job runs: `verdicts` uses all cores, and `work_all` measures seconds.
 ALONE = ("verdicts", "work_all")
 SIDE_BY_SIDE = tuple(part for part in (*FIXED, *MEASURED) if part not in ALONE)
 # chart -> (its data, the function of figures.study, further arguments)
-CHARTS = {
+CHARTS: dict[str, tuple[str, str, tuple[object, ...]]] = {
     "work_uniform": ("work", "work", (0, "evaluations")),
     "work_grazing": ("work", "work", (1, "evaluations")),
     "edges": ("edges", "edges", ()),
@@ -23,55 +27,59 @@ CHARTS = {
     "seconds_grazing": ("work_all", "work", (1, "seconds")),
     "edges_all": ("edges_all", "edges", ()),
 }
-FOLDER = "more_figures/study"
+FOLDER = FOLDERS["study"]
 
 
-def data(part):
-    """Where the data of a part are, from the project's root."""
+def data(part: str) -> str:
+    """Return the path of a part's data, from the project's root."""
     return f"results/study/{part}.nc"
 
 
-def drawn(chart):
-    """Where a chart is drawn."""
+def drawn(chart: str) -> str:
+    """Return the path where a chart is drawn."""
     return f"results/study/figures/{chart}.png"
 
 
-def published(chart):
-    """Where users look for it."""
+def published(chart: str) -> str:
+    """Return the path where users find a chart."""
     return f"{FOLDER}/{chart}.png"
 
 
-def block(part, scenes):
-    """What decides the data of a part: for `needs` the scenes and the measure of error of each.
+def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:
+    """Return what decides the data of a part.
 
-    Those with a measure, and whose picture has a known size: they give their axes.
+    For `needs` these are the scenes with a measure of error and axes, which fix the picture's size.
     """
     if part != "needs":
         return {"part": part}
     measures = {name: KINDS[block["picture"]].studied for name, block in scenes.items()}
-    measures = {name: found for name, found in measures.items() if found and "axes" in scenes[name]}
+    measures = {name: kind for name, kind in measures.items() if kind and "axes" in scenes[name]}
     chosen = {name: scenes[name] for name in measures}
     return {"part": part, "scenes": chosen, "measures": measures}
 
 
-def artifacts(part, scenes, artifact_paths):
-    """The figures' own artifacts that a part compares with: (stage, scene, file)."""
-    looked = block(part, scenes).get("scenes", ())
+def artifacts(
+    part: str,
+    scenes: Mapping[str, YamlMapping],
+    artifact_paths: Mapping[tuple[str, str, str], str],
+) -> list[tuple[str, str, str]]:
+    """Return the figures' own datasets that a part compares with: (stage, scene, file)."""
+    compared: Iterable[str] = block(part, scenes).get("scenes", ())
     return [
         (stage, scene, file)
         for (variant, scene, stage), file in artifact_paths.items()
-        if variant == "paper" and scene in looked and stage in ("periodic", "manifolds")
+        if variant == PAPER and scene in compared and stage in ("periodic", "manifolds")
     ]
 
 
-def modules(part):
-    """The modules that a part imports by name, the libraries' rivals where they are measured."""
+def modules(part: str) -> list[str]:
+    """Return the modules that a part imports by name, with external solvers if it measures."""
     own = ("verdicts",) if part == "verdicts" else ()
-    rivals = ("methods.scipy_events", "methods.taylor") if part in MEASURED else ()
-    return [f"pseudorigid.study.{name}" for name in own + rivals]
+    external = ("methods.scipy_events", "methods.taylor") if part in MEASURED else ()
+    return [f"pseudorigid.study.{name}" for name in own + external]
 
 
-def drawing(chart):
-    """What decides how a chart is drawn."""
+def drawing(chart: str) -> YamlMapping:
+    """Return what decides how a chart is drawn."""
     _, function, arguments = CHARTS[chart]
     return {"chart": function, "arguments": list(arguments)}

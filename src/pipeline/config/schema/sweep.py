@@ -1,49 +1,50 @@
-"""What a sweep is: a grid over k and E/g^2."""
+"""The declaration of a sweep: a grid over k and E/g^2."""
 
-from typing import Any
+from typing import Annotated, Literal
 
-from pydantic import create_model
+from pydantic import Tag
 
-from .fields import Block, Gravity, Number, listed, one_of, one_or, whole
+from .fields import ABSENT, TAGS, Block, Gravity, Number, allowed, first_if, whole
 
-# `from` is a keyword, so that this block cannot be written as a class.
-SPAN_MEANINGS = {
-    "from": "first value of the axis",
-    "to": "last value of the axis",
-    "count": "number of values, both ends included",
-    "spacing": "`even`: equal differences between neighbours; `log`: equal ratios",
-}
-Span: Any = create_model(
-    "Span",
-    __base__=Block,
-    __doc__="a mapping with from, to and count",
-    **{
-        "from": (Number, ...),
-        "to": (Number, ...),
-        "count": (whole(2, 100_000), ...),
-        "spacing": (one_of("even", "log"), "even"),
-    },
-)
-Values = one_or(
-    listed(Number, "a list of at least one number"),
-    Span,
-    lambda value: isinstance(value, list),
-    "a list of numbers, or a mapping with from, to and count",
-)
+
+class Span(Block):
+    """a mapping with from, to and count"""
+
+    from_: float = allowed("a number", alias="from")
+    """First value of the axis."""
+    to: Number
+    """Last value of the axis."""
+    count: int = whole(2, 100_000)
+    """Number of values, both ends included."""
+    spacing: Literal["even", "log"] = "even"
+    """`even` gives neighbours equal differences, `log` gives them equal ratios."""
+
+
+Values = Annotated[
+    Annotated[list[Number], allowed("a list of at least one number", min_length=1), Tag(TAGS[0])]
+    | Annotated[Span, Tag(TAGS[1])],
+    first_if(list),
+    allowed("a list of numbers, or a mapping with from, to and count"),
+]
 
 
 class Sweep(Block):
     """a mapping with the keys k, energy, starts, impacts and block"""
 
     k: Values
-    """inertias of the grid"""
+    """Inertias of the grid, in increasing order. A single value makes a line, which is drawn as
+    curves; several make a plane, which is drawn as maps."""
     energy: Values
-    """energies of the grid, as E/g^2"""
-    g: Gravity = None
-    """gravity, where the axis is to show E itself"""
-    starts: whole(1, 1_000_000)
-    """orbits of a cell, even in area over the section"""
-    impacts: whole(100, 10_000_000)
-    """impacts of each orbit"""
-    block: whole(1, 100_000)
-    """cells computed by one job"""
+    """Energies of the grid as multiples of g^2, in increasing order."""
+    g: Gravity = ABSENT
+    """Gravity, in R omega^2. With it the picture shows E instead of E/g^2, and energies at which
+    the ball could flatten, eq. (31), are refused. The data do not depend on it."""
+    starts: int = whole(1, 1_000_000)
+    """Number of orbits in each cell of the grid. They start evenly, by area, over the half y >= 0
+    of the section, of which the other half is the mirror image. More starts make the share of
+    regular motion more precise."""
+    impacts: int = whole(100, 10_000_000)
+    """Largest number of impacts of an orbit. Longer orbits tell slow chaos from regular motion."""
+    block: int = whole(1, 100_000)
+    """Number of cells that one job computes. Choose it so that a job takes about a minute: an
+    interrupted sweep resumes with the blocks that are missing. The data do not depend on it."""

@@ -1,34 +1,37 @@
-"""What a variant is: the paper's scenes with some values replaced."""
+"""The declarations of a variant of the paper's scenes, and of the block `prove`."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import Field
-
-from .fields import LARGEST, Block, Energy, Method, PartOfBall, real, whole
+from .fields import ABSENT, LARGEST, Block, Energy, Method, PartOfBall, YamlMapping, allowed, whole
 
 
 class Prove(Block):
     """a mapping with the key impacts"""
 
-    impacts: whole(1, LARGEST)
-    """impacts of each figure with millions of them that are proved"""
+    impacts: int = whole(1, LARGEST)
+    """Number of impacts to prove in each figure whose data have millions of them. The impacts of
+    the other figures are all proved."""
 
 
 class Variant(Block):
     """a mapping with the keys ball, energy, method, scenes and scale, or some of them"""
 
-    ball: PartOfBall = None
-    """of every scene, in the place of its own"""
-    energy: Energy = None
-    """of every scene"""
-    method: Method = None
-    """of every scene"""
-    scale: real(
-        "a number from 1e-6 to 1e6, by which every length is multiplied", ge=1e-6, le=1e6
-    ) = None
-    """another unit of length: g times scale, energies times its square"""
+    ball: PartOfBall = ABSENT
+    """Replaces `k`, `g` or both in the ball of every scene."""
+    energy: Energy = ABSENT
+    """Replaces the energy of every scene."""
+    method: Method = ABSENT
+    """Replaces the method of every scene."""
+    scale: float = allowed(
+        "a number from 1e-6 to 1e6, by which every length is multiplied",
+        default=ABSENT,
+        ge=1e-6,
+        le=1e6,
+    )
+    """Change the unit of length. g is multiplied by this number and energies by its square, so that
+    positions and velocities are multiplied by it, while times and exponents stay."""
     scenes: Annotated[
-        dict[str, Any],
-        Field(description="a mapping from names of scenes to the fields that differ"),
-    ] = None
-    """further fields of single scenes; mappings merge, lists are replaced"""
+        YamlMapping, allowed("a mapping from names of scenes to the fields that differ")
+    ] = ABSENT
+    """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
+    lists, numbers and texts are replaced."""

@@ -1,1 +1,1 @@
-"""From the file to a checked config, and what is said where it is wrong."""
+"""Reading and validation of config.yaml."""

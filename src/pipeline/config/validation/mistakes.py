@@ -1,43 +1,99 @@
-"""Whether a block fits its declaration: pydantic's findings in our words, all of them."""
+"""Validation of a block by its declaration: pydantic's errors in this project's words."""
 
 import math
 import typing
 from contextlib import suppress
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
 
-from ..schema.fields import TAGS, Block
-from .words import dotted, meant, refusal
+from ..schema.fields import TAGS, Block, YamlMapping, fields_of
+from .words import Place, dotted, meant, refusal
 
-_UNKNOWN = ("extra_forbidden", "invalid_key")  # keys that there are not, the second no text
-_OF_VALUES = {"predicate_failed", "multiple_of"}  # findings about values of the right type
+_UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the second for keys not text
+_OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
 
 
-def mistakes(model, given, place) -> list[str]:
-    """A line for each mistake in `given`, which stands at `place`; the topmost first.
+def mistakes(model: Any, given: object, place: Place) -> list[str]:
+    """Return a line for each mistake in `given`, which stands at `place`; the topmost first.
 
-    `model` is a Block, or any other type with descriptions.
+    `model` is a Block, or any other type that says what it allows.
     """
-    found = _errors(model, given)
-    # A misspelt key leaves the right one missing: say the former first.
-    rank = dict.fromkeys(_UNKNOWN, 0) | {"missing": 1}
-    found.sort(key=lambda e: (len(e["loc"]), rank.get(e["type"], 2)))
-    misspelt = {e["loc"][:-1] for e in found if e["type"] in _UNKNOWN}
+    errors = _errors(model, given)
+    # A misspelt key leaves the right one missing: report the former only, and first.
+    rank = dict.fromkeys(_UNKNOWN_KEY, 0) | {"missing": 1}
+    errors.sort(key=lambda e: (len(e["loc"]), rank.get(e["type"], 2)))
+    misspelt = {e["loc"][:-1] for e in errors if e["type"] in _UNKNOWN_KEY}
     return [
         _line(model, error, place)
-        for error in found
+        for error in errors
         if not (error["type"] == "missing" and error["loc"][:-1] in misspelt)
     ]
 
 
-def readable(model, given) -> bool:
-    """Whether all has its type, so that what is wrong between fields can be told too."""
+def has_types(model: type[Block], given: object) -> bool:
+    """Return whether all values have their types, so that checks between fields are possible."""
     return {error["type"] for error in _errors(model, given)} <= _OF_VALUES
 
 
-def _errors(model, given):
-    """What pydantic finds."""
+def complete(model: type[Block], given: YamlMapping) -> YamlMapping:
+    """Add the defaults of the fields that a correct block leaves out."""
+    defaults = {
+        key: field.default
+        for key, field in fields_of(model).items()
+        if not field.is_required() and field.default is not None
+    }
+    return defaults | given
+
+
+def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
+    """Return the type at pydantic's location `loc` in a type, and what it allows in words."""
+    words, tagged = "something else", False
+    while True:
+        metadata = [annotation]
+        if isinstance(annotation, FieldInfo):
+            annotation = annotation.rebuild_annotation()
+        bare = annotation
+        if typing.get_origin(annotation) is typing.Annotated:
+            bare, *more = typing.get_args(annotation)
+            metadata += more
+        own = next(filter(None, map(_words, metadata)), None)
+        if isinstance(bare, type) and issubclass(bare, Block):
+            if not tagged:
+                words = (bare.__doc__ or "").partition("\n")[0]
+            if not loc:
+                return bare, words
+            annotation, loc, tagged = fields_of(bare)[str(loc[0])], loc[1:], False
+            continue
+        words = own or _words_of_literals(bare) or words
+        if loc in ((), ("[key]",)):
+            return annotation, words
+        tagged = loc[0] in TAGS
+        is_value_of_dict = typing.get_origin(bare) is dict and loc[1:] != ("[key]",)
+        argument = TAGS.index(str(loc[0])) if tagged else int(is_value_of_dict)
+        annotation, loc = typing.get_args(bare)[argument], loc[1:]
+
+
+def _words(metadata: object) -> str | None:
+    """Return the words that `schema.fields.allowed` gave to a field."""
+    extra = metadata.json_schema_extra if isinstance(metadata, FieldInfo) else None
+    return str(extra["allowed"]) if isinstance(extra, dict) else None
+
+
+def _words_of_literals(annotation: Any) -> str | None:
+    """Describe texts, and mappings whose keys are texts, by listing the texts."""
+    arguments = typing.get_args(annotation)
+    if typing.get_origin(annotation) is typing.Literal:
+        return f"one of {', '.join(arguments)}"
+    if typing.get_origin(annotation) is dict:
+        *keys, last = typing.get_args(arguments[0]) or [""]
+        return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
+    return None
+
+
+def _errors(model: Any, given: object) -> list[ErrorDetails]:
     try:
         TypeAdapter(model).validate_python(given)
     except ValidationError as error:
@@ -45,68 +101,36 @@ def _errors(model, given):
     return []
 
 
-def complete(model: type[Block], given: dict) -> dict:
-    """A correct block with the defaults of what it leaves out."""
-    defaults = {
-        name: field.default
-        for name, field in model.model_fields.items()
-        if not field.is_required() and field.default is not None
-    }
-    return defaults | given
-
-
-def _line(model, error, place) -> str:
+def _line(model: Any, error: ErrorDetails, place: Place) -> str:
     loc = error["loc"]
     where = (*place, *(part for part in loc if part not in TAGS))
-    if error["type"] in _UNKNOWN:
-        known = list(allowed_at(model, loc[:-1])[0].model_fields)
-        (hint,) = meant(loc[-1], known) or [f"allowed here: {', '.join(known)}"]
+    known: list[str] = []
+    if error["type"] in _UNKNOWN_KEY:
+        known = list(fields_of(allowed_at(model, loc[:-1])[0]))
+    elif error["type"] == "literal_error" and loc[-1] == "[key]":
+        known = list(typing.get_args(allowed_at(model, loc)[0]))
+        where = where[:-1]
+    if known:
+        (hint,) = meant(where[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"
     if loc[-1:] == ("[key]",):
         where = where[:-2]
-    annotation, allowed = allowed_at(model, loc)
+    annotation, words = allowed_at(model, loc)
     if error["type"] == "missing":
-        return f"{dotted(where)}: missing: expected {allowed}"
+        return f"{dotted(where)}: missing: expected {words}"
     value = error["input"]
     if isinstance(value, str):
         number = _number_in(value)
         if number is not None and not mistakes(annotation, number, ()):
             plain = repr(number)
             if "." not in plain:
-                plain = plain.replace("e", ".0e")  # YAML 1.1 takes 1e-3 for text
-            allowed += f"; this is text to YAML, write {plain}"
-    return refusal(where, value, allowed)
+                plain = plain.replace("e", ".0e")  # YAML 1.1 reads 1e-3 as text
+            words += f"; this is text to YAML, write {plain}"
+    return refusal(where, value, words)
 
 
-def allowed_at(annotation, loc):
-    """(type, what is allowed in words) at a place of pydantic's below a type."""
-    allowed, tagged = "something else", False
-    while True:
-        if isinstance(annotation, FieldInfo):
-            allowed = annotation.description or allowed
-            annotation = annotation.rebuild_annotation()
-        whole = annotation
-        if typing.get_origin(annotation) is typing.Annotated:
-            annotation, *metadata = typing.get_args(annotation)
-            for item in metadata:
-                allowed = getattr(item, "description", None) or allowed
-        if isinstance(annotation, type) and issubclass(annotation, Block):
-            if not tagged:
-                allowed = annotation.__doc__.partition("\n")[0]
-            if not loc:
-                return annotation, allowed
-            annotation, loc, tagged = annotation.model_fields[loc[0]], loc[1:], False
-            continue
-        if loc in ((), ("[key]",)):
-            return whole, allowed
-        mapped = typing.get_origin(annotation) is dict and loc[1:] != ("[key]",)
-        tagged = loc[0] in TAGS
-        place = TAGS.index(loc[0]) if tagged else int(mapped)
-        annotation, loc = typing.get_args(annotation)[place], loc[1:]
-
-
-def _number_in(text):
-    """The number that a text was meant to be, whole where it can be, or None."""
+def _number_in(text: str) -> float | None:
+    """Return the number that a text was meant to be, as an int if it is whole, or None."""
     with suppress(ValueError):
         number = float(text)
         if math.isfinite(number):

@@ -1,28 +1,31 @@
-"""From the file to a checked config."""
+"""Reading of config.yaml."""
 
+from collections.abc import Hashable
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 import pseudorigid
 
 from ...records.files import FileError, read_bytes
+from ..schema.fields import YamlMapping
 from .document import check
 from .words import ConfigError
 
-# Bytes of a config: what is larger is a slip, and would take long to parse. (The faster parser of
-# libyaml is not used: it crashes where text is nested deeply.)
-LARGEST = 500_000
+# Largest size of a config, in bytes. A larger file is a slip and would take long to parse. (The
+# faster parser of libyaml is not used: it crashes on deeply nested text.)
+LARGEST_FILE = 500_000
 
 
 class _Loader(yaml.SafeLoader):
-    """YAML that refuses a key given twice, of which plain PyYAML keeps the last without a word."""
+    """A YAML loader that refuses duplicate keys; PyYAML silently keeps the last one."""
 
-    def construct_mapping(self, node, deep=False):
-        seen = set()
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen: set[str] = set()
         for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
             if not isinstance(key, yaml.ScalarNode):
-                continue  # PyYAML itself refuses a list or a mapping as a key
+                continue  # PyYAML itself refuses lists and mappings as keys
             if key.value in seen:
                 raise yaml.constructor.ConstructorError(
                     None, None, f"the key {key.value} is given twice", key.start_mark
@@ -31,22 +34,8 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def load(path) -> dict:
-    """The checked config; every scene complete with its `ball` and `formats`.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    ConfigError
-        With a line to show for each mistake.
-    """
+def load(path: str | Path) -> YamlMapping:
+    """Return the checked config of a file, as `check` returns it; raise ConfigError."""
     path = Path(path)
     try:
         return check(_parse(path))
@@ -56,10 +45,10 @@ def load(path) -> dict:
         raise ConfigError(f"{path.name}: nested too deeply") from None
 
 
-def _parse(path):
+def _parse(path: Path) -> object:
     try:
-        if path.is_file() and path.stat().st_size > LARGEST:
-            raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST}")
+        if path.is_file() and path.stat().st_size > LARGEST_FILE:
+            raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_FILE}")
         data = read_bytes(path)
         pseudorigid.note_loaded(path, data)
         return yaml.load(data.decode("utf-8"), _Loader)
@@ -69,10 +58,10 @@ def _parse(path):
         raise ConfigError(f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise ConfigError(f"is not UTF-8 text: byte {error.start}") from None
-    except (yaml.YAMLError, ValueError) as error:  # ValueError: a date that does not exist
+    except (yaml.YAMLError, ValueError) as error:  # ValueError: an impossible date
         mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
         raise ConfigError(f"{place}not valid YAML: {problem}") from None
-    except (LookupError, AttributeError):  # what PyYAML makes of `!!bool x`
+    except (LookupError, AttributeError):  # raised by PyYAML for `!!bool x`
         raise ConfigError("not valid YAML: a value that is not what its !!tag says") from None

@@ -1,31 +1,38 @@
-"""One scene: complete, or what is wrong with it."""
+"""Validation of one scene."""
 
+from collections.abc import Mapping
+
+from ..schema.fields import YamlMapping
 from ..schema.kinds import KINDS
-from .mistakes import complete, mistakes, readable
-from .words import dotted, refusal
+from .mistakes import complete, has_types, mistakes
+from .words import Place, dotted, refusal
 
 
-def checked(given, ball, place, said=None):
-    """(complete block, []) of a scene as given, or (None, a line for each mistake).
+def checked(
+    given: object,
+    ball: YamlMapping | None,
+    place: Place,
+    origins: Mapping[str, Place] | None = None,
+) -> tuple[YamlMapping, list[str]]:
+    """Return a scene's complete block and a line for each mistake; with mistakes the block is {}.
 
-    `ball` is that of a scene without one. `said` has, for a field that was given elsewhere, the
-    place where: a mistake in it is told there.
+    `ball` is the ball of a scene without one, or None if it has mistakes itself. `origins` maps
+    fields that were written elsewhere to the places where their mistakes should be reported.
     """
     if not isinstance(given, dict):
-        return None, [refusal(place, given, "a mapping that begins with picture")]
-    what = f"one of {', '.join(KINDS)}"
+        return {}, [refusal(place, given, "a mapping that begins with picture")]
+    words = f"one of {', '.join(KINDS)}"
     if "picture" not in given:
-        return None, [f"{dotted((*place, 'picture'))}: missing: expected {what}"]
+        return {}, [f"{dotted((*place, 'picture'))}: missing: expected {words}"]
     kind = KINDS.get(given["picture"]) if isinstance(given["picture"], str) else None
     if kind is None:
-        return None, [refusal((*place, "picture"), given["picture"], what)]
-    said = ({} if "ball" in given else {"ball": ("ball",)}) | (said or {})
+        return {}, [refusal((*place, "picture"), given["picture"], words)]
     lines = mistakes(kind, given, place)
-    if ball is None or (lines and not readable(kind, given)):
-        return None, lines
+    if ball is None or (lines and not has_types(kind, given)):
+        return {}, lines
     block = complete(kind, {"ball": ball} | given)
-    lines += [
-        refusal((*said.get(where[0], (*place, where[0])), *where[1:]), value, allowed)
-        for where, value, allowed in kind.cross_field_errors(block)
-    ]
-    return (None, lines) if lines else (block, [])
+    places: dict[int | str, Place] = {} if "ball" in given else {"ball": ("ball",)}
+    places.update(origins or {})
+    for (field, *inner), value, allowed in kind.cross_field_errors(block):
+        lines.append(refusal((*places.get(field, (*place, field)), *inner), value, allowed))
+    return ({}, lines) if lines else (block, [])

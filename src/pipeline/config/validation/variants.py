@@ -1,93 +1,97 @@
-"""Variants: the paper's document with some of its values replaced.
+"""Derivation of variants: the paper's scenes with some values replaced.
 
-What a variant says of all scenes (its `ball`, laid over each scene's; its `energy`; its `method`)
-replaces what they say themselves; what it says of one scene, under `scenes`, is laid over that.
-Mappings merge, numbers, texts and lists replace. Its `scale` L changes the unit of length at the
-very end: g is multiplied by L, energies by L^2, and the ball's radius is L; bounds are those of the
-numbers before.
+The values that a variant gives for all scenes (ball, energy, method) replace those of the scenes.
+The fields that it gives for one scene are merged into the result. Its `scale` L is applied at the
+end: g is multiplied by L and energies by L^2; bounds are checked before that.
 """
 
 import math
+from typing import Any
 
+from ..schema.fields import YamlMapping
 from ..schema.kinds import KINDS
+from ..schema.published import FOLDERS
 from ..schema.scene import exact
 from ..schema.variant import Variant
 from .mistakes import mistakes
 from .scenes import checked
-from .words import dotted, refusal, unknown
+from .words import Place, dotted, refusal, unknown
 
-PAPER = "paper"
-# Folders in results/ and words that a variant's name must leave alone.
-RESERVED = (PAPER, "claims", "proofs", "study", "sweep", "sweeps", "atlas", "compare")
-RESERVED += ("report", "archive")
-_FOR_ALL = ("ball", "energy", "method")
+# Names that a variant may not have: folders in results/, and commands.
+RESERVED = (*FOLDERS, "sweeps", "atlas", "compare", "report", "archive")
+_OF_ALL_SCENES = ("ball", "energy", "method")
 
 
-def derive(document, name, given):
-    """(scenes, its mistakes) of the variant `name` of a correct document."""
+def derive(document: YamlMapping, name: str, given: object) -> tuple[YamlMapping, list[str]]:
+    """Return the scenes of a variant of a correct document, and a line for each mistake."""
     place = ("variants", name)
     if name in RESERVED:
-        return None, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
+        return {}, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
     lines = mistakes(Variant, given, place)
-    changes = {} if lines else given.get("scenes", {})
+    if not lines and not given:
+        lines = [refusal(place, given, Variant.__doc__ or "")]
+    if lines or not isinstance(given, dict):
+        return {}, lines
+    changes = given.get("scenes", {})
     for scene, change in changes.items():
         lines += _change_mistakes(document["scenes"], scene, change, (*place, "scenes", scene))
-    if not lines and not given:
-        lines = [refusal(place, given, Variant.__doc__)]
     if lines:
-        return None, lines
+        return {}, lines
     scenes = {}
     for scene, block in document["scenes"].items():
         change = changes.get(scene, {})
-        after = _derived({"ball": document["ball"]} | block, given, change)
-        said = {key: (*place, key) for key in _FOR_ALL if key in given and key not in change}
+        derived = _derived({"ball": document["ball"]} | block, given, change)
+        origins = {
+            key: (*place, key) for key in _OF_ALL_SCENES if key in given and key not in change
+        }
         if "ball" not in change:
-            said["ball"] = (*place, "ball")
-        scenes[scene], wrong = checked(after, after["ball"], (*place, "scenes", scene), said)
-        lines += wrong
+            origins["ball"] = (*place, "ball")
+        where = (*place, "scenes", scene)
+        scenes[scene], mistaken = checked(derived, derived["ball"], where, origins)
+        lines += mistaken
     scale = given.get("scale", 1)
     if lines or scale == 1:
         return scenes, lines
-    return {scene: scaled(block, scale) for scene, block in scenes.items()}, []
+    return {scene: _scaled(block, scale) for scene, block in scenes.items()}, []
 
 
-def _derived(block, variant, change):
-    """A scene's block, ball included, with what a variant says of all scenes and of this one."""
-    given = {key: variant[key] for key in _FOR_ALL if key in variant}
-    if "method" in variant:  # one method instead of another
+def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> YamlMapping:
+    """Merge a variant's values into a scene's block, which includes its ball."""
+    replaced = {key: variant[key] for key in _OF_ALL_SCENES if key in variant}
+    if "method" in variant:  # methods are replaced as a whole
         block = {key: value for key, value in block.items() if key != "method"}
-    after = merged(merged(block, given), change)
+    derived: YamlMapping = _merged(_merged(block, replaced), change)
     kind = KINDS[block["picture"]]
     framing = ("ball", "energy", *kind.axes_depend_on)
-    moved = variant.get("scale", 1) != 1 or any(block.get(f) != after.get(f) for f in framing)
+    moved = variant.get("scale", 1) != 1 or any(block.get(f) != derived.get(f) for f in framing)
     if moved and "axes" not in change:
-        after.pop("axes", None)
+        derived.pop("axes", None)
     elif moved:
-        after["axes"] = change["axes"]
-    return after
+        derived["axes"] = change["axes"]
+    return derived
 
 
-def _change_mistakes(scenes, scene, change, place):
+def _change_mistakes(scenes: YamlMapping, scene: str, change: object, place: Place) -> list[str]:
     if scene not in scenes:
         return [f"{dotted(place)}: {unknown('scene', scene, list(scenes))}"]
     if not isinstance(change, dict):
         return [refusal(place, change, "a mapping with fields of the scene")]
     picture = scenes[scene]["picture"]
     if change.get("picture", picture) != picture:
-        what = f"{picture}, which a variant does not change"
-        return [refusal((*place, "picture"), change["picture"], what)]
+        words = f"{picture}, which a variant does not change"
+        return [refusal((*place, "picture"), change["picture"], words)]
     return []
 
 
-def merged(old, new):
-    """`new` laid over `old`: mappings key by key, anything else in its place."""
+def _merged(old: Any, new: Any) -> Any:
+    """Merge mappings key by key; replace anything else."""
     if not (isinstance(old, dict) and isinstance(new, dict)):
         return new
-    return old | {key: merged(old.get(key), value) for key, value in new.items()}
+    return old | {key: _merged(old.get(key), value) for key, value in new.items()}
 
 
-def scaled(block, scale):
-    """A complete block in another unit of length."""
+def _scaled(block: YamlMapping, scale: float) -> YamlMapping:
+    """Express a complete block in another unit of length."""
     ball = block["ball"] | {"g": _product(block["ball"]["g"], scale)}
     block = block | {"ball": ball, "energy": _product(block["energy"], scale, scale)}
     for name in {"energies", "marks"} & block.keys():
@@ -102,6 +106,6 @@ def scaled(block, scale):
     return block
 
 
-def _product(*factors):
-    """Of the decimals as written: 3 times 0.01 is 0.03."""
+def _product(*factors: float) -> float:
+    """Multiply decimals as written and round once, so that 3 times 0.01 gives 0.03."""
     return float(math.prod(map(exact, factors)))

@@ -1,52 +1,56 @@
-"""The lines that say what is wrong in the config and what is allowed."""
+"""The form of error messages about the config: place, value, and what is allowed."""
 
 import difflib
+from collections.abc import Iterable, Iterator
 from itertools import islice
+
+Place = tuple[int | str, ...]  # keys and indices that lead to a value
+_LONGEST_VALUE = 60  # characters of a value in a message
 
 
 class ConfigError(Exception):
-    """What is wrong in the config, a line for each mistake: place, value, and what is allowed."""
+    """Mistakes in the config, a line for each: place, value, and what is allowed."""
 
-    def __init__(self, *lines: str):
-        # A key may have line breaks in it: a mistake stays on its line.
+    def __init__(self, *lines: str) -> None:
+        # A key may contain line breaks, but a mistake must stay on its line.
         self.lines = tuple(
             "".join(c if c.isprintable() else repr(c)[1:-1] for c in line) for line in lines
         )
         super().__init__("\n".join(self.lines))
 
 
-def refusal(place, value, allowed) -> str:
-    """The line for a value that is not allowed."""
+def refusal(place: Place, value: object, allowed: str) -> str:
+    """Return the line for a value that is not allowed."""
     where = f"{dotted(place)}: " if place else ""
-    return f"{where}{shown(value)} is not allowed: expected {allowed}"
+    return f"{where}{_shown(value)} is not allowed: expected {allowed}"
 
 
-def unknown(kind, name, known) -> str:
-    """In words that there is no such thing, and which was meant."""
-    there = f"config.yaml has {', '.join(known) or 'none'}"
-    return f"no {kind} {name}: {' '.join([*meant(name, known), there])}"
+def unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    """Say that there is no such thing, what may be meant, and what there is."""
+    names = list(known)
+    inventory = f"config.yaml has {', '.join(names) or 'none'}"
+    return f"no {kind} {name}: {' '.join([*meant(name, names), inventory])}"
 
 
-def meant(name, known) -> list[str]:
-    """The question which was meant, of an unknown name; empty where none is near."""
+def meant(name: object, known: Iterable[str]) -> list[str]:
+    """Return a question that suggests the known name nearest to `name`; empty if none is near."""
     return [f"did you mean {near}?" for near in difflib.get_close_matches(str(name), known, 1, 0.5)]
 
 
-def dotted(place) -> str:
-    """A place in the config as scenes.fig2.starts[1]."""
+def dotted(place: Place) -> str:
+    """Return a place in the config in the form scenes.fig2.starts[1]."""
     texts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
     return "".join(texts).removeprefix(".")
 
 
-def shown(value) -> str:
-    """A value as in YAML, shortened to a part of a line."""
-    # Aliases in YAML can make a value of any size.
-    text = "".join(islice(_pieces(value), 61))
-    return text if len(text) <= 60 else text[:57] + "..."
+def _shown(value: object) -> str:
+    """Return a value as in YAML, shortened. Aliases in YAML can make a value of any size."""
+    text = "".join(islice(_pieces(value), _LONGEST_VALUE + 1))
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 
 
-def _pieces(value):
-    """What a value is written with, piece by piece."""
+def _pieces(value: object) -> Iterator[str]:
+    """Yield the text of a value piece by piece."""
     if isinstance(value, dict | list):
         yield "{" if isinstance(value, dict) else "["
         for i, item in enumerate(value):

@@ -1,17 +1,22 @@
-"""The kinds of picture: every module here declares one, and its name is the module's."""
+"""The kinds of picture. Every module of this package declares one kind, which has its name."""
 
 import importlib
 import pkgutil
 
 from ..scene import Scene
 
-KINDS: dict[str, type[Scene]] = {}
-for _found in pkgutil.iter_modules(__path__):
-    _module = importlib.import_module(f"{__name__}.{_found.name}")
-    (KINDS[_found.name],) = (
-        kind
-        for kind in vars(_module).values()
-        if isinstance(kind, type)
-        and issubclass(kind, Scene)
-        and kind.__module__ == _module.__name__
+
+def _declared(name: str) -> type[Scene]:
+    """Return the one kind of picture that a module declares."""
+    module = importlib.import_module(f"{__name__}.{name}")
+    (kind,) = (
+        value
+        for value in vars(module).values()
+        if isinstance(value, type)
+        and issubclass(value, Scene)
+        and value.__module__ == module.__name__
     )
+    return kind
+
+
+KINDS = {module.name: _declared(module.name) for module in pkgutil.iter_modules(__path__)}

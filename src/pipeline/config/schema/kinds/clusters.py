@@ -1,9 +1,12 @@
-"""Clusters of impacts in the sea, and what they remember."""
+"""Clusters of impacts in the chaotic sea, and their memory."""
 
-from ..fields import Between, listed, real, whole
-from ..scene import Scene, bounded, listing
+from collections.abc import Iterator
+from typing import Annotated
 
-LONGEST = 1_000_000  # flight: their histogram has ten bins a unit of time
+from ..fields import Between, YamlMapping, allowed, whole
+from ..scene import CrossFieldError, Dataset, Scene, bounded, listing
+
+LONGEST_FLIGHT = 1_000_000  # 1/omega: the histogram of flight times has ten bins a unit of time
 
 
 class Clusters(Scene):
@@ -35,34 +38,40 @@ class Clusters(Scene):
     """
 
     between: Between
-    """the part of y = 0 on which orbits start"""
-    orbits: whole(2, 100_000)
-    """how many orbits"""
-    impacts: whole(100, 10_000_000)
-    """impacts of each orbit"""
-    cuts: listed(real("a time above 0", gt=0), "a list of 1 to 7 times", 1, 7)
-    """a longer flight parts two clusters; an analysis for each"""
-    lags: whole(1, 100)
-    """up to how many clusters later correlations are computed"""
-    resamples: whole(10, 100_000)
-    """resamplings of the orbits behind each interval"""
-    seed: whole(0, 2**31)
-    """of the resampling"""
+    """Part of the symmetry line y = 0 over which the orbits start evenly, in section radii from the
+    section's centre. Choose it inside the chaotic sea."""
+    orbits: int = whole(2, 100_000)
+    """Number of orbits. More orbits narrow the confidence intervals."""
+    impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit."""
+    cuts: list[Annotated[float, allowed("a time above 0", gt=0)]] = allowed(
+        "a list of 1 to 7 times", min_length=1, max_length=7
+    )
+    """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
+    is repeated for each cut, to show what depends on the choice."""
+    lags: int = whole(1, 100)
+    """A cluster is compared with this many later ones: the next, the next but one, and so on."""
+    resamples: int = whole(10, 100_000)
+    """Number of bootstrap samples of whole orbits behind each 95 % confidence interval. A few
+    hundred suffice."""
+    seed: int = whole(0, 2**31)
+    """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
+    shifts their ends a little, and nothing else. Any number will do."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """What is held at once: every impact, and every sample of the bootstrap."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that all impacts, and all bootstrap samples, fit into memory."""
         cross_field_errors = [*super().cross_field_errors(block)]
         yield from cross_field_errors
         yield from bounded(block, "orbits", "impacts", "impacts in all")
         yield from bounded(block, "orbits", "resamples", "orbits drawn")
         (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
-        if not cross_field_errors and 4 * (2 * energy + g * g / k) > (LONGEST * g) ** 2:
+        if not cross_field_errors and 4 * (2 * energy + g * g / k) > (LONGEST_FLIGHT * g) ** 2:
             longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
-            what = f"one with flights of at most {LONGEST} at this energy (here {longest:.3g})"
-            yield ("ball", "g"), g, what
+            words = f"one with flights of at most {LONGEST_FLIGHT} at this energy"
+            yield ("ball", "g"), g, f"{words} (here {longest:.3g})"
 
     @staticmethod
-    def numbers(block, clusters):
-        """The mean time from one cluster to the next, for each cut."""
+    def numbers(block: YamlMapping, clusters: Dataset) -> dict[str, str]:
+        """Give the mean time from one cluster to the next, for each cut."""
         return {"time between clusters": listing(clusters, "{:.2f} cut at {:g}", "period", "cut")}

@@ -1,7 +1,9 @@
-"""Lobes and the flux through them."""
+"""Lobes of the manifolds, and the flux through them."""
 
-from ..fields import Between, real, whole
-from ..scene import Scene, bounded, listing
+from collections.abc import Iterator
+
+from ..fields import Between, YamlMapping, allowed, whole
+from ..scene import CrossFieldError, Dataset, Scene, bounded, listing
 
 
 class Flux(Scene):
@@ -31,34 +33,37 @@ class Flux(Scene):
     impacts: 500
     """
 
-    period: whole(2, 12, 2)
-    """of the hyperbolic orbit"""
-    distance: real("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
-    """between points along the branches"""
-    grid: whole(10, 3000)
-    """points to a side of the grid on which the flux is counted"""
+    period: int = whole(2, 12, 2)
+    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even."""
+    distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
+    """Largest distance between neighbouring points of the traced branches, in section radii. It
+    decides how well areas of polygons agree with the exact areas of the lobes."""
+    grid: int = whole(10, 3000)
+    """The flux is also counted over a grid of this many points to a side, in the rectangle around
+    the section. The work grows with its square."""
     between: Between
-    """the part of y = 0 on which orbits of the sea start"""
-    orbits: whole(2, 100_000)
-    """how many orbits of the sea"""
-    impacts: whole(100, 10_000_000)
-    """impacts of each of them"""
+    """Part of the symmetry line y = 0 over which orbits of the chaotic sea start evenly, in section
+    radii from the section's centre. The flux is counted along these orbits too."""
+    orbits: int = whole(2, 100_000)
+    """Number of these orbits."""
+    impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each of these orbits."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """Every impact is held."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that all impacts fit into memory."""
         yield from super().cross_field_errors(block)
         yield from bounded(block, "orbits", "impacts", "impacts in all")
 
     @staticmethod
-    def numbers(block, flux):
-        """Areas of the lobes in (x, y), or why there are none."""
-        here = flux.dropna("side", subset=["area"])
+    def numbers(block: YamlMapping, flux: Dataset) -> dict[str, str]:
+        """Give the areas of the lobes in (x, y), or why there are none."""
+        with_area = flux.dropna("side", subset=["area"])
         missing = {
             f"no {side} lobes": flux.attrs[f"missing_{side}"]
             for side in flux["side"].values
             if f"missing_{side}" in flux.attrs
         }
-        for side in here["side"].values[here["region"].isnull().values]:
+        for side in with_area["side"].values[with_area["region"].isnull().values]:
             missing[f"no {side} region"] = "a jump of the map cuts its edge"
-        return {"lobes": listing(here, "{} {:.10g}", "side", "area")} | missing
+        return {"lobes": listing(with_area, "{} {:.10g}", "side", "area")} | missing

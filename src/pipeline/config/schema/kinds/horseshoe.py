@@ -1,13 +1,9 @@
-"""The sets of a proved horseshoe along a connection, and one of its covering relations."""
+"""The sets of a proved horseshoe along a connection, and one covering relation."""
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
-from ..fields import axes_of
-from ..scene import OfBranches
-
-Side = Annotated[Literal["outer", "inner"], Field(description="outer or inner")]
+from ..fields import ABSENT, Axis, YamlMapping, allowed
+from ..scene import Dataset, OfBranches
 
 
 class Horseshoe(OfBranches):
@@ -37,12 +33,18 @@ class Horseshoe(OfBranches):
     connection: outer
     """
 
-    connection: Side
-    """along which branches the orbit is connected with itself"""
-    type: Annotated[Literal["hyperbolic"], Field(description="hyperbolic")]
-    axes: axes_of("x", "y", "p", "q") = None
+    connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
+    """Side of the branches along which the orbit is connected with itself, and along which the sets
+    of the horseshoe lie. The branches of this side should be among `branches`."""
+    type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
+    axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
+    """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
+    of `p` and `q`, the coordinates of the middle set, below. An axis that is left out has limits
+    that hold its data."""
 
     @staticmethod
-    def numbers(block, periodic, manifolds, horseshoe):
-        """The orbit, and how many sets there are."""
+    def numbers(
+        block: YamlMapping, periodic: Dataset, manifolds: Dataset, horseshoe: Dataset
+    ) -> dict[str, str]:
+        """Describe the orbit, and count the sets."""
         return Horseshoe.about_orbit(periodic, block) | {"sets": f"{horseshoe.sizes['set']}"}

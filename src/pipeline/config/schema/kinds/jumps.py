@@ -1,11 +1,10 @@
 """The curves where the map jumps."""
 
-from ..fields import Energy, listed, whole
-from ..scene import listing
-from .portrait import Portrait
+from ..fields import Energies, YamlMapping, whole
+from ..scene import Dataset, OfChaoticOrbits, listing
 
 
-class Jumps(Portrait):
+class Jumps(OfChaoticOrbits):
     """the curves where the map and its inverse jump
 
     The section at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }} in the chart
@@ -17,7 +16,6 @@ class Jumps(Portrait):
 
     stages = ("jumps", "orbits")
     headline = "jump curve"
-    studied = None
     example = """
     ball: {k: 0.3333333333333333, g: 0.02}
     energy: 0.01
@@ -28,12 +26,13 @@ class Jumps(Portrait):
     sea: [1]
     """
 
-    energies: listed(Energy, "a list of energies", 1, 20)
-    """further energies, drawn below"""
-    sides: whole(4, 100_000, 4)
-    """sides of each curve as it is drawn, and measured beside half and a quarter of them"""
+    energies: Energies
+    """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
+    sides: int = whole(4, 100_000, 4)
+    """Number of straight sides of which each curve is drawn. Its length is measured with this
+    number, half of it and a quarter of it, which gives the error of the length."""
 
     @staticmethod
-    def numbers(block, jumps, orbits):
-        """How long the curve is in (x, y) at each energy."""
+    def numbers(block: YamlMapping, jumps: Dataset, orbits: Dataset) -> dict[str, str]:
+        """Give the length of the curve in (x, y) at each energy."""
         return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}

@@ -1,7 +1,10 @@
 """The last invariant curve of the main island."""
 
-from ..fields import LARGEST, Between, listed, whole
-from ..scene import Scene, listing, not_elliptic
+from collections.abc import Iterator
+from typing import Annotated
+
+from ..fields import ABSENT, LARGEST, Between, YamlMapping, allowed, whole
+from ..scene import CrossFieldError, Dataset, Scene, listing, not_elliptic
 
 
 class LastCurve(Scene):
@@ -27,29 +30,35 @@ class LastCurve(Scene):
     drawn: 1000
     """
 
-    nobles: listed(
-        listed(whole(0, 1000), "a continued fraction"), "a list of 1 to 8 continued fractions", 1, 8
-    ) = None
-    """rotation numbers, each a continued fraction with ones after its end; without them one on
-    either side of the last curve that `between` shows"""
-    convergents: whole(2, 20)
-    """how many convergents of each"""
+    nobles: list[
+        Annotated[
+            list[Annotated[int, whole(0, 1000)]], allowed("a continued fraction", min_length=1)
+        ]
+    ] = allowed("a list of 1 to 8 continued fractions", default=ABSENT, min_length=1, max_length=8)
+    """Noble rotation numbers, in turns per impact, each as the first quotients of its continued
+    fraction: [0, 5, 1, 15] is 1/(5 + 1/(1 + 1/(15 + ...))), with ones from there on. Without this
+    field one number on either side of the last curve within `between` is chosen."""
+    convergents: int = whole(2, 20)
+    """Number of convergents of each rotation number whose periodic orbits are found. Each further
+    convergent has a period about 1.6 times as long."""
     between: Between
-    """the part of y = 0 on which their orbits are sought"""
-    impacts: whole(100, LARGEST)
-    """impacts of the orbit at the last convergent"""
-    drawn: whole(100, LARGEST)
-    """how many of these are drawn"""
+    """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
+    section's centre. The end nearer to the fixed point comes first."""
+    impacts: int = whole(100, LARGEST)
+    """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
+    whether a curve confines the orbit."""
+    drawn: int = whole(100, LARGEST)
+    """Number of these impacts that are drawn."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """Orbits that can be followed, and drawn, from two places."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the orbits can be computed and drawn."""
         cross_field_errors = [*super().cross_field_errors(block)]
         yield from cross_field_errors
         if not cross_field_errors:
             yield from not_elliptic(block, "energy")
-        one, other = block["between"]
-        if one == other:
+        start, end = block["between"]
+        if start == end:
             yield ("between",), block["between"], "two fractions that differ"
         nobles = block.get("nobles", [[1], [1]])
         for i, noble in enumerate(nobles):
@@ -57,14 +66,14 @@ class LastCurve(Scene):
             for quotient in noble[1:] + [1] * (block["convergents"] - 1):
                 before, period = period, before + quotient * period
             if not 0 < period <= LARGEST:
-                what = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
-                yield ("nobles", i), noble, what
+                words = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
+                yield ("nobles", i), noble, words
         if block["drawn"] * len(nobles) > LARGEST:
-            what = f"at most {LARGEST} points drawn, counted over all nobles"
-            yield ("drawn",), block["drawn"], what
+            words = f"at most {LARGEST} points drawn, counted over all nobles"
+            yield ("drawn",), block["drawn"], words
 
     @staticmethod
-    def numbers(block, last_curve):
-        """The residue of the last convergent of either number, and its period."""
+    def numbers(block: YamlMapping, last_curve: Dataset) -> dict[str, str]:
+        """Give the residue of each number's last convergent, and its period."""
         last = last_curve.isel(convergent=-1)
         return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}

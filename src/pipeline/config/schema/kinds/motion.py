@@ -1,7 +1,9 @@
 """A periodic motion in time: Figures 3 and 4 of the paper."""
 
-from ..fields import axes_of, real
-from ..scene import OfPeriodicOrbit
+from typing import Literal
+
+from ..fields import ABSENT, Axis, YamlMapping, allowed
+from ..scene import Dataset, OfPeriodicOrbit
 
 
 class Motion(OfPeriodicOrbit):
@@ -29,13 +31,16 @@ class Motion(OfPeriodicOrbit):
     duration: 40
     """
 
-    duration: real("a number with 0 < duration <= 10000", gt=0, le=10_000)
-    """how much time is drawn"""
-    axes: axes_of("t", "displacement") = None
+    duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
+    """Length of time that is drawn, in 1/omega, from an impact on. The orbit repeats itself as
+    often as that takes."""
+    axes: dict[Literal["t", "displacement"], Axis] = ABSENT
+    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
+    An axis that is left out has limits that hold its data."""
 
     @staticmethod
-    def numbers(block, periodic, motion):
-        """The orbit, the times drawn and its period in time."""
+    def numbers(block: YamlMapping, periodic: Dataset, motion: Dataset) -> dict[str, str]:
+        """Describe the orbit, the times drawn, its period in time and its strain."""
         from pseudorigid.dynamics.variables import of_type
 
         t = motion["t"].values

@@ -1,12 +1,10 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
-from ..fields import LARGEST, distinct, listed, whole
-from ..scene import OfOrbits, OnSurface, measured_energy
-
-PLACES = "a list of places in starts, counted from 0, none of them twice"
+from ..fields import YamlMapping
+from ..scene import Dataset, OfChaoticOrbits, OnSurface, measured_energy
 
 
-class Portrait(OnSurface, OfOrbits):
+class Portrait(OnSurface, OfChaoticOrbits):
     """orbits on the energy surface
 
     {{ s.starts|length }} orbits of {{ s.impacts|sum if s.impacts is iterable else s.impacts *
@@ -31,21 +29,9 @@ class Portrait(OnSurface, OfOrbits):
     sea: [2]
     """
 
-    sea: listed(whole(0, LARGEST), PLACES, 0, None, distinct) = []
-    """which orbits are chaotic, drawn in grey"""
-
-    @classmethod
-    def cross_field_errors(cls, block):
-        """Places in `sea` are places in `starts`."""
-        yield from super().cross_field_errors(block)
-        last = len(block["starts"]) - 1
-        for place in block["sea"]:
-            if place > last:
-                yield ("sea",), place, f"a place in starts, from 0 to {last}"
-
     @staticmethod
-    def numbers(block, orbits):
-        """How many orbits and impacts, their energy, and how near they come to grazing."""
+    def numbers(block: YamlMapping, orbits: Dataset) -> dict[str, str]:
+        """Count orbits and impacts; give their energy and how near they come to grazing."""
         speed = float((orbits["xdot"] + orbits["udot"]).min())
         return {
             "orbits": f"{orbits.sizes['orbit']:,}",

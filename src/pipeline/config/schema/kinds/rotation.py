@@ -1,7 +1,9 @@
 """Rotation number and exponent against the start."""
 
-from ..fields import Between, Energy, listed, whole
-from ..scene import Scene, listing, not_elliptic
+from collections.abc import Iterator
+
+from ..fields import Between, Energies, YamlMapping, whole
+from ..scene import CrossFieldError, Dataset, Scene, listing, not_elliptic
 
 
 class Rotation(Scene):
@@ -29,20 +31,23 @@ class Rotation(Scene):
     detail_impacts: 1000
     """
 
-    energies: listed(Energy, "a list of energies", 1, 20)
-    """further energies, drawn with the first"""
-    starts: whole(2, 100_000)
-    """how many starts from the fixed point to the rim"""
-    impacts: whole(100, 10_000_000)
-    """impacts of each orbit"""
+    energies: Energies
+    """Further energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of
+    `energy`."""
+    starts: int = whole(2, 100_000)
+    """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
+    rim of the section. More starts resolve narrower plateaus."""
+    impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit. Longer orbits give the rotation number more digits."""
     detail: Between
-    """a part of y = 0 over which as many starts lie again"""
-    detail_impacts: whole(100, 10_000_000)
-    """impacts of each orbit there"""
+    """Part of the symmetry line y = 0 that is drawn at higher resolution, in section radii from the
+    section's centre: `starts` further orbits start evenly in it, at `energy`."""
+    detail_impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit of the detail."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """Rotation numbers are about an elliptic fixed point."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the fixed point, around which orbits rotate, is elliptic at each energy."""
         cross_field_errors = [*super().cross_field_errors(block)]
         yield from cross_field_errors
         if not cross_field_errors:
@@ -50,7 +55,7 @@ class Rotation(Scene):
             yield from not_elliptic(block, "energies")
 
     @staticmethod
-    def numbers(block, rotation):
-        """The rotation number at the fixed point, at each energy."""
-        found = listing(rotation, "{:.6f} at E = {:g}", "fixed_rotation", "energy")
-        return {"at the fixed point": found}
+    def numbers(block: YamlMapping, rotation: Dataset) -> dict[str, str]:
+        """Give the rotation number at the fixed point, at each energy."""
+        numbers = listing(rotation, "{:.6f} at E = {:g}", "fixed_rotation", "energy")
+        return {"at the fixed point": numbers}

@@ -1,6 +1,7 @@
 """Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
 
-from ..scene import OfBranches, OfOrbits, OnSurface
+from ..fields import YamlMapping
+from ..scene import Dataset, OfBranches, OfOrbits, OnSurface
 
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
@@ -32,8 +33,10 @@ class Tangle(OfBranches, OfOrbits, OnSurface):
     """
 
     @staticmethod
-    def numbers(block, orbits, periodic, manifolds):
-        """The orbit, and how much there is of its branches."""
+    def numbers(
+        block: YamlMapping, orbits: Dataset, periodic: Dataset, manifolds: Dataset
+    ) -> dict[str, str]:
+        """Describe the orbit, and count its branches and their points."""
         return Tangle.about_orbit(periodic, block) | {
             "branches": f"{manifolds.sizes['branch']:,}",
             "points of the lines": f"{manifolds.sizes['vertex']:,}",

@@ -1,11 +1,15 @@
-"""The fixed point's twist against the energy."""
+"""The fixed point's twist coefficient against the energy."""
 
 import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-from ..fields import Energy, axes_of, listed, rising
-from ..scene import Scene, fixed_point_trace, not_elliptic
+from annotated_types import Predicate
 
-CLOSE = 1e-9  # of a trace to one that belongs to a root of unity
+from ..fields import ABSENT, Axis, Energy, YamlMapping, allowed, rising
+from ..scene import CrossFieldError, Dataset, Scene, fixed_point_trace, not_elliptic
+
+RESONANT = 1e-9  # distance of a trace from one at which the multiplier is a root of unity
 
 
 class Twist(Scene):
@@ -33,15 +37,22 @@ class Twist(Scene):
     marks: [0.002]
     """
 
-    energies: listed(Energy, "a list of energies in rising order", 2, 1000, rising)
-    """where the coefficient is computed"""
-    marks: listed(Energy, "a list of energies among those", 0, 10) = []
-    """energies that are marked"""
-    axes: axes_of("energy", "twist") = None
+    energies: Annotated[
+        list[Energy],
+        allowed("a list of energies in rising order", min_length=2, max_length=1000),
+        Predicate(rising),
+    ]
+    """Energies at which the twist coefficient is computed, in m omega^2 R^2. Straight lines join
+    the values."""
+    marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
+    """Energies, among `energies`, whose values are marked with a dot."""
+    axes: dict[Literal["energy", "twist"], Axis] = ABSENT
+    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient). An axis
+    that is left out has limits that hold its data."""
 
     @classmethod
-    def cross_field_errors(cls, block):
-        """Marks are among the energies; the fixed point has a twist at each of these."""
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that marks are among the energies, and that the twist exists at each of these."""
         cross_field_errors = [*super().cross_field_errors(block)]
         yield from cross_field_errors
         for mark in block["marks"]:
@@ -51,12 +62,12 @@ class Twist(Scene):
             yield from not_elliptic(block, "energies")
             for i, energy in enumerate(block["energies"]):
                 trace = fixed_point_trace(block["ball"], energy)
-                if min(abs(trace - root) for root in (-1, 0)) < CLOSE:
-                    what = "an energy at which no power of the multiplier up to the fourth is 1"
-                    yield ("energies", i), energy, what
+                if min(abs(trace - root) for root in (-1, 0)) < RESONANT:
+                    words = "an energy at which no power of the multiplier up to the fourth is 1"
+                    yield ("energies", i), energy, words
 
     @staticmethod
-    def numbers(block, twist):
-        """Where it vanishes."""
+    def numbers(block: YamlMapping, twist: Dataset) -> dict[str, str]:
+        """Give the energy at which the twist vanishes."""
         zero = float(twist["zero"])
         return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
