@@ -1,102 +1,118 @@
-"""./reproduce compare A B: figure by figure, what differs between two variants.
+"""Comparison of two variants, figure by figure: ./reproduce compare A B.
 
-Nothing is computed here: both must have their results.
+Nothing is computed here: both variants must have their results.
 """
 
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import xarray as xr
+
 from ...config import paths
+from ...config.paths import Variants
+from ...config.schema.fields import YamlMapping
 from ...records.artifacts import canonical_json, load
 from ...records.differences import brief, differing_keys
 from . import cycles, exponents, norms, orbits, picture
 
+Pair = tuple[xr.Dataset, xr.Dataset]  # the datasets of a stage of both variants
 
-def compare(root, variants, names, absent, scenes, everything):
+
+def compare(
+    root: Path,
+    variants: Variants,
+    names: Sequence[str],
+    absent: Sequence[Mapping[str, str]],
+    scenes: Sequence[str],
+    everything: bool,
+) -> None:
     """Print what differs between two variants and save their figures side by side.
 
     Parameters
     ----------
-    root : pathlib.Path
+    root : Path
         The project's folder.
     variants : dict
-        The checked variants of the config, name -> scene -> block.
-    names : list of str
-        The two of them, the paper's own name included.
-    absent : list of dict
-        For each of the two, scene -> why its figure cannot exist.
-    scenes : list of str
-        Those of their scenes that are looked at.
+        The checked variants of the config.
+    names : sequence of str
+        Names of the two variants.
+    absent : sequence of mappings
+        For each of the two: scene -> why its figure cannot exist.
+    scenes : sequence of str
+        The scenes to compare.
     everything : bool
-        Whether each variable and each orbit that differs has a line; else each stage has.
+        Print a line for each variable and each orbit that differs, not one for each stage.
     """
     artifact_paths = paths.artifact_paths(variants)
+    blocks = {scene: [variants[name][scene] for name in names] for scene in scenes}
+    stages = {scene: paths.stages(pair[0]) for scene, pair in blocks.items()}
 
-    def data(scene, stage):
-        return [load(root / artifact_paths[name, scene, stage]) for name in names]
+    def data(scene: str, stage: str) -> Pair:
+        first, second = (load(root / artifact_paths[name, scene, stage]) for name in names)
+        return first, second
 
-    pairs = {scene: [variants[name][scene] for name in names] for scene in scenes}
     print(f"{names[0]} | {names[1]}")
-    for scene, blocks in pairs.items():
+    for scene in scenes:
         print(f"\n{scene}")
-        for line in _differences(*blocks):
+        for line in _config_differences(*blocks[scene]):
             print(f"  {line}")
-        missing = [reasons.get(scene) for reasons in absent]
-        for name, reason in zip(names, missing, strict=True):
+        reasons = [reasons_of_one.get(scene) for reasons_of_one in absent]
+        for name, reason in zip(names, reasons, strict=True):
             if reason:
                 print(f"  cannot exist in {name}: {reason}")
-        if not any(missing):
-            for stage in paths.stages(blocks[0]):
-                if stage != "periodic":
-                    lines = _of_stage(stage, data(scene, stage), names, everything)
-                    for i, line in enumerate(lines):
-                        print(f"  {'' if i else stage:10}  {line}")
-        image = root / picture_path(names, scene)
-        if all(missing):
+        for stage in stages[scene] if not any(reasons) else ():
+            if stage != "periodic":
+                lines = _stage_differences(stage, data(scene, stage), names, everything)
+                for i, line in enumerate(lines):
+                    print(f"  {'' if i else stage:10}  {line}")
+        image = root / f"results/compare/{names[0]}..{names[1]}/{scene}.png"
+        if all(reasons):
             image.unlink(missing_ok=True)
             continue
         drawings = [
             None if reason else root / paths.drawn(scene, "png", name)
-            for name, reason in zip(names, missing, strict=True)
+            for name, reason in zip(names, reasons, strict=True)
         ]
         picture.side_by_side(drawings, names, image)
         print(f"  side by side: {image.relative_to(root)}")
-    _periodic(pairs, names, data)
-    for scene, blocks in pairs.items():
-        if "lyapunov" in paths.stages(blocks[0]):
-            said = "mean over its orbits ± their standard deviation"
-            print(f"\nLyapunov exponents of {scene}: {said}")
+    _print_periodic_orbits(blocks, names, data)
+    for scene in scenes:
+        if "lyapunov" in stages[scene]:
+            quantity = "mean over its orbits ± their standard deviation"
+            print(f"\nLyapunov exponents of {scene}: {quantity}")
             for line in exponents.table(*data(scene, "lyapunov"), names):
                 print(f"  {line}")
 
 
-def picture_path(names, scene):
-    """Where two figures are saved side by side, from the root."""
-    return f"results/compare/{names[0]}..{names[1]}/{scene}.png"
-
-
-def _of_stage(stage, pair, names, everything):
-    """Lines about how the two datasets of a stage differ."""
+def _stage_differences(stage: str, pair: Pair, names: Sequence[str], everything: bool) -> list[str]:
+    """Describe how the two datasets of a stage differ."""
     lines = norms.table(*pair, names) if everything else [norms.summary(*pair, names)]
     if stage == "orbits":
         lines += orbits.table(*pair) if everything else orbits.summary(*pair)
     return lines
 
 
-def _differences(one, other):
-    """A line for each key of the config that differs."""
+def _config_differences(first: YamlMapping, second: YamlMapping) -> list[str]:
+    """Return a line for each key of the config that differs, except derived axes."""
     lines = [
         f"{key}: {brief(before)} | {brief(after)}"
-        for key, before, after in differing_keys(paths.drawing(one), paths.drawing(other))
-        if key != "axes"  # left out where they are those of the data
+        for key, before, after in differing_keys(paths.drawing(first), paths.drawing(second))
+        if key != "axes"
     ]
     return lines or ["the same config"]
 
 
-def _periodic(pairs, names, data):
+def _print_periodic_orbits(
+    blocks: Mapping[str, list[YamlMapping]],
+    names: Sequence[str],
+    data: Callable[[str, str], Pair],
+) -> None:
     """Print what became of the periodic orbits, once for all scenes with the same ones."""
-    groups = {}
-    for scene, blocks in pairs.items():
-        if "periodic" in paths.stages(blocks[0]):
-            orbits_of = canonical_json([paths.stages(block)["periodic"] for block in blocks])
-            groups.setdefault(orbits_of, []).append(scene)
+    groups: dict[str, list[str]] = {}
+    for scene, pair in blocks.items():
+        if "periodic" in paths.stages(pair[0]):
+            key = canonical_json([paths.stages(block)["periodic"] for block in pair])
+            groups.setdefault(key, []).append(scene)
     if groups:
         far = f"an orbit further than {cycles.REACH:g} away counts as another"
         print(f"\nPeriodic orbits, and how far in section radii ({far})")

@@ -1,5 +1,8 @@
 """Two figures side by side."""
 
+from collections.abc import Sequence
+from pathlib import Path
+
 import numpy as np
 
 from pseudorigid.figures.canvas import style
@@ -12,29 +15,26 @@ from ...records.pictures import pixels as read
 _HEAD = 75  # pixels
 
 
-def side_by_side(drawings, names, path):
-    """Save to `path` two PNG, each under its name; None stands for a figure that cannot exist."""
-    images = [drawing and read(drawing) for drawing in drawings]
-    size = next(image.shape for image in images if image is not None)
-    images = [image if image is not None else _nothing(size) for image in images]
+def side_by_side(drawings: Sequence[Path | None], names: Sequence[str], path: Path) -> None:
+    """Save two PNG side by side, each below its name. None is a figure that cannot exist."""
+    height, width, _ = next(read(drawing).shape for drawing in drawings if drawing)
+    images = [
+        read(drawing) if drawing else _label("cannot exist", width, height) for drawing in drawings
+    ]
     high = max(image.shape[0] for image in images)
     parts = []
     for image, name in zip(images, names, strict=True):
         below = np.full((high - image.shape[0], image.shape[1], 3), 255, dtype=np.uint8)
-        parts.append(np.concatenate([_head(name, image.shape[1]), image, below]))
+        head = _label(name, image.shape[1], _HEAD, 5 * POINT, "bottom")
+        parts.append(np.concatenate([head, image, below]))
     write_whole(path, png(np.concatenate(parts, axis=1), style.DPI))
 
 
 @style.pinned()
-def _head(name, wide):
-    sheet = Sheet(wide, _HEAD)
-    sheet.text(wide / 2, 5 * POINT, name, ha="center", va="bottom", size=10.0)
-    return pixels(sheet.figure)
-
-
-@style.pinned()
-def _nothing(shape):
-    high, wide, _ = shape
-    sheet = Sheet(wide, high)
-    sheet.text(wide / 2, high / 2, "cannot exist", ha="center", va="center", size=10.0)
-    return pixels(sheet.figure)
+def _label(
+    text: str, width: int, height: int, y: float | None = None, va: str = "center"
+) -> np.ndarray:
+    """Draw a text on a white image of this size, by default in its middle."""
+    sheet = Sheet(width, height)
+    sheet.text(width / 2, height / 2 if y is None else y, text, ha="center", va=va, size=10.0)
+    return np.asarray(pixels(sheet.figure))
