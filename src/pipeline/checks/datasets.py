@@ -1,9 +1,16 @@
-"""docs/data.md, from a small run of each: `.venv/bin/python -m pipeline.checks.datasets`."""
+"""The page docs/data.md, written from a small run of every stage, of a sweep and of the study.
+
+Run `.venv/bin/python -m pipeline.checks.datasets` to renew it.
+"""
 
 import tempfile
 import tomllib
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from typing import Any
+
+import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.derivations import derivations
@@ -11,6 +18,7 @@ from pseudorigid.sweep import blocks
 
 from ..config.schema.stages import STAGES
 from ..config.schema.study import FIXED, MEASURED
+from ..config.schema.study import data as study_path
 from ..records import artifacts
 from ..records.files import write_whole
 from ..records.sources import ROOT
@@ -19,106 +27,116 @@ BALL, ENERGY = Ball(0.2, 0.04), 0.01
 TEXT = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 SMALL = TEXT["small"]  # stage -> fields of a scene
 
+Files = dict[str, tuple[str, xr.Dataset]]  # name on the page -> (path, dataset)
+
 
 def page() -> str:
-    """The whole page."""
-    found = stages() | others() | study()
-    uses = {}
-    for name, (_, data) in found.items():
-        for attribute in [*data.attrs, *TEXT["optional"].get(name, ())]:
-            uses.setdefault(attribute, []).append(name)
+    """Return the text of the page."""
+    files = _stages() | _sweep_and_derivations() | _study()
+    owners: dict[str, list[str]] = {}
+    for name, (_, data) in files.items():
+        for attribute in dict.fromkeys([*data.attrs, *TEXT["optional"].get(name, ())]):
+            owners.setdefault(attribute, []).append(f"`{name}`")
     lines = ["| attribute | of | meaning | scale |", "|---|---|---|---|"]
     for name, (meaning, scale) in TEXT["attributes"].items():
-        of = uses.pop(name)
-        of = "all" if len(of) == len(found) else ", ".join(f"`{one}`" for one in dict.fromkeys(of))
-        lines.append(f"| `{name}` | {of} | {meaning} | {scale} |")
-    if uses:
-        raise KeyError(f"attributes without a meaning: {uses}")
-    parts = [TEXT["head"], *(section(name, *one) for name, one in found.items())]
+        of = owners.pop(name)
+        of_text = "all" if len(of) == len(files) else ", ".join(of)
+        lines.append(f"| `{name}` | {of_text} | {meaning} | {scale} |")
+    if owners:
+        raise KeyError(f"attributes without a meaning: {owners}")
+    parts = [TEXT["head"].strip(), *(_section(name, *file) for name, file in files.items())]
     return "\n\n".join([*parts, "## Attributes of files", "\n".join(lines)]) + "\n"
 
 
-def section(name, file, data) -> str:
-    """The dataset's part of the page."""
-    lines = [f"### {name}", "", f"`{file}`: {data.attrs['title']}."]
-    counted = data.get("row_size")
-    if counted is not None:
-        sample = counted.attrs["sample_dimension"]
-        lines[-1] += f" Ragged: `row_size` on `{counted.dims[0]}` counts `{sample}`."
-    lines[-1] += f" {TEXT['study']}" if name.removeprefix("study: ") in MEASURED else ""
-    lines += ["", "| variable | dimensions | type | meaning | scale |", "|---|---|---|---|---|"]
+def _section(name: str, path: str, data: xr.Dataset) -> str:
+    """Describe one dataset and its variables."""
+    sentences = [f"`{path}`: {data.attrs['title']}."]
+    if (row_size := data.get("row_size")) is not None:
+        sample = row_size.attrs["sample_dimension"]
+        sentences += [f"Ragged: `row_size` on `{row_size.dims[0]}` counts `{sample}`."]
+    if name.removeprefix("study: ") in MEASURED:
+        sentences += [TEXT["study"].strip()]
+    lines = [f"### {name}", "", " ".join(sentences), ""]
+    lines += ["| variable | dimensions | type | meaning | scale |", "|---|---|---|---|---|"]
     for variable, values in data.variables.items():
         dims = ", ".join(f"`{dim}`" for dim in values.dims)
-        kind = "text" if values.dtype.kind in "OUT" else str(values.dtype)
-        about = values.attrs["long_name"], values.attrs.get("scale", "")
-        meaning, scale = (text.replace("|", "\\|") for text in about)
-        lines.append(f"| `{variable}` | {dims} | {kind} | {meaning} | {scale} |")
+        dtype = "text" if values.dtype.kind in "OUT" else str(values.dtype)
+        texts = values.attrs["long_name"], values.attrs.get("scale", "")
+        meaning, scale = (text.replace("|", "\\|") for text in texts)
+        lines.append(f"| `{variable}` | {dims} | {dtype} | {meaning} | {scale} |")
     return "\n".join(lines)
 
 
-def stages():
-    """Name -> (file, dataset) of every stage."""
-    made = {}
+def _stages() -> Files:
+    files = {}
     for name, stage in STAGES.items():
-        compute = getattr(import_module(stage.module), stage.function)
         fields = SMALL[name]
-        inputs = [_stage(given, {"period": fields["period"]}) for given in stage.inputs]
-        data = compute(BALL, ENERGY, *inputs, **fields)
-        made[name] = f"results/VARIANT/{name}_SCENE.nc", _saved(data, compute, stage=name)
-    return made
+        inputs = [_computed(used, {"period": fields["period"]}) for used in stage.inputs]
+        data = _saved(_computed(name, fields, *inputs), _function(name), stage=name)
+        files[name] = f"results/VARIANT/{name}_SCENE.nc", data
+    return files
 
 
-def others():
-    """Name -> (file, dataset) of a sweep, its blocks and the derivations."""
-    one = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
-    whole = blocks.join({"k": [0.2], "energy": [6.25]}, [one])
-    sweep = "results/sweep/SWEEP"
+def _sweep_and_derivations() -> Files:
+    block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
+    whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
+    path = "results/sweep/SWEEP"
     algebra = _saved(derivations(BALL, ENERGY), derivations, stage="derivations")
     return {
-        "sweep": (f"{sweep}.nc", _saved(whole, blocks.join, ball=False)),
-        "sweep, a block": (f"{sweep}_0000.nc", _saved(one, blocks.compute, ball=False)),
+        "sweep": (f"{path}.nc", _saved(whole, blocks.join, ball=False)),
+        "sweep, a block": (f"{path}_0000.nc", _saved(block, blocks.compute, ball=False)),
         "derivations": ("results/claims/derivations.nc", algebra),
     }
 
 
-def study():
-    """Name -> (file, dataset) of every part of the study."""
+def _study() -> Files:
     from pseudorigid.study import failures, figure_errors, verdicts, work
 
-    few = failures.EDGE_METHODS[:1]
+    methods = failures.EDGE_METHODS[:1]
     needs = TEXT["needs"], {"fig3": "motion"}
-    periodic = {("periodic", "fig3"): _stage("periodic", {"period": 1})}
-    makers = {
+    periodic = {("periodic", "fig3"): _computed("periodic", {"period": 1})}
+    compute = {
         "work": lambda: work.counted(2),
-        "edges": lambda: failures.edges(few, 2),
+        "edges": lambda: failures.edges(methods, 2),
         "orbits": lambda: failures.orbits(1000),
         "needs": lambda: figure_errors.figure_errors(*needs, periodic),
         "verdicts": lambda: verdicts.verdicts(cells=1, orbits=2),
         "work_all": lambda: work.measured(work.METHODS[:1], 2, 1),
-        "edges_all": lambda: failures.edges(few, 2),
-        "missed_all": lambda: failures.missed(few, 10_000),
+        "edges_all": lambda: failures.edges(methods, 2),
+        "missed_all": lambda: failures.missed(methods, 10_000),
     }
-    made = {}
+    files = {}
     for part in (*FIXED, *MEASURED):
-        own = {"stage": "study", "title": f"Methods compared: {part}"}
-        data = _saved(makers[part](), None, ball=part != "verdicts", **own)
-        made[f"study: {part}"] = f"results/study/{part}.nc", data
-    return made
+        attributes = {"stage": "study", "title": f"Methods compared: {part}"}
+        data = _saved(compute[part](), None, ball=part != "verdicts", **attributes)
+        files[f"study: {part}"] = study_path(part), data
+    return files
 
 
-def _stage(name, fields):
-    stage = STAGES[name]
-    return getattr(import_module(stage.module), stage.function)(BALL, ENERGY, **fields)
+def _function(stage: str) -> Callable[..., xr.Dataset]:
+    function: Callable[..., xr.Dataset] = getattr(
+        import_module(STAGES[stage].module), STAGES[stage].function
+    )
+    return function
 
 
-def _saved(data, maker, ball=True, **about):
-    """The dataset as its file has it."""
-    about |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
-    if maker is not None:
-        about["title"] = artifacts.title_of(maker)
+def _computed(stage: str, fields: dict[str, Any], *inputs: xr.Dataset) -> xr.Dataset:
+    return _function(stage)(BALL, ENERGY, *inputs, **fields)
+
+
+def _saved(
+    data: xr.Dataset,
+    function: Callable[..., xr.Dataset] | None,
+    ball: bool = True,
+    **attributes: object,
+) -> xr.Dataset:
+    """Return a dataset after a round through its file, titled by the function that computed it."""
+    attributes |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
+    if function is not None:
+        attributes["title"] = artifacts.title_of(function)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "data.nc"
-        artifacts.save(data, path, {}, **about)
+        artifacts.save(data, path, {}, **attributes)
         return artifacts.load(path)
 
 
