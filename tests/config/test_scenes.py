@@ -6,33 +6,32 @@ from documents import AXES, SCENES, changed, complaint, complaints, good
 from project import shipped
 
 from pipeline import config
+from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
 
 
-def test_a_good_config_comes_back_complete():
-    checked = config.check(good())
-    assert list(checked["scenes"]) == list(SCENES)
-    portrait = checked["scenes"]["a_portrait"]
-    assert portrait["ball"] == {"k": 0.2, "g": 0.04}
-    assert portrait["formats"] == ["png"]
-
-
-def test_what_may_be_left_out_has_a_default():
+def test_a_scene_is_completed_with_defaults():
     document = good()
     for field in ("sea", "view", "axes"):
         del document["scenes"]["a_portrait"][field]
-    portrait = config.check(document)["scenes"]["a_portrait"]
-    assert portrait["sea"] == []
-    assert portrait["view"] == {"elevation": 40, "azimuth": 115}
-    assert "axes" not in portrait
-    assert portrait["formats"] == ["png"]
+    scenes = config.check(document)["scenes"]
+    assert list(scenes) == list(SCENES)
+    given = document["scenes"]["a_portrait"]
+    added = {"sea": [], "view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
+    assert scenes["a_portrait"] == given | {"ball": {"k": 0.2, "g": 0.04}} | added
 
 
-@pytest.mark.parametrize("scene", ["a_portrait", "exponents"])
+def test_axes_and_view_of_jumps_are_refused():
+    block = yaml.safe_load(example("jumps"))
+    for field in ("axes", "view"):
+        line = complaint(good() | {"claims": {"a": block | {field: {}}}})
+        assert line.startswith(f"claims.a.{field}: unknown key")
+
+
 @pytest.mark.parametrize("impacts", [30, [30, 40]])
-def test_impacts_are_a_number_or_a_list(scene, impacts):
-    document = changed(f"scenes.{scene}.impacts", impacts)
-    assert config.check(document)["scenes"][scene]["impacts"] == impacts
+def test_impacts_are_a_number_or_a_list(impacts):
+    document = changed("scenes.a_portrait.impacts", impacts)
+    assert config.check(document)["scenes"]["a_portrait"]["impacts"] == impacts
 
 
 @pytest.mark.parametrize(
@@ -65,13 +64,12 @@ def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
         assert words in line
 
 
-def test_all_mistakes_of_a_file_are_told_at_once():
+def test_all_mistakes_of_a_file_are_reported_at_once():
     document = good()
     document["scenes"]["a_motion"] |= {"period": 0, "type": "eliptic"}
     document["scenes"]["exponents"]["record"] = 3
     document["scenes"]["a_tangle"]["energy"] = 0.9
-    found = complaints(document)
-    assert [line.split(": ")[0] for line in found] == [
+    assert [line.split(": ")[0] for line in complaints(document)] == [
         "scenes.a_motion.period",
         "scenes.a_motion.type",
         "scenes.a_tangle.energy",
@@ -105,16 +103,14 @@ def test_values_of_the_right_type_hide_no_mistake_between_fields():
         ),
     ],
 )
-def test_what_the_axes_hide_is_told(scene, fields, lines):
+def test_values_outside_the_axes_are_reported(scene, fields, lines):
     document = shipped()
     blocks = document["scenes"] | document["proofs"]
     kind = KINDS[blocks[scene]["picture"]]
-    assert not [*kind.hidden({"ball": document["ball"]} | blocks[scene])]
-    found = [*kind.hidden({"ball": document["ball"]} | blocks[scene] | fields)]
-    assert len(found) == len(lines)
-    for line, words in zip(found, lines, strict=True):
-        assert line.startswith(words)
-        assert line.endswith(" out")
+    block = {"ball": document["ball"]} | blocks[scene]
+    assert not [*kind.hidden(block)]
+    for line, start in zip(kind.hidden(block | fields), lines, strict=True):
+        assert line.startswith(start)
 
 
 def test_a_key_that_is_no_text_is_unknown():
@@ -132,9 +128,7 @@ def test_a_key_that_is_no_text_is_unknown():
         ("ball.k", 1.01, ["ball.k: 1.01", "0 < k <= 1"]),
         ("ball.k", "0.2", ["ball.k: '0.2'", "write 0.2"]),
         ("ball.k", True, ["ball.k: true", "0 < k <= 1"]),
-        ("ball.k", None, ["ball.k: nothing"]),
         ("ball.k", float("nan"), ["ball.k: nan"]),
-        ("ball.k", [0.2], ["ball.k: [0.2]"]),
         ("scenes.a_portrait.method", {"scan": 0.1}, ["tolerance: missing", "1e-15 to 0.001"]),
         (
             "scenes.a_portrait.method",
@@ -142,41 +136,26 @@ def test_a_key_that_is_no_text_is_unknown():
             ["method: 'scan'", "the keys scan and tolerance, or {exact"],
         ),
         *(
-            (f"scenes.{scene}.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
-            for scene in SCENES
-            for scan in (0, -0.1, 1e-4, 1.5, float("nan"), float("inf"))
+            ("scenes.a_motion.method", {"scan": scan, "tolerance": 1e-12}, [f"method.scan: {scan}"])
+            for scan in (0, 1e-4, 1.5, float("nan"))
         ),
         *(
             (f"scenes.{scene}.method", {"scan": 0.1, "tolerance": tolerance}, ["method.tolerance"])
             for scene in SCENES
-            for tolerance in (0, -1e-9, 1e-16, 0.01, float("nan"))
+            for tolerance in (1e-16, 0.01)
         ),
         (
             "scenes.a_tangle.method",
             {"scan": 0.1, "tolerance": 1e-6},
             ["a_tangle.method.tolerance: 1e-06", "from 1e-15 to 1e-12, for manifolds"],
         ),
-        (
-            "scenes.a_closeup.method",
-            {"scan": 0.1, "tolerance": 1e-6},
-            ["a_closeup.method.tolerance: 1e-06", "from 1e-15 to 1e-12, for manifolds"],
-        ),
-        (
-            "scenes.exponents.method",
-            {"scan": 0.1, "tolerance": "1e-6"},
-            ["exponents.method.tolerance: '1e-6'", "this is text to YAML, write 1.0e-06"],
-        ),
-        ("ball.g", 0, ["ball.g: 0", "0 < g < k"]),
         ("ball.g", -1e-9, ["ball.g: -1e-09", "0 < g < k"]),
         ("ball.g", 0.2, ["ball.g: 0.2", "0 < g < k = 0.2"]),
-        ("ball.g", "1e-3", ["ball.g: '1e-3'", "text to YAML", "write 0.001"]),
-        ("ball.g", "1e-9", ["write 1.0e-09"]),
         ("ball.gravity", 0.04, ["ball.gravity: unknown key", "k, g"]),
         ("scene", {}, ["scene: unknown key", "did you mean scenes?"]),
         ("scenes", {}, ["scenes: {}", "at least one"]),
         ("scenes", None, ["scenes: nothing"]),
         ("scenes.fig 2", SCENES["a_motion"], ["scenes: 'fig 2'", "letters, digits, - and _"]),
-        ("scenes.fig/2", SCENES["a_motion"], ["scenes: 'fig/2'"]),
         ("scenes.2", SCENES["a_motion"], ["scenes: 2 is not allowed", "letters"]),
         ("scenes.new", None, ["scenes.new: nothing"]),
         ("scenes.new", {"energy": 1}, ["scenes.new.picture: missing: expected one of"]),
@@ -187,7 +166,6 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_motion.energy", "low", ["scenes.a_motion.energy: 'low'", "a number"]),
         ("scenes.a_motion.energy", float("inf"), ["scenes.a_motion.energy: inf"]),
         ("scenes.a_motion.energy", 10**400, ["scenes.a_motion.energy: 1000"]),
-        ("scenes.a_motion.energy", 0.9, ["energy: 0.9", "below k/2 - g = 0.06"]),
         ("scenes.a_motion.energy", 0.06, ["energy: 0.06", "below k/2 - g = 0.06"]),
         ("scenes.a_motion.energy", -0.004, ["energy: -0.004", "above -g^2/(2k) = -0.004"]),
         ("scenes.a_motion.ball", {"k": 0.1, "g": 0.1}, ["scenes.a_motion.ball.g: 0.1"]),
@@ -195,7 +173,6 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_motion.period", 0, ["period: 0", "from 1 to 12"]),
         ("scenes.a_motion.period", 13, ["period: 13", "from 1 to 12"]),
         ("scenes.a_motion.period", 6.0, ["period: 6.0", "whole number"]),
-        ("scenes.a_motion.period", "6", ["period: '6'", "text to YAML, write 6"]),
         ("scenes.a_motion.period", True, ["period: true", "whole number"]),
         ("scenes.a_motion.type", "eliptic", ["type: 'eliptic'", "elliptic"]),
         ("scenes.a_tangle.type", "elliptic", ["type: 'elliptic'", "no manifolds"]),
@@ -203,25 +180,19 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_motion.formats", ["svg"], ["formats: ['svg']", "png"]),
         ("scenes.a_motion.formats", ["png", "gif"], ["formats[1]: 'gif'", "png, svg, pdf"]),
         ("scenes.a_motion.formats", ["png", "png"], ["formats: ['png', 'png']", "twice"]),
-        ("scenes.a_motion.formats", ["svg"], ["formats: ['svg']", "that has png in it"]),
         ("scenes.a_motion.formats", "png", ["formats: 'png'", "a list"]),
         ("scenes.a_motion.axes.t.limits", [16, 0], ["axes.t.limits: [16, 0]", "increasing"]),
-        ("scenes.a_motion.axes.t.limits", [0], ["axes.t.limits: [0]", "two increasing"]),
         ("scenes.a_motion.axes.t.ticks", [0, 17], ["axes.t.ticks: 17", "limits [0, 16]"]),
         ("scenes.a_motion.axes.t.ticks", [], ["axes.t.ticks: []", "1 to 50 numbers"]),
         ("scenes.a_motion.axes.x", AXES, ["axes.x: unknown key"]),
         ("scenes.a_portrait.starts", [-0.5, 1], ["starts[1]: 1", "-1 < start < 1"]),
-        ("scenes.a_portrait.starts", [-1.0, 0], ["starts[0]: -1.0", "-1 < start < 1"]),
         ("scenes.a_portrait.starts", [], ["starts: []"]),
-        ("scenes.a_portrait.starts", [0.1, "0.2"], ["starts[1]: '0.2'", "write 0.2"]),
         ("scenes.a_portrait.impacts", [10], ["impacts: [10]", "each of the 2 starts"]),
         ("scenes.a_portrait.impacts", "many", ["impacts: 'many'", "a whole number"]),
         ("scenes.a_portrait.impacts", 6_000_000, ["at most 10000000 impacts"]),
         ("scenes.a_portrait.impacts", [10, 0], ["impacts[1]: 0"]),
-        ("scenes.a_portrait.impacts", [10, -5], ["impacts[1]: -5"]),
         ("scenes.a_portrait.impacts", [10, 2.5], ["impacts[1]: 2.5", "whole number"]),
         ("scenes.a_portrait.impacts", [6_000_000, 6_000_000], ["at most 10000000 impacts"]),
-        ("scenes.a_portrait.impacts", ["1e3", 1], ["impacts[0]: '1e3'", "write 1000"]),
         ("scenes.a_portrait.sea", [2], ["sea: 2", "from 0 to 1"]),
         ("scenes.a_portrait.view.elevation", 90, ["view.elevation: 90", "from 0.1 to 89.9"]),
         ("scenes.a_tangle.branches", {}, ["branches: {}"]),
@@ -234,10 +205,7 @@ def test_a_key_that_is_no_text_is_unknown():
         ("scenes.a_closeup.point", -1, ["point: -1"]),
         ("scenes.a_closeup.length", 1e300, ["a_closeup.length: 1e+300", "at most 10000000 times"]),
         ("scenes.a_closeup.window.x", [0.1, 0.1], ["window.x: [0.1, 0.1]", "increasing"]),
-        ("scenes.exponents.impacts", 0, ["impacts: 0"]),
         ("scenes.exponents.impacts", [99, 9], ["records: 10", "at most impacts = 9"]),
-        ("scenes.exponents.impacts", [99] * 3, ["impacts: [99, 99, 99]", "each of the 2 starts"]),
-        ("scenes.exponents.impacts", 6_000_000, ["impacts: 6000000", "over all its starts"]),
         ("scenes.exponents.records", 1001, ["records: 1001", "at most impacts = 1000"]),
     ],
 )
@@ -259,6 +227,7 @@ def test_a_bad_value_is_refused_in_one_line(path, value, parts):
         ("scenes.a_tangle.resolution.distance", "1e-5", "1.0e-05"),
         ("scenes.a_tangle.branches.outer.length", "1e3", "1000"),
         ("scenes.exponents.impacts", "1e3", "1000"),
+        ("scenes.a_portrait.impacts", ["1e3", 1], "1000"),
         ("scenes.exponents.impacts", "1e9", ""),  # above what is allowed
         ("scenes.exponents.impacts", "2.5", ""),
         ("scenes.exponents.energy", "inf", ""),
@@ -266,16 +235,15 @@ def test_a_bad_value_is_refused_in_one_line(path, value, parts):
         ("scenes.5 6", SCENES["a_motion"], ""),
     ],
 )
-def test_what_is_said_to_be_written_instead_is_taken(path, value, advice):
+def test_the_suggested_number_is_accepted(path, value, advice):
     line = complaint(changed(path, value))
     assert line.partition("; this is text to YAML, write ")[2] == advice
-    if advice:
+    if advice and isinstance(value, str):
         config.check(changed(path, yaml.safe_load(advice)))
 
 
-def test_a_bound_is_printed_with_all_its_digits():
+@pytest.mark.parametrize(("g", "bound"), [(0.01, "0.14, "), (0.0100000003, "0.1399999997, ")])
+def test_a_bound_is_printed_with_all_its_digits(g, bound):
     document = good()
-    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.01}, "energy": 0.15}
-    assert "a number below k/2 - g = 0.14, " in complaint(document)
-    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": 0.0100000003}}
-    assert "a number below k/2 - g = 0.1399999997, " in complaint(document)
+    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": g}, "energy": 0.15}
+    assert f"below k/2 - g = {bound}" in complaint(document)

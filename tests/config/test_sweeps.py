@@ -10,6 +10,7 @@ from pseudorigid.sweep import grid
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 RANGE = {"from": 0.1, "to": 10, "count": 3}
+LOG = {"spacing": "log"}
 
 
 def document(**fields):
@@ -21,13 +22,12 @@ def check(**fields):
 
 
 def test_axes_are_the_decimals_they_are_meant_to_be():
-    sweep = check(k={"from": 0.016, "to": 0.328, "count": 40}, energy=RANGE | {"spacing": "log"})
+    sweep = check(k={"from": 0.016, "to": 0.328, "count": 40}, energy=RANGE | LOG)
     assert sweep["k"][:4] == [0.016, 0.024, 0.032, 0.04]
     assert sweep["k"][23] == 0.2
     assert sweep["energy"] == [0.1, 1.0, 10.0]
-    many = check(energy={"from": 0.1, "to": 40, "count": 40, "spacing": "log"})["energy"]
-    assert many[1] == 0.116606
-    assert many[-2] == 34.3037
+    many = check(energy={"from": 0.1, "to": 40, "count": 40} | LOG)["energy"]
+    assert (many[1], many[-2]) == (0.116606, 34.3037)
     ratios = np.array(many[1:]) / np.array(many[:-1])
     assert ratios.max() / ratios.min() < 1 + 2e-5
 
@@ -40,53 +40,37 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
 
 
 @pytest.mark.parametrize(
-    ("fields", "words"),
+    ("fields", "start", "allowed"),
     [
-        ({"k": []}, ["sweeps.a.k: []", "at least one"]),
-        ({"energy": RANGE | {"count": 1}}, ["sweeps.a.energy.count: 1", "from 2"]),
-        ({"energy": RANGE | {"count": 0}}, ["sweeps.a.energy.count: 0", "from 2"]),
-        ({"energy": RANGE | {"to": 0.1}}, ["sweeps.a.energy.to: 0.1", "above from = 0.1"]),
-        (
-            {"energy": RANGE | {"spacing": "lg"}},
-            ["sweeps.a.energy.spacing: 'lg'", "one of even, log"],
-        ),
-        (
-            {"energy": {"from": 0, "to": 1, "count": 3, "spacing": "log"}},
-            ["sweeps.a.energy.from: 0", "> 0"],
-        ),
-        ({"energy": RANGE | {"cuont": 3}}, ["sweeps.a.energy.cuont", "did you mean count?"]),
-        ({"energy": [2, 1]}, ["sweeps.a.energy: [2, 1]", "increasing"]),
-        (
-            {"energy": {"from": 1, "to": 1.00001, "count": 90, "spacing": "log"}},
-            ["sweeps.a.energy: ", "differ in six digits"],
-        ),
-        ({"k": [0, 0.2]}, ["sweeps.a.k: 0", "0 < k <= 1"]),
-        ({"k": [0.2, 1.5]}, ["sweeps.a.k: 1.5", "0 < k <= 1"]),
-        ({"energy": [-2.5, 1]}, ["sweeps.a.energy: -2.5", "above -1/(2k) = -2.5"]),
-        ({"energy": [1, 1e10]}, ["sweeps.a.energy: 10000000000.0", "at most 1e+09"]),
-        ({"g": 0.1}, ["sweeps.a.g: 0.1", "0 < g < k = 0.1"]),
-        ({"g": 0.04}, ["sweeps.a.energy: 6.25", "below (k/2 - g)/g^2 = 6.25"]),
-        ({"starts": 0}, ["sweeps.a.starts: 0", "from 1"]),
-        ({"impacts": 99}, ["sweeps.a.impacts: 99", "from 100"]),
-        ({"block": 0}, ["sweeps.a.block: 0", "from 1"]),
-        ({"stars": 3}, ["sweeps.a.stars", "did you mean starts?"]),
-        ({"starts": 10**6, "impacts": 10**7}, ["sweeps.a.impacts: 10000000", "in a sweep"]),
-        (
-            {"energy": {"from": 1, "to": 9, "count": 10_000}},
-            ["sweeps.a.block: 2", "at least 4 cells"],
-        ),
+        ({"k": []}, "k: []", "at least one"),
+        ({"energy": RANGE | {"count": 1}}, "energy.count: 1", "from 2"),
+        ({"energy": RANGE | {"to": 0.1}}, "energy.to: 0.1", "above from = 0.1"),
+        ({"energy": RANGE | {"spacing": "lg"}}, "energy.spacing: 'lg'", "one of even, log"),
+        ({"energy": RANGE | LOG | {"from": 0}}, "energy.from: 0", "> 0"),
+        ({"energy": RANGE | {"from": "0.1"}}, "energy.from: '0.1'", "write 0.1"),
+        ({"energy": RANGE | {"cuont": 3}}, "energy.cuont", "did you mean count?"),
+        ({"energy": RANGE | {"form": 3}}, "energy.form", "did you mean from?"),
+        ({"energy": [2, 1]}, "energy: [2, 1]", "increasing"),
+        ({"energy": LOG | {"from": 1, "to": 1.00001, "count": 90}}, "energy: ", "six digits"),
+        ({"k": [0, 0.2]}, "k: 0", "0 < k <= 1"),
+        ({"k": [0.2, 1.5]}, "k: 1.5", "0 < k <= 1"),
+        ({"energy": [-2.5, 1]}, "energy: -2.5", "above -1/(2k) = -2.5"),
+        ({"energy": [1, 1e10]}, "energy: 10000000000.0", "at most 1e+09"),
+        ({"g": 0.1}, "g: 0.1", "0 < g < k = 0.1"),
+        ({"g": 0.04}, "energy: 6.25", "below (k/2 - g)/g^2 = 6.25"),
+        ({"starts": 0}, "starts: 0", "from 1"),
+        ({"impacts": 99}, "impacts: 99", "from 100"),
+        ({"block": 0}, "block: 0", "from 1"),
+        ({"stars": 3}, "stars", "did you mean starts?"),
+        ({"starts": 10**6, "impacts": 10**7}, "impacts: 10000000", "in a sweep"),
+        ({"energy": {"from": 1, "to": 9, "count": 10_000}}, "block: 2", "at least 4 cells"),
     ],
 )
-def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, words):
+def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, start, allowed):
     line = complaint(document(**fields))
-    assert all(word in line for word in words), line
-
-
-def test_sweeps_may_be_left_out():
-    assert config.check(good())["sweeps"] == {}
+    assert line.startswith(f"sweeps.a.{start}") and allowed in line
 
 
 def test_a_sweep_named_like_a_block_of_another_is_refused():
     given = good() | {"sweeps": {"s": SMALL, "s_0000": SMALL, "t_0000": SMALL}}
-    line = "sweeps: 's_0000' is not allowed: expected a name that no block of the sweep s has"
-    assert complaint(given) == line
+    assert complaint(given).startswith("sweeps: 's_0000' is not allowed")
