@@ -1,4 +1,4 @@
-"""Any text in the place of config.yaml is a checked config or refused in lines that name it."""
+"""Any file named config.yaml either is a correct config or is refused in lines that name it."""
 
 import pytest
 import yaml

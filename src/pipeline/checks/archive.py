@@ -76,6 +76,7 @@ def contents(root: Path, checked: YamlMapping) -> Contents:
     paths = ["config.yaml", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
     paths += [str(f.relative_to(root)) for f in (root / CERTIFICATES).glob("*.toml")]
     for published_set in published_sets.committed_sets(checked):
+        paths += published_set.texts
         if not manifest.is_present(root, published_set):
             continue
         names = [*known_sums(root, published_set.folder), SUMS, manifest.MANIFEST]

@@ -59,7 +59,6 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
         if typing.get_origin(annotation) is typing.Annotated:
             bare, *more = typing.get_args(annotation)
             metadata += more
-        own = next(filter(None, map(_words, metadata)), None)
         if isinstance(bare, type) and issubclass(bare, Block):
             if not tagged:
                 words = (bare.__doc__ or "").partition("\n")[0]
@@ -67,7 +66,7 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
                 return bare, words
             annotation, loc, tagged = fields_of(bare)[str(loc[0])], loc[1:], False
             continue
-        words = own or _words_of_literals(bare) or words
+        words = _words(metadata) or _words_of_literals(bare) or _description(metadata) or words
         if loc in ((), ("[key]",)):
             return annotation, words
         tagged = loc[0] in TAGS
@@ -76,20 +75,26 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
         annotation, loc = typing.get_args(bare)[argument], loc[1:]
 
 
-def _words(metadata: object) -> str | None:
+def _words(metadata: list[Any]) -> str | None:
     """Return the words that `schema.fields.allowed` gave to a field."""
-    extra = metadata.json_schema_extra if isinstance(metadata, FieldInfo) else None
-    return str(extra["allowed"]) if isinstance(extra, dict) else None
+    extras = (item.json_schema_extra for item in metadata if isinstance(item, FieldInfo))
+    return next((str(extra["allowed"]) for extra in extras if isinstance(extra, dict)), None)
+
+
+def _description(metadata: list[Any]) -> str | None:
+    """Return a field's description, which says what is allowed in other files than config.yaml."""
+    return next((i.description for i in metadata if getattr(i, "description", None)), None)
 
 
 def _words_of_literals(annotation: Any) -> str | None:
     """Describe texts, and mappings whose keys are texts, by listing the texts."""
-    arguments = typing.get_args(annotation)
     if typing.get_origin(annotation) is typing.Literal:
-        return f"one of {', '.join(arguments)}"
+        return f"one of {', '.join(typing.get_args(annotation))}"
     if typing.get_origin(annotation) is dict:
-        *keys, last = typing.get_args(arguments[0]) or [""]
-        return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
+        key_type, _ = typing.get_args(annotation)
+        if typing.get_origin(key_type) is typing.Literal:
+            *keys, last = typing.get_args(key_type)
+            return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
     return None
 
 
