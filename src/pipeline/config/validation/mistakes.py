@@ -26,10 +26,12 @@ def mistakes(model: Any, given: object, place: Place) -> list[str]:
     rank = dict.fromkeys(_UNKNOWN_KEY, 0) | {"missing": 1}
     errors.sort(key=lambda e: (len(e["loc"]), rank.get(e["type"], 2)))
     misspelt = {e["loc"][:-1] for e in errors if e["type"] in _UNKNOWN_KEY}
+    unknown = {e["loc"][:-1] for e in errors if _is_of_unknown_key(e)}
     return [
         _line(model, error, place)
         for error in errors
         if not (error["type"] == "missing" and error["loc"][:-1] in misspelt)
+        and (_is_of_unknown_key(error) or not any(error["loc"][: len(k)] == k for k in unknown))
     ]
 
 
@@ -98,6 +100,11 @@ def _words_of_literals(annotation: Any) -> str | None:
     return None
 
 
+def _is_of_unknown_key(error: ErrorDetails) -> bool:
+    """Return whether a mapping whose keys are listed has another key."""
+    return error["type"] == "literal_error" and error["loc"][-1:] == ("[key]",)
+
+
 def _errors(model: Any, given: object) -> list[ErrorDetails]:
     try:
         TypeAdapter(model).validate_python(given)
@@ -112,7 +119,7 @@ def _line(model: Any, error: ErrorDetails, place: Place) -> str:
     known: list[str] = []
     if error["type"] in _UNKNOWN_KEY:
         known = list(fields_of(allowed_at(model, loc[:-1])[0]))
-    elif error["type"] == "literal_error" and loc[-1] == "[key]":
+    elif _is_of_unknown_key(error):
         known = list(typing.get_args(allowed_at(model, loc)[0]))
         where = where[:-1]
     if known:
