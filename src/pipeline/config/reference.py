@@ -56,7 +56,12 @@ A stage computes one dataset. Ball, energy and the fields listed here decide its
 another field of the scene only draws it again."""
 VARIANTS = """\
 A variant is the set of the paper's scenes with some values replaced.
-`./reproduce variant NAME` draws it into `results/NAME/figures/`. Its fields are:"""
+`./reproduce variant NAME` draws it into `results/NAME/figures/`.
+
+Axes of the paper's scenes fit their own values. A scene whose ball, energy or extent a variant
+changes takes the limits of its data, unless the variant gives `axes` for it.
+
+The fields of a variant are:"""
 SWEEPS = "A sweep classifies orbits over a grid of k and E/g^2. Its fields are:"
 SPAN = "Instead of a list, `k` and `energy` may be a mapping with these fields:"
 REQUEST = """\
@@ -79,7 +84,7 @@ def page() -> str:
             or field.annotation != Scene.model_fields[key].annotation
         ]
         subject = f"{subject[0].upper()}{subject[1:]}."
-        parts += [f"### picture: {name}", subject, f"Computed: {stages}."]
+        parts += [f"### picture: {name}", subject, f"Stages: {stages}."]
         parts += [_listed(kind, own), EXAMPLE]
         parts += [f"```yaml\nanother:\n{indent(example(name), '  ')}\n```"]
     parts += ["## Mappings in scenes"]

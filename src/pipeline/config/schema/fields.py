@@ -93,7 +93,7 @@ class BallBlock(Block):
     solid sphere and 1/3 for a thin shell. Values above 1/3 belong to no sphere."""
     g: Gravity
     """Gravity in units of R omega^2, where R is the ball's radius and omega the frequency of its
-    stretching. The dynamics depends only on k and E/g^2."""
+    stretching. Apart from scale, the dynamics depends only on k and E/g^2."""
 
 
 class PartOfBall(Block):

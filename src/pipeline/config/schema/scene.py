@@ -125,8 +125,8 @@ class OfChaoticOrbits(OfOrbits):
         allowed("a list of places in starts, counted from 0, none of them twice"),
         Predicate(fields.distinct),
     ] = []
-    """Places in `starts`, counted from 0, of the chaotic orbits. These are drawn in grey and below
-    the others; each other orbit has a colour of its own."""
+    """Places in `starts`, counted from 0, of the chaotic orbits. They are drawn first and in a grey
+    of their own, so that the regular orbits stand out."""
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
@@ -181,7 +181,11 @@ class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
 
     method: fields.FineMethod = ABSENT
+    """How the next impact is found, as in every scene. With a scan, `tolerance` must not exceed
+    1e-12: a coarser one leaves noise instead of a line."""
     type: fields.Saddle
+    """Stability of the periodic orbit, which must be a saddle to have manifolds. It selects among
+    the orbits of the period."""
     resolution: fields.Resolution
     """How finely the manifolds are traced. A finer resolution takes more time and more memory."""
 

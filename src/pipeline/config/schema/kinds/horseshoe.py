@@ -37,6 +37,7 @@ class Horseshoe(OfBranches):
     """Side of the branches along which the orbit is connected with itself, and along which the sets
     of the horseshoe lie. The branches of this side should be among `branches`."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
+    """Stability of the periodic orbit. Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
     """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
     of `p` and `q`, the coordinates of the middle set, below. An axis that is left out has limits
