@@ -91,6 +91,7 @@ def _sweep_and_derivations() -> Files:
 
 def _study() -> Files:
     from pseudorigid.study import failures, figure_errors, verdicts, work
+    from pseudorigid.study.methods.counted_methods import METHODS
 
     methods = failures.EDGE_METHODS[:1]
     needs = TEXT["needs"], {"fig3": "motion"}
@@ -101,7 +102,7 @@ def _study() -> Files:
         "orbits": lambda: failures.orbits(1000),
         "needs": lambda: figure_errors.figure_errors(*needs, periodic),
         "verdicts": lambda: verdicts.verdicts(cells=1, orbits=2),
-        "work_all": lambda: work.measured(work.METHODS[:1], 2, 1),
+        "work_all": lambda: work.measured(METHODS[:1], 2, 1),
         "edges_all": lambda: failures.edges(methods, 2),
         "missed_all": lambda: failures.missed(methods, 10_000),
     }
