@@ -228,7 +228,7 @@ def test_a_stage_of_three_files(copy):
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
 
 
-def test_the_page_of_fields_is_that_of_the_declarations(tmp_path):
+def test_the_page_of_fields_is_up_to_date(tmp_path):
     tree = fresh_tree(tmp_path / "as it is", shipped())
     page = ROOT / "docs" / "config.md"
     shutil.copytree(ROOT / "docs", tree.path / "docs")

@@ -1,13 +1,14 @@
-"""Proofs in ball arithmetic: theorems with certificates, and correctly rounded orbits.
+"""Theorems with certificates, and true orbits, both proved in ball arithmetic.
 
-`enclosure` has the impact map over balls and jets. `search` proposes certificates and `checks`
-decides about them; the two share nothing but the map. `theorems` has the statements,
-`true_orbits` the orbits of exact starts, and `reference_solver` proves impacts of doubles.
+`search` proposes certificates and `checks` decides about them; they share only the map over balls
+and jets in `enclosure`. `theorems` has the statements, and `true_orbits` follows orbits of exact
+starts. `reference_solver` proves the time to the next impact of states in double precision.
 """
 
 import importlib
+from typing import Any
 
-_HOMES = {
+_MODULES = {
     "Surface": "enclosure.surface",
     "THEOREMS": "theorems.statements",
     "search_certificate": "theorems.statements",
@@ -17,14 +18,14 @@ _HOMES = {
     "true_scene_orbits": "true_orbits.scene",
 }
 
-__all__ = list(_HOMES)
+__all__ = list(_MODULES)
 
 
-def __getattr__(name):
-    if name in _HOMES:
-        return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return getattr(importlib.import_module(f".{_MODULES[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])

@@ -1,0 +1,232 @@
+"""Quantities of orbits that users ask for: rotation number, residue, regularity, turnstile flux."""
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..analyses.flux import SIDES, flux
+from ..dynamics import fixed_point
+from ..dynamics.ball import Ball
+from ..dynamics.inputs import not_allowed, number, one_of, state_of, whole_number
+from ..dynamics.tangent_orbits import begin, propagate_with_tangent, weight
+from ..dynamics.variables import attributes_of, orbit_dims, variables
+from .verdict import classify_orbits as follow_until_decided
+
+_FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
+# The polygons and counts that `flux` adds to the area of a lobe, as small as it takes them.
+_COARSE = {"distance": 0.1, "grid": 2, "between": (0.0, 0.1), "orbits": 1, "impacts": 2}
+
+
+def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
+    """Rotation number of orbits around the symmetric fixed point, in turns per impact.
+
+    It converges fast on quasi-periodic orbits. The rotation number of a chaotic orbit is not
+    defined: the average returned for it depends on `impacts`. At the fixed point itself there is
+    nothing to count; `symmetric_orbits` gives the rotation number there.
+
+    Parameters
+    ----------
+    ball : Ball
+        With the default map.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, as for `orbit`. States may have different energies.
+    impacts : int
+        How many impacts to average over, at least 100.
+
+    Returns
+    -------
+    float or ndarray
+        One number per state, in the shape of the states. NaN where a state is not finite.
+
+    Raises
+    ------
+    ValueError
+        A state with xdot + udot < 0, too few impacts, or a ball with another map.
+
+    References
+    ----------
+    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017): the
+    weighted Birkhoff average, here with the weights (t (1 - t))^3.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> round(rotation_number(ball, ball.start(-0.2, 0.01)), 6)
+    0.171819
+    """
+    states, finite, centre, expected, impacts = _read(ball, state, impacts)
+    windows = np.array([(0, impacts)])
+    turned, growth = np.zeros((2, 1, centre.size))
+    orbits = begin(ball.k, states, centre, expected)
+    propagate_with_tangent(orbits, ball.k, 0, impacts, windows, windows, turned, growth)
+    turns = np.full(finite.shape, math.nan)
+    turns[finite] = turned[0] / weight(impacts)
+    return turns if turns.shape else float(turns)
+
+
+def residue(orbits: xr.Dataset) -> xr.DataArray:
+    """Greene's residue of periodic orbits, (2 - trace)/4.
+
+    It is between 0 and 1 for elliptic orbits, negative for hyperbolic and above 1 for inverse
+    hyperbolic ones.
+
+    Parameters
+    ----------
+    orbits : xarray.Dataset
+        One or more orbits of `symmetric_orbits`.
+
+    Returns
+    -------
+    xarray.DataArray
+        One residue per orbit.
+
+    Raises
+    ------
+    ValueError
+        A Dataset without the trace of its orbits.
+
+    References
+    ----------
+    Greene, A method for determining a stochastic transition, J. Math. Phys. 20 (1979).
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> residue(symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)).values.round(4).tolist()
+    [0.2854, -0.1329, 1.6255]
+    """
+    if not isinstance(orbits, xr.Dataset) or "trace" not in orbits:
+        value = "this Dataset" if isinstance(orbits, xr.Dataset) else orbits
+        raise not_allowed("orbits", value, "a Dataset with trace, as from symmetric_orbits")
+    values: xr.DataArray = (2.0 - orbits["trace"]) / 4.0
+    return values.rename("residue").assign_attrs(attributes_of("Greene's residue"))
+
+
+def classify_orbits(ball: Ball, state: Any, impacts: int = 10_000) -> xr.Dataset:
+    """Decide which orbits are regular and which are chaotic.
+
+    Each orbit is followed until the decision is safe: along a regular orbit a tangent vector grows
+    in proportion to the number of impacts and the rotation number settles; along a chaotic orbit
+    the vector grows exponentially.
+
+    Parameters
+    ----------
+    ball : Ball
+        With the default map.
+    state : (x, xdot, udot) or xarray.Dataset
+        Just before an impact, as for `orbit`. States may have different energies.
+    impacts : int
+        How many impacts to follow an undecided orbit at most, at least 100.
+
+    Returns
+    -------
+    xarray.Dataset
+        type, "regular", "chaotic" or, for a state that is not finite and an orbit that grazes
+        exactly, "undefined"; rotation_number, turns per impact around the symmetric fixed point;
+        followed, the number of impacts. A state of one dimension has the dim `orbit`, of more
+        `orbit_0`, ...
+
+    Raises
+    ------
+    ValueError
+        A state with xdot + udot < 0, too few impacts, or a ball with another map.
+
+    Notes
+    -----
+    docs/atlas.md says how often the decision is wrong.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
+    ['regular', 'chaotic']
+    """
+    states, finite, centre, expected, impacts = _read(ball, state, impacts)
+    types = np.full(finite.shape, "undefined", dtype=object)
+    winding, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
+    if centre.size:
+        verdicts = follow_until_decided(ball.k, states, centre, expected, impacts)
+        words = np.where(verdicts.regular, "regular", "chaotic")
+        types[finite] = np.where(np.isnan(verdicts.growth), "undefined", words)
+        winding[finite], followed[finite] = verdicts.winding, verdicts.followed
+    dims = orbit_dims(finite.shape)
+    numbers = {
+        "rotation_number": "rotation number around the fixed point, in turns per impact",
+        "followed": "number of impacts that the orbit was followed",
+    }
+    kinds = {"type": (dims, types, {"long_name": "regular or chaotic"})}
+    return xr.Dataset(kinds | variables(dims, (winding, followed), numbers))
+
+
+def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") -> xr.Dataset:
+    """Area that one impact carries through the broken separatrix of a hyperbolic orbit.
+
+    The area is that of one lobe of the turnstile, from differences of action, and an equal area
+    moves the other way.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        In m omega^2 R^2.
+    period : int
+        Period of the hyperbolic orbit, even.
+    side : {"outer", "inner"}
+        Which branches of its manifolds form the turnstile.
+
+    Returns
+    -------
+    xarray.Dataset
+        area and area_error, in omega R^2; digits, the area as text with all digits that are
+        certain; saddle and target, the indices of the orbit's points that the unstable branch
+        leaves and meets; crossing_x (crossing), where the two primary homoclinic orbits meet y = 0.
+
+    Raises
+    ------
+    ValueError
+        No hyperbolic orbit of that period, an odd period, another side, or a side without lobes.
+
+    References
+    ----------
+    MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> turnstile_flux(Ball(k=0.2, g=0.04), 0.01, 6)["digits"].item()[:14]
+    '0.000231073618'
+    """
+    _check_map(ball)
+    energy = number("energy", energy)
+    period = int(number("period", period, "an even number", lambda v: v >= 2.0 and v % 2.0 == 0.0))
+    one_of("side", side, SIDES[::-1])
+    lobes = flux(ball, energy, period, **_COARSE)
+    if f"missing_{side}" in lobes.attrs:
+        raise ValueError(f"no {side} lobes: {lobes.attrs[f'missing_{side}']}")
+    names = ["area", "area_error", "digits", "saddle", "target", "crossing_x"]
+    lobe: xr.Dataset = lobes[names].sel(side=side)
+    return lobe.assign_attrs(k=ball.k, g=ball.g, energy=energy, period=period)
+
+
+def _check_map(ball: Ball) -> None:
+    if not isinstance(ball, Ball):
+        raise not_allowed("ball", ball, "a Ball")
+    if not ball.map.certified:
+        raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
+
+
+def _read(ball: Ball, state: Any, impacts: int) -> tuple[Any, Any, Any, Any, int]:
+    """Read the finite states, in g R, which these are, and the fixed points at their energies."""
+    _check_map(ball)
+    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
+    x, xdot, udot = ball.on_section(*state_of(state))
+    finite = np.isfinite(x)
+    columns = [np.atleast_1d(a[finite]) for a in (x, xdot, udot)]
+    energies, inverse = np.unique(ball.energy(*columns) / ball.g**2, return_inverse=True)
+    fixed_points = [fixed_point.numbers(ball.k, energy) for energy in energies.tolist()]
+    centre, _, expected = np.array(fixed_points).reshape(-1, 3)[inverse.reshape(-1)].T
+    return tuple(a / ball.g for a in columns), finite, centre, expected, impacts
