@@ -115,7 +115,7 @@ def of_all():
 def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():
     files = {file for made in of_all().values() for file in made.sources}
     files |= set(sources.source_files("pseudorigid.proofs.derivations"))
-    lazy = set(proofs._HOMES)
+    lazy = set(proofs._MODULES)
     dynamic = {f"src/pipeline/jobs/{name}.py" for name in ("draw", "stage", "study")}
     dynamic.add("src/pseudorigid/proofs/__init__.py")
     words = r"__doc__|getdoc|inspect|get_type_hints|__annotations__"

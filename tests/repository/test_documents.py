@@ -11,7 +11,7 @@ from project import ROOT, Tree, shipped
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT))
-    for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("tests/schemas/*.md")]
+    for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
 # Words that take minutes, or packages that only they need: of these only the arguments are read.
 LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept")

@@ -135,7 +135,7 @@ PLANTED = {
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
     "pipeline.records.sources": ("return meanings.syntax_hash(path)", "return 'planted'"),
-    "pseudorigid": ("_FROM_TEXT.add(package)", "pass"),
+    "pseudorigid": ("_PACKAGES_FROM_TEXT.add(package)", "pass"),
     "pseudorigid.kernel.compiled.import_closure": ("    syntax_hash.keep()\n", ""),
     "pseudorigid.kernel.compiled.syntax_hash": ("SCHEME = 1 ", "SCHEME = 99 "),
 }

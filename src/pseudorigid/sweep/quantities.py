@@ -55,7 +55,7 @@ def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
     >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
     >>> round(rotation_number(ball, ball.start(-0.2, 0.01)), 6)
-    0.171819
+    0.176039
     """
     states, finite, centre, expected, impacts = _read(ball, state, impacts)
     windows = np.array([(0, impacts)])
@@ -198,7 +198,7 @@ def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") 
     --------
     >>> from pseudorigid import Ball
     >>> turnstile_flux(Ball(k=0.2, g=0.04), 0.01, 6)["digits"].item()[:14]
-    '0.000231073618'
+    '0.000231071640'
     """
     _check_map(ball)
     energy = number("energy", energy)

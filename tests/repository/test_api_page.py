@@ -1,0 +1,110 @@
+"""docs/api.md names all of the public API and its examples are true; bad input is one line."""
+
+import doctest
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from project import ROOT
+
+import pseudorigid
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.ensemble import ImpactMap
+
+PAGE = ROOT / "docs" / "api.md"
+BALL = Ball(k=0.2, g=0.04)
+REGULAR, CHAOTIC = -0.2, 0.6  # starts at E = 0.01, in section radii
+
+
+def test_the_examples_of_the_page_are_true():
+    result = doctest.testfile(str(PAGE), module_relative=False, encoding="utf-8")
+    assert result.attempted > 20 and result.failed == 0
+
+
+@pytest.mark.parametrize("name", pseudorigid.__all__)
+def test_the_page_names_every_function_with_an_example(name):
+    text = PAGE.read_text(encoding="utf-8")
+    assert f"\n| `{name}" in text
+    assert f" {name}" in "".join(line for line in text.splitlines() if ">>> from" in line)
+
+
+def test_the_rotation_number_tends_to_that_of_the_fixed_point():
+    fixed_point = symmetric_orbits(BALL, 0.01, 1).isel(orbit=0)
+    x, y = float(fixed_point["x"][0]), 0.0
+    near = BALL.state_xy(x + 1e-5, y, 0.01)
+    expected = float(fixed_point["rotation_number"])
+    assert pseudorigid.rotation_number(BALL, near) == pytest.approx(expected, abs=1e-8)
+
+
+def test_the_rotation_number_keeps_shape_and_knows_several_energies():
+    energies = np.array([[0.01], [0.001]])
+    states = BALL.start([[REGULAR, math.nan]] * 2, energies)
+    numbers = pseudorigid.rotation_number(BALL, states)
+    assert numbers.shape == (2, 2) and np.isnan(numbers[:, 1]).all()
+    for row, energy in enumerate(energies[:, 0]):
+        alone = pseudorigid.rotation_number(BALL, BALL.start(REGULAR, energy))
+        assert isinstance(alone, float) and alone == numbers[row, 0]
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_orbits_are_regular_or_chaotic_in_any_unit_of_length(scale):
+    ball = Ball(BALL.k, scale * BALL.g)
+    states = ball.start([REGULAR, CHAOTIC, math.nan], 0.01 * scale**2)
+    verdicts = pseudorigid.classify_orbits(ball, states)
+    assert verdicts["type"].values.tolist() == ["regular", "chaotic", "undefined"]
+    assert verdicts["followed"].values[2] == 0 < verdicts["followed"].values[0]
+    numbers = pseudorigid.rotation_number(ball, states)
+    assert verdicts["rotation_number"].values[0] == pytest.approx(numbers[0], abs=1e-6)
+
+
+def test_no_state_at_all_is_no_error():
+    none = BALL.start([], 0.01)
+    assert pseudorigid.classify_orbits(BALL, none).sizes == {"orbit": 0}
+    assert pseudorigid.rotation_number(BALL, none).shape == (0,)
+
+
+def test_the_residue_tells_the_types_apart():
+    six = symmetric_orbits(BALL, 0.01, 6)
+    elliptic, hyperbolic, inverse = pseudorigid.residue(six).values
+    assert 0 < elliptic < 1 and hyperbolic < 0 and inverse > 1
+    turns = float(six["rotation_number"][0])
+    assert elliptic == pytest.approx(math.sin(math.pi * turns) ** 2)  # Greene 1979
+    assert pseudorigid.residue(six.isel(orbit=0)).shape == ()
+
+
+def test_the_flux_through_both_turnstiles():
+    """The inner branches almost coincide; certified digits are those of CLAIMS.md."""
+    outer, inner = (pseudorigid.turnstile_flux(BALL, 0.01, 6, side) for side in ("outer", "inner"))
+    assert outer["area"].item() == pytest.approx(2.310716408e-4, rel=1e-9)
+    assert inner["area"].item() == pytest.approx(8.789483773e-10, rel=1e-9)
+    assert outer["area_error"].item() < 1e-30
+
+
+SCANNED = Ball(0.2, 0.04, ImpactMap((0.1, 1e-12)))
+STATE = BALL.start(REGULAR, 0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "words"),
+    [
+        ("rotation_number", (BALL, 1), "state = 1 "),
+        ("rotation_number", (BALL, STATE, 99), "impacts = 99 "),
+        ("rotation_number", (BALL, STATE, True), "impacts = True "),
+        ("rotation_number", (3, STATE), "ball = 3 "),
+        ("rotation_number", (SCANNED, STATE), "ball.map = ImpactMap(scan="),
+        ("classify_orbits", (BALL, (0.1, -1.0, 0.0)), "a state just before an impact"),
+        ("classify_orbits", (BALL, STATE, "many"), "impacts = 'many' "),
+        ("residue", (3,), "orbits = 3 "),
+        ("residue", (xr.Dataset(),), "orbits = 'this Dataset' "),
+        ("turnstile_flux", (BALL, "low", 6), "energy = 'low' "),
+        ("turnstile_flux", (BALL, -1, 6), "energy = -1.0 "),
+        ("turnstile_flux", (BALL, 0.01, 5), "period = 5 "),
+        ("turnstile_flux", (BALL, 0.01, 6, "left"), "side = 'left' "),
+        ("turnstile_flux", (BALL, 0.001, 2), "no hyperbolic orbit of period 2 "),
+    ],
+)
+def test_bad_input_is_one_line(name, arguments, words):
+    with pytest.raises(ValueError) as raised:
+        getattr(pseudorigid, name)(*arguments)
+    assert str(raised.value).startswith(words) and "\n" not in str(raised.value)
