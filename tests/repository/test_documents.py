@@ -10,8 +10,7 @@ import pytest
 from project import ROOT, Tree, shipped
 
 DOCUMENTS = sorted(
-    str(file.relative_to(ROOT))
-    for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
+    str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
 # Words that take minutes, or packages that only they need: of these only the arguments are read.
 LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept")

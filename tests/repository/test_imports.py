@@ -1,33 +1,25 @@
-"""The floors of the house: imports point downwards, wherever they stand, and rooms are few."""
+"""Imports point downwards between packages, without circles, and packages are small."""
 
 import ast
+import graphlib
 import shutil
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
 from project import NO_CACHES, ROOT
 
-# Each room may import those to its right, and the pipeline all of the science.
-FLOORS = {
+# Each part of a package may import those to its right, and the pipeline all of the science.
+LAYERS = {
     "pseudorigid": ("study", "figures", "sweep", "analyses", "proofs", "dynamics", "kernel"),
     "pipeline": ("cli", "jobs", "checks", "config", "records"),
 }
-MOST = 7  # rooms
-
-
-def modules(src):
-    """Dotted name -> file of every module of both packages."""
-    return {
-        ".".join(file.relative_to(src).with_suffix("").parts).removesuffix(".__init__"): file
-        for package in FLOORS
-        for file in sorted((src / package).rglob("*.py"))
-    }
+LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(LAYERS[package])}
+MAX_PARTS = 7
 
 
 @cache
-def statements(text):
+def import_nodes(text):
     """The nodes of a module's text that may import something."""
     nodes = ast.walk(ast.parse(text))
     return [node for node in nodes if isinstance(node, (ast.Import, ast.ImportFrom, ast.Call))]
@@ -35,105 +27,98 @@ def statements(text):
 
 def imports(src):
     """Module -> the modules that it imports anywhere, also by import_module with a literal."""
-    known = modules(src)
-    found = {}
-    for name, file in known.items():
+    modules = {
+        ".".join(file.relative_to(src).with_suffix("").parts).removesuffix(".__init__"): file
+        for package in LAYERS
+        for file in sorted((src / package).rglob("*.py"))
+    }
+    graph = {}
+    for name, file in modules.items():
         package = name.split(".") if file.name == "__init__.py" else name.split(".")[:-1]
-        targets = set()
-        for node in statements(file.read_text(encoding="utf-8")):
-            targets.update(_targets(node, package, known))
-        found[name] = targets - {name}
-    return found
+        nodes = import_nodes(file.read_text(encoding="utf-8"))
+        targets = {target for node in nodes for target in _targets(node, package, modules)}
+        graph[name] = targets - {name}
+    return graph
 
 
-def _targets(node, package, known):
-    """The modules of ours that a statement imports."""
+def _targets(node, package, modules):
+    """The project's modules that a statement imports."""
     match node:
         case ast.Import(names=names):
-            wanted = [alias.name for alias in names]
+            targets = [alias.name for alias in names]
         case ast.ImportFrom(module=module, names=names, level=level):
-            base = ".".join([*package[: len(package) - level + 1], *([module] if module else [])])
-            base = base if level else module
-            wanted = [f"{base}.{alias.name}" for alias in names]
-            wanted = [name if name in known else base for name in wanted]
-        case ast.Call(func=ast.Name(id=called) | ast.Attribute(attr=called), args=[first, *_]):
-            if called not in ("import_module", "__import__"):
-                return []
-            if not (isinstance(first, ast.Constant) and isinstance(first.value, str)):
-                return []
-            dots = len(first.value) - len(first.value.lstrip("."))
+            base = package[: len(package) - level + 1] if level else []
+            base = ".".join([*base, *([module] if module else [])])
+            targets = [f"{base}.{alias.name}" for alias in names]
+            targets = [name if name in modules else base for name in targets]
+        case ast.Call(
+            func=ast.Name(id="import_module" | "__import__")
+            | ast.Attribute(attr="import_module" | "__import__"),
+            args=[ast.Constant(value=str(name)), *_],
+        ):
+            dots = len(name) - len(name.lstrip("."))
             base = package[: len(package) - dots + 1] if dots else []
-            wanted = [".".join([*base, first.value[dots:]])]
+            targets = [".".join([*base, name[dots:]])]
         case _:
-            return []
-    return [name for name in wanted if name in known]
+            targets = []
+    return [name for name in targets if name in modules]
 
 
 def circle(graph):
     """The nodes of a circle in a graph, or None."""
-    done, path = set(), []
-
-    def visit(node):
-        if node in path:
-            return path[path.index(node) :]
-        if node in done:
-            return None
-        path.append(node)
-        for other in sorted(graph.get(node, ())):
-            if found := visit(other):
-                return found
-        done.add(path.pop())
-        return None
-
-    return next(filter(None, map(visit, sorted(graph))), None)
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return error.args[1]
+    return None
 
 
-def rooms(graph, parent):
-    """The graph of what lies side by side in a package, folders and modules alike."""
+def parts(graph, parent):
+    """The graph of the modules and packages that lie side by side in a package."""
     depth = parent.count(".") + 1
     found = {}
     for name, targets in graph.items():
-        if not name.startswith(f"{parent}."):
-            continue
-        room = name.split(".")[depth]
-        inside = {t.split(".")[depth] for t in targets if t.startswith(f"{parent}.")}
-        found.setdefault(room, set()).update(inside - {room})
+        if name.startswith(f"{parent}."):
+            part, *inside = (
+                path.split(".")[depth] for path in (name, *targets) if path.startswith(f"{parent}.")
+            )
+            found.setdefault(part, set()).update({*inside} - {part})
     return found
 
 
-def faults(src):
-    """What is wrong with the house, a line each."""
+def violations(src):
+    """Yield a line for each violation of the rules."""
     graph = imports(src)
-    if found := circle(graph):
-        yield f"a circle: {' > '.join(found)}"
-    floor = {f"{package}.{room}": i for package in FLOORS for i, room in enumerate(FLOORS[package])}
+    if nodes := circle(graph):
+        yield f"a circle: {' > '.join(nodes)}"
     for name, targets in graph.items():
         for target in sorted(targets):
-            here, there = (".".join(path.split(".")[:2]) for path in (name, target))
-            if here.startswith("pseudorigid") and there.startswith("pipeline"):
-                yield f"{name} imports {target}: the science knows no pipeline"
-            elif here.partition(".")[0] == there.partition(".")[0]:
-                upwards = floor.get(there, 99) < floor.get(here, -1)
-                yield from [f"{name} imports {target}: upwards"] * upwards
+            part, imported = (".".join(path.split(".")[:2]) for path in (name, target))
+            if part.startswith("pseudorigid") and imported.startswith("pipeline"):
+                yield f"{name} imports {target}: the science must not import the pipeline"
+            elif part.split(".")[0] == imported.split(".")[0] and (
+                LEVEL.get(imported, 99) < LEVEL.get(part, -1)
+            ):
+                yield f"{name} imports {target}: upwards"
     for parent in sorted({name.rpartition(".")[0] for name in graph} - {""}):
-        side_by_side = rooms(graph, parent)
-        if found := circle(side_by_side):
-            yield f"a circle of rooms in {parent}: {' > '.join(found)}"
-        counted = set(side_by_side) - {"__main__"}
-        if parent in FLOORS:
-            for room in sorted(counted - set(FLOORS[parent])):
-                yield f"{parent}.{room}: a room without a floor"
-        else:  # peers that no other one imports do not count
-            counted = set().union(*side_by_side.values())
-        if len(counted) > MOST:
-            yield f"{parent}: {len(counted)} rooms: {', '.join(sorted(counted))}"
+        siblings = parts(graph, parent)
+        if nodes := circle(siblings):
+            yield f"a circle in {parent}: {' > '.join(nodes)}"
+        counted = set(siblings) - {"__main__"}
+        if parent in LAYERS:
+            for part in sorted(counted - set(LAYERS[parent])):
+                yield f"{parent}.{part}: a part without a layer"
+        else:  # modules that no sibling imports do not count
+            counted = set().union(*siblings.values())
+        if len(counted) > MAX_PARTS:
+            yield f"{parent}: {len(counted)} parts: {', '.join(sorted(counted))}"
 
 
-def test_the_house_stands():
-    assert list(faults(ROOT / "src")) == []
+def test_the_source_follows_the_rules():
+    assert list(violations(ROOT / "src")) == []
 
 
-def test_the_reading_sees_every_file_and_known_imports():
+def test_every_file_is_read_and_known_imports_are_seen():
     graph = imports(ROOT / "src")
     assert len(graph) == len(list((ROOT / "src").glob("p*/**/*.py")))
     assert "pseudorigid.kernel.compiled" in graph["pseudorigid.kernel.arithmetic"]
@@ -146,94 +131,79 @@ def copy(tmp_path):
     return Path(shutil.copytree(ROOT / "src", tmp_path / "src", ignore=NO_CACHES))
 
 
-PLANTED = {
-    "a circle of files": (
+def plant(src, files):
+    for name, text in files.items():
+        path = src / name
+        path.parent.mkdir(exist_ok=True)
+        with path.open("a") as file:
+            file.write(f"\n\n{text}\n")
+
+
+NUMBERED = [f"r{i}" for i in range(8)]
+IN_A_PROPERTY = """class A:
+    @property
+    def map(self):
+        import pseudorigid.figures.canvas.style"""
+FAULTS = {
+    "a circle of modules": (
         {"pseudorigid/kernel/impact_law.py": "from . import impact"},
         "a circle: pseudorigid.kernel.",
     ),
     "a circle inside a function": (
-        {
-            "pseudorigid/figures/canvas/style.py": "def f():\n    from .sheet import Sheet",
-        },
+        {"pseudorigid/figures/canvas/style.py": "def f():\n    from .sheet import Sheet"},
         "a circle: pseudorigid.figures.canvas.",
     ),
-    "a circle of rooms, none of files": (
+    "a circle of packages, none of modules": (
         {
             "pseudorigid/figures/canvas/one.py": "",
             "pseudorigid/figures/canvas/two.py": "from ..axes import three",
             "pseudorigid/figures/axes/three.py": "from ..canvas import one",
         },
-        "a circle of rooms in pseudorigid.figures: axes > canvas",
+        "a circle in pseudorigid.figures: ",
     ),
     "upwards": (
         {"pseudorigid/kernel/up.py": "from ..dynamics import ball"},
         "pseudorigid.kernel.up imports pseudorigid.dynamics.ball: upwards",
     ),
     "upwards, in a property": (
-        {
-            "pseudorigid/dynamics/up.py": "class A:\n    @property\n    def map(self):\n"
-            "        import pseudorigid.figures.canvas.style"
-        },
+        {"pseudorigid/dynamics/up.py": IN_A_PROPERTY},
         "pseudorigid.dynamics.up imports pseudorigid.figures.canvas.style: upwards",
     ),
     "upwards, by a name": (
-        {
-            "pseudorigid/proofs/up.py": "import importlib\n\n"
-            "def f():\n    return importlib.import_module('pseudorigid.sweep.grid')"
-        },
+        {"pseudorigid/proofs/up.py": "importlib.import_module('pseudorigid.sweep.grid')"},
         "pseudorigid.proofs.up imports pseudorigid.sweep.grid: upwards",
     ),
     "upwards, by a relative name": (
-        {
-            "pipeline/records/up.py": "from importlib import import_module\n\n"
-            "def f():\n    import_module('..cli.main', __package__)"
-        },
+        {"pipeline/records/up.py": "import_module('..cli.main', __package__)"},
         "pipeline.records.up imports pipeline.cli.main: upwards",
     ),
     "out of the science": (
         {"pseudorigid/study/out.py": "def f():\n    from pipeline import config"},
-        "pseudorigid.study.out imports pipeline.config: the science knows no pipeline",
+        "pseudorigid.study.out imports pipeline.config: the science ",
     ),
-    "an eighth room": (
-        {f"pseudorigid/{name}.py": "" for name in ("eighth",)},
-        "pseudorigid: 8 rooms: ",
-    ),
-    "a room of its own at the top": (
+    "an eighth part": ({"pseudorigid/eighth.py": ""}, "pseudorigid: 8 parts: "),
+    "a part without a layer": (
         {"pipeline/tools/__init__.py": "", "pipeline/tools/one.py": ""},
-        "pipeline.tools: a room without a floor",
+        "pipeline.tools: a part without a layer",
     ),
-    "an eighth room below that others import": (
+    "eight modules that a sibling imports": (
         {
-            "pipeline/records/wide/__init__.py": "",
-            **{f"pipeline/records/wide/r{i}.py": "" for i in range(8)},
-            "pipeline/records/wide/all.py": "\n".join(f"from . import r{i}" for i in range(8)),
+            **{f"pipeline/records/wide/{name}.py": "" for name in ("__init__", *NUMBERED)},
+            "pipeline/records/wide/all.py": f"from . import {', '.join(NUMBERED)}",
         },
-        "pipeline.records.wide: 8 rooms: ",
+        "pipeline.records.wide: 8 parts: ",
     ),
 }
 
 
-@pytest.mark.parametrize("fault", PLANTED)
+@pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_found(copy, fault):
-    files, words = PLANTED[fault]
-    for name, text in files.items():
-        path = copy / name
-        path.parent.mkdir(exist_ok=True)
-        with path.open("a") as file:
-            file.write(f"\n\n{text}\n")
-    assert any(line.startswith(words) for line in faults(copy)), list(faults(copy))
+    files, line = FAULTS[fault]
+    plant(copy, files)
+    found = list(violations(copy))
+    assert any(violation.startswith(line) for violation in found), found
 
 
-def test_many_peers_that_no_sibling_imports_are_no_fault(copy):
-    folder = copy / "pipeline" / "records" / "peers"
-    folder.mkdir()
-    for name in ("__init__", *(f"r{i}" for i in range(12))):
-        (folder / f"{name}.py").write_text("")
-    assert list(faults(copy)) == []
-
-
-def test_a_circle_is_found_wherever_it_is():
-    chain = {a: {b} for a, b in pairwise("abcdef")}
-    assert circle(chain) is None
-    assert circle(chain | {"f": {"c"}}) == ["c", "d", "e", "f"]
-    assert circle({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}, "d": set()}) is None
+def test_many_modules_that_no_sibling_imports_are_no_fault(copy):
+    plant(copy, {f"pipeline/records/peers/{name}.py": "" for name in ("__init__", *NUMBERED)})
+    assert list(violations(copy)) == []

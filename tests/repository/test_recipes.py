@@ -1,4 +1,4 @@
-"""CONTRIBUTING's recipes, followed to the letter in a copy: three files for a kind or a stage."""
+"""The recipes of CONTRIBUTING, followed in a copy: a kind or a stage needs three files."""
 
 import shutil
 import subprocess
@@ -14,7 +14,7 @@ from pipeline.records.artifacts import load
 
 KIND = {
     "src/pseudorigid/figures/kinds/returns.py": '''
-"""x of each impact against x of the one before."""
+"""Next position against the present one."""
 
 from ..axes.limits import complete, of_data
 from ..axes.plane import Plane
@@ -24,7 +24,7 @@ from ..canvas.ragged_rows import rows
 
 @style.pinned()
 def draw(scene, orbits):
-    """Return the Figure of x' against x, one hue an orbit."""
+    """Return the Figure of x' against x, one hue per orbit."""
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
     picture = Plane(scene, ("x", "next"), ("$x$", "$x'$"))
@@ -34,7 +34,7 @@ def draw(scene, orbits):
     return picture.figure
 ''',
     "src/pipeline/config/schema/kinds/returns.py": '''
-"""x of each impact against x of the one before."""
+"""Next position against the present one."""
 
 from typing import Literal
 
@@ -59,11 +59,11 @@ class Returns(OfOrbits):
 
     @staticmethod
     def numbers(block, orbits):
-        """How many orbits."""
+        """Return how many orbits there are."""
         return {"orbits": f"{orbits.sizes['orbit']}"}
 ''',
     "tests/figures/test_returns.py": '''
-"""The next position against the present one."""
+"""Next position against the present one."""
 
 import numpy as np
 import xarray as xr
@@ -79,12 +79,13 @@ def test_each_pair_is_a_dot():
     assert [len(line.get_xdata()) for line in dots] == [2, 1]
 ''',
 }
+STAGES = "src/pipeline/config/schema/stages.py"
 ROW = """    "flights": Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False),
 }
 """
 STAGE = {
     "src/pseudorigid/dynamics/flights.py": '''
-"""How long an orbit flies."""
+"""Mean time of flight of orbits."""
 
 import numpy as np
 import xarray as xr
@@ -93,24 +94,24 @@ from .variables import variables
 
 
 def mean_flights(ball, energy, orbits):
-    """The mean time of flight of each orbit."""
+    """Compute the mean time of flight of each orbit."""
     ends = np.cumsum(orbits["row_size"].values)[:-1]
     means = [part.mean() for part in np.split(orbits["tau"].values, ends)]
     return xr.Dataset(variables("orbit", [np.array(means)], {"mean": "mean time of flight"}))
 ''',
     "tests/dynamics/test_flights.py": '''
-"""How long an orbit flies."""
+"""Mean time of flight of orbits."""
 
 from pseudorigid import Ball
 from pseudorigid.dynamics.flights import mean_flights
 from pseudorigid.dynamics.orbits import scene_orbits
 
 
-def test_the_mean_is_that_of_each_orbit():
+def test_each_orbit_has_its_mean():
     ball = Ball(0.2, 0.04)
     orbits = scene_orbits(ball, 0.01, [0.1, 0.5], [3, 5])
-    found = mean_flights(ball, 0.01, orbits)["mean"].values
-    assert found.tolist() == [orbits["tau"][:3].mean(), orbits["tau"][3:].mean()]
+    means = mean_flights(ball, 0.01, orbits)["mean"].values
+    assert means.tolist() == [orbits["tau"][:3].mean(), orbits["tau"][3:].mean()]
 ''',
 }
 SCENE = {"picture": "returns", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
@@ -121,18 +122,12 @@ DOCUMENT = {
 }
 
 
-def follow(tree, *recipes):
-    """Write the files of the recipes; only new ones, the row of a stage apart."""
-    for name, text in (item for recipe in recipes for item in recipe.items()):
+def write_new(tree, files):
+    for name, text in files.items():
         path = tree.path / name
         assert not path.exists()
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text.lstrip())
-    if STAGE in recipes:
-        table = tree.path / "src" / "pipeline" / "config" / "schema" / "stages.py"
-        text = table.read_text()
-        assert text.count("\n}\n") == 1
-        table.write_text(text.replace("\n}\n", ROW))
     tree.warm()
 
 
@@ -141,16 +136,26 @@ def python(tree, *arguments):
         [sys.executable, *arguments],
         env=tree.environment(),
         cwd=tree.path,
-        capture_output=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
         text=True,
         check=False,
     )
-    assert result.returncode == 0, result.stdout + result.stderr
+    assert result.returncode == 0, result.stdout
+
+
+def run_test(tree, file):
+    python(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", file)
+
+
+def succeed(tree, *words):
+    result = tree.run(*words)
+    assert result.returncode == 0, result.stdout
     return result.stdout
 
 
-def docs(tree):
-    """The page of fields, made anew."""
+def renewed_page(tree):
+    """The page of fields, written anew."""
     (tree.path / "docs").mkdir(exist_ok=True)
     python(tree, "-P", "-m", "pipeline.config.reference")
     return (tree.path / "docs" / "config.md").read_text()
@@ -162,23 +167,18 @@ def copy(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_kind_of_three_files(copy):
-    """Its figure, caption, number, refusals, row of the docs, variant and line of verify."""
-    follow(copy, KIND)
-    python(copy, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/figures/test_returns.py")
-    made = copy.run("report")
-    assert made.returncode == 0, made.stdout
-    assert rows(made.stdout) == {"paper_figures/map.png": "recomputed"}
-    page = (copy.path / "results" / "report" / "report.html").read_text()
-    assert "Positions of 2 orbits: the next one" in page
-    assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in page
+def test_a_kind_is_three_files(copy):
+    """It has a figure, caption, number, refusals, docs, variant and a line of verify."""
+    write_new(copy, KIND)
+    run_test(copy, "tests/figures/test_returns.py")
+    assert rows(succeed(copy, "report")) == {"paper_figures/map.png": "recomputed"}
+    report = (copy.path / "results" / "report" / "report.html").read_text()
+    assert "Positions of 2 orbits: the next one" in report
+    assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
 
     for change, line in (
         ({"start": [0.1]}, "map.start: unknown key: did you mean starts?"),
-        (
-            {"starts": [1.5], "impacts": 50},
-            "map.starts[0]: 1.5 is not allowed: expected a fraction",
-        ),
+        ({"starts": [1.5]}, "map.starts[0]: 1.5 is not allowed: expected a fraction"),
         ({"axes": {"y": {}}}, "map.axes.y: unknown key: allowed here: x, next"),
     ):
         copy.write(DOCUMENT | {"scenes": {"map": SCENE | change}})
@@ -187,49 +187,49 @@ def test_a_kind_of_three_files(copy):
         assert result.stdout.startswith(f"config.yaml: scenes.{line}")
     copy.write(DOCUMENT)
 
-    page = docs(copy)
+    page = renewed_page(copy)
     assert "### picture: returns\n\nThe next position against the present one." in page
     assert "a mapping with the keys x and next, or some of them." in " ".join(page.split())
 
-    variant = copy.run("variant", "low")
-    assert variant.returncode == 0, variant.stdout
     drawn = "results/low/figures/map.png"
-    assert rows(variant.stdout) == {drawn: "recomputed"}
+    assert rows(succeed(copy, "variant", "low")) == {drawn: "recomputed"}
     assert (copy.path / drawn).read_bytes() != (copy.path / "paper_figures/map.png").read_bytes()
 
-    assert copy.run("accept").returncode == 0
+    succeed(copy, "accept")
     result = copy.run("verify")
     assert said(result.stdout, result.returncode)[:4] == (0, {}, [], [])
     assert "map.png  identical\n" in result.stdout
 
 
 @pytest.mark.slow
-def test_a_stage_of_three_files(copy):
-    """Asked for by a kind of picture, whose declaration and drawing name it."""
-    kind = dict(KIND)
-    for name in list(kind)[:2]:
-        kind[name] = kind[name].replace('stages = ("orbits",)', 'stages = ("orbits", "flights")')
-        kind[name] = kind[name].replace("(scene, orbits)", "(scene, orbits, flights)")
-        kind[name] = kind[name].replace("(block, orbits)", "(block, orbits, flights)")
-    follow(copy, kind, STAGE)
-    python(copy, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/dynamics/test_flights.py")
-    made = copy.run()
-    assert made.returncode == 0, made.stdout
-    orbits = load(copy.path / "results" / "paper" / "orbits_map.nc")
-    flights = load(copy.path / "results" / "paper" / "flights_map.nc")
-    assert flights["mean"].values.tolist() == [
-        np.mean(orbits["tau"].values[:50]),
-        np.mean(orbits["tau"].values[50:]),
-    ]
+def test_a_stage_is_three_files(copy):
+    """A kind of picture names it in its declaration, and its drawing takes the dataset."""
+    kind = {
+        name: text.replace('("orbits",)', '("orbits", "flights")').replace(
+            ", orbits):", ", orbits, flights):"
+        )
+        for name, text in KIND.items()
+    }
+    table = copy.path / STAGES
+    text = table.read_text()
+    start = text.index("\n}\n", text.index("\nSTAGES = {")) + 1
+    table.write_text(text[:start] + ROW + text[start + 2 :])
+    write_new(copy, kind | STAGE)
+    run_test(copy, "tests/dynamics/test_flights.py")
+    succeed(copy)
+    results = copy.path / "results" / "paper"
+    orbits, flights = (load(results / f"{name}_map.nc") for name in ("orbits", "flights"))
+    means = [np.mean(part) for part in np.split(orbits["tau"].values, 2)]
+    assert flights["mean"].values.tolist() == means
     assert flights.attrs["stage"] == "flights"
-    assert "| `flights` |  | `orbits` | does not depend on it |" in docs(copy)
+    assert "| `flights` |  | `orbits` | does not depend on it |" in renewed_page(copy)
     with (copy.path / "src" / "pseudorigid" / "dynamics" / "flights.py").open("a") as file:
         file.write("_EDITED = 1\n")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
 
 
 def test_the_page_of_fields_is_up_to_date(tmp_path):
-    tree = fresh_tree(tmp_path / "as it is", shipped())
-    page = ROOT / "docs" / "config.md"
+    tree = fresh_tree(tmp_path / "copy", shipped())
     shutil.copytree(ROOT / "docs", tree.path / "docs")
-    assert docs(tree) == page.read_text(), "renew it: python -m pipeline.config.reference"
+    committed = (ROOT / "docs" / "config.md").read_text()
+    assert renewed_page(tree) == committed, "renew it: python -m pipeline.config.reference"
