@@ -1,4 +1,4 @@
-"""Modules are loaded from their text: a cached .pyc is never run, whatever the times say."""
+"""Modules are loaded from their text: a cached .pyc is never run, whatever its times are."""
 
 import hashlib
 import os
@@ -21,92 +21,82 @@ def src(tmp_path):
     return shutil.copytree(ROOT / "src", tmp_path / "src", ignore=NO_CACHES)
 
 
-def says(src, code, **environment):
-    """What a new interpreter prints."""
-    result = subprocess.run(
-        [sys.executable, "-P", "-c", code],
-        env=os.environ | {"PYTHONPATH": str(src)} | environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert result.returncode == 0, result.stderr
-    return result.stdout.strip()
+@pytest.fixture
+def printed(src, tmp_path):
+    """code -> what a new interpreter prints, with a cache of compiled code of its own."""
+
+    def run(code):
+        own = {"PYTHONPATH": str(src), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+        command = [sys.executable, "-P", "-c", code]
+        result = subprocess.run(
+            command, env=os.environ | own, capture_output=True, text=True, check=False
+        )
+        assert result.returncode == 0, result.stderr
+        return result.stdout.strip()
+
+    return run
 
 
 def edit_unseen(file, old, new):
     """Edit a file that Python has cached, keeping its size and its times."""
     py_compile.compile(str(file), invalidation_mode=py_compile.PycInvalidationMode.TIMESTAMP)
-    text, then = file.read_text(), file.stat()
+    text, times = file.read_text(), file.stat()
     assert len(old) == len(new) and text.count(old) == 1
     file.write_text(text.replace(old, new))
-    os.utime(file, ns=(then.st_atime_ns, then.st_mtime_ns))
+    os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-@pytest.mark.parametrize(
-    ("module", "name", "old", "new"),
-    [
-        ("pseudorigid.figures.axes.box", "NEAR", "NEAR = 1", "NEAR = 2"),
-        ("pipeline.checks.manifest", "BLOCK", "BLOCK = 1024", "BLOCK = 4096"),
-    ],
-)
-def test_a_stale_pyc_is_not_run(src, module, name, old, new):
+@pytest.mark.parametrize("module", ["pseudorigid.figures.axes.box", "pipeline.checks.manifest"])
+def test_a_stale_pyc_is_not_run(src, printed, module):
     file = src / f"{module.replace('.', '/')}.py"
-    if old not in file.read_text():
-        file.write_text(f"{file.read_text()}\n{old}\n")
-    show = f"import {module} as m; print(m.{name})"
-    assert says(src, show) == old.split()[-1]
-    edit_unseen(file, old, new)
-    assert says(src, show) == new.split()[-1]
+    file.write_text(f"{file.read_text()}\nPLANTED = 1\n")
+    show = f"import {module} as m; print(m.PLANTED)"
+    assert printed(show) == "1"
+    edit_unseen(file, "PLANTED = 1", "PLANTED = 2")
+    assert printed(show) == "2"
 
 
-def test_a_stale_pyc_does_not_reach_the_machine_code(src, tmp_path):
-    """Nor does machine code that was compiled by a process that had loaded an earlier text."""
+def test_a_stale_pyc_does_not_reach_the_machine_code(src, printed, tmp_path):
+    """The machine code fits the loaded text, also where a file changes during the process."""
     file = src / "pseudorigid/kernel/callee.py"
     file.write_text("from .compiled import jit\n\n\n@jit\ndef one():\n    return 1.0\n")
     caller = "from .callee import one\nfrom .compiled import jit\n\n\n@jit\ndef f():\n"
     (src / "pseudorigid/kernel/caller.py").write_text(f"{caller}    return one()\n")
     show = "from pseudorigid.kernel.caller import f; print(f())"
-    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    assert says(src, show, **cache) == "1.0"
+    edit = f"import pathlib; p = pathlib.Path({str(file)!r}); text = p.read_text(); "
+    edit += "p.write_text(text.replace('2.0', '3.0'))"
+    assert printed(show) == "1.0"
     edit_unseen(file, "return 1.0", "return 2.0")
-    assert says(src, show, **cache) == "2.0"
-    # Edited between what names the folder and what compiles, and undone.
-    undone = (
-        "import pathlib, pseudorigid.kernel.compiled; "
-        f"p = pathlib.Path({str(file)!r}); text = p.read_text(); "
-        "p.write_text(text.replace('2.0', '3.0')); "
-        f"{show}; p.write_text(text)"
-    )
+    assert printed(show) == "2.0"
+    # Edited after the folder of compiled code is named and before compilation, and undone.
     shutil.rmtree(tmp_path / "cache")
-    assert says(src, undone, **cache) == "3.0"
-    assert says(src, show, **cache) == "2.0"
-    # Edited between the import of what is called and of what calls it, and left so.
+    undone = f"import pseudorigid.kernel.compiled; {edit}; {show}; p.write_text(text)"
+    assert printed(undone) == "3.0"
+    assert printed(show) == "2.0"
+    # Edited between the imports of callee and caller, and left so.
     shutil.rmtree(tmp_path / "cache")
-    between = "import pathlib, pseudorigid.kernel.callee; "
-    between += f"p = pathlib.Path({str(file)!r}); p.write_text(p.read_text().replace('2.0', '4.0'))"
-    assert says(src, f"{between}; {show}", **cache) == "2.0"
-    assert says(src, show, **cache) == "4.0"
+    assert printed(f"import pseudorigid.kernel.callee; {edit}; {show}") == "2.0"
+    assert printed(show) == "3.0"
 
 
-def test_a_comment_compiles_nothing_again_and_a_constant_does(src, tmp_path):
+def test_a_comment_compiles_nothing_and_a_constant_does(src, printed):
     constants = src / "pseudorigid/kernel/constants.py"
     constants.write_text("ONE = 1.0\n")
     caller = "from . import constants\nfrom .compiled import jit\n\nONE = constants.ONE\n\n\n@jit\n"
     (src / "pseudorigid/kernel/caller.py").write_text(f"{caller}def f():\n    return ONE\n")
-    show = "from pseudorigid.kernel.caller import f; print(f(), sum(f.stats.cache_hits.values()))"
-    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    assert says(src, show, **cache) == "1.0 0"
-    assert says(src, show, **cache) == "1.0 1"
+    value_and_hits = (
+        "from pseudorigid.kernel.caller import f; print(f(), sum(f.stats.cache_hits.values()))"
+    )
+    assert printed(value_and_hits) == "1.0 0"
+    assert printed(value_and_hits) == "1.0 1"
     for file in ("caller", "constants", "compiled/__init__", "compiled/locator"):
         path = src / f"pseudorigid/kernel/{file}.py"
         path.write_text(f"# A comment before everything.\n{path.read_text()}")
-    assert says(src, show, **cache) == "1.0 1"
+    assert printed(value_and_hits) == "1.0 1"
     constants.write_text("ONE = 2.0\n")
-    assert says(src, show, **cache) == "2.0 0"
+    assert printed(value_and_hits) == "2.0 0"
 
 
-def test_what_was_loaded_is_noted():
+def test_loaded_files_are_noted():
     file = os.path.realpath(arithmetic.__file__)
-    digest = hashlib.sha256(Path(file).read_bytes()).hexdigest()
-    assert pseudorigid.LOADED[file] == {digest}
+    assert pseudorigid.LOADED[file] == {hashlib.sha256(Path(file).read_bytes()).hexdigest()}
