@@ -1,11 +1,11 @@
-"""One process of the matrix: compute a little of everything and print one JSON line of hashes.
+"""Compute a little of everything in one process and print one JSON line of hashes.
 
     python tests/matrix_probe.py            everything
     python tests/matrix_probe.py short      a short orbit, which plain Python can follow too
-    python tests/matrix_probe.py sincos     the table alone
-    python tests/matrix_probe.py compiled   what the compiled code calls, of every function
+    python tests/matrix_probe.py sincos     the table of sines, cosines and logarithms alone
+    python tests/matrix_probe.py compiled   the library calls and fused operations of compiled code
 
-The arguments come from a generator that is the same everywhere, none from a library's functions.
+Arguments come from a generator that is the same everywhere, never from a library's functions.
 """
 
 import hashlib
@@ -47,7 +47,6 @@ def digest(*parts):
 
 @jit
 def tables(t, sine, cosine, logarithm):
-    """sin, cos and log(|t|) of each t."""
     for i in range(t.size):
         sine[i], cosine[i] = arithmetic.sincos(t[i])
         logarithm[i] = arithmetic.log(abs(t[i]))
@@ -63,7 +62,6 @@ def arguments(count):
 
 
 def table(count):
-    """The hash of sincos and log at so many arguments."""
     t = arguments(count)
     columns = [np.empty(count) for _ in range(3)]
     tables(t, *columns)
@@ -71,38 +69,25 @@ def table(count):
 
 
 def library():
-    """The hash of the C library's own sin, exp, log and pow: the positive control."""
+    """The hash of the C library's own functions: the positive control."""
     t = arguments(200_000)[:100_000].tolist()
-    return digest(
-        [math.sin(a) for a in t],
-        [math.exp(a) for a in t],
-        [math.log(abs(a)) for a in t],
-        [math.pow(abs(a), 1.7) for a in t],
-    )
+    functions = math.sin, math.exp, lambda a: math.log(abs(a)), lambda a: math.pow(abs(a), 1.7)
+    return digest(*([function(a) for a in t] for function in functions))
 
 
-def orbit(impacts):
-    """The hash of every impact of a chaotic orbit."""
-    head, radius = BALL.section(ENERGY)
-    state = BALL.state_xy(head + SEA * radius, 0.0, ENERGY)
-    out = np.empty((1, impacts, 4))
-    impact.history(*(np.array([a]) for a in state), BALL.k, BALL.g, out, None)
+def history(states, impacts):
+    """The hash of every impact; a single state is followed by the loop for one orbit."""
+    columns = [np.atleast_1d(a) for a in states]
+    out = np.empty((columns[0].size, impacts, 4))
+    if columns[0].size == 1:
+        impact.history(*columns, BALL.k, BALL.g, out, None)
+    else:
+        BALL.map.history(*columns, BALL.k, BALL.g, out)
     return digest(out)
 
 
-def ensemble_of(count, impacts):
-    """The hash of every impact of many orbits at once, in lanes and threads."""
-    centre, radius = BALL.section(ENERGY)
-    x = centre + radius * (2.0 * np.random.default_rng(21).random(count) - 1.0)
-    out = np.empty((count, impacts, 4))
-    BALL.map.history(*BALL.state_xy(x, np.zeros(count), ENERGY), BALL.k, BALL.g, out)
-    return digest(out)
-
-
-def spectra(count, impacts):
-    """The hash of the exponents of many orbits at once, in lanes and threads."""
-    state = BALL.start(np.linspace(-0.5, 0.6, count), ENERGY)
-    return digest(lyapunov.lyapunov_spectrum(BALL, state, impacts, 5)["exponent"])
+def chaotic_orbit(impacts):
+    return history(BALL.start(SEA, ENERGY), impacts)
 
 
 def scanned():
@@ -130,7 +115,6 @@ RESOLUTION = {"distance": 0.05, "bend": 20}
 
 
 def scene(*axes):
-    """A scene that is drawn with these axes."""
     how = {"view": {"elevation": 40, "azimuth": 115}, "sea": [3], "type": "hyperbolic"}
     how |= {"energy": ENERGY, "ball": {"k": BALL.k, "g": BALL.g}}
     return how | {"axes": {name: AXES[name] for name in axes}}
@@ -146,9 +130,10 @@ def everything():
 
     yield "table", table(200_000)
     yield from short()
-    yield "orbit", orbit(3000)
-    yield "ensemble", ensemble_of(100, 300)
-    yield "spectra", spectra(100, 300)
+    yield "orbit", chaotic_orbit(3000)
+    many = BALL.start(np.linspace(-0.5, 0.6, 100), ENERGY)  # in lanes and threads
+    yield "ensemble", history(many, 300)
+    yield "spectra", digest(lyapunov.lyapunov_spectrum(BALL, many, 300, 5)["exponent"])
     yield "scanned", scanned()
     folder = tempfile.TemporaryDirectory()
     hashes = {}
@@ -194,24 +179,23 @@ def everything():
 
 
 def short():
-    """Yield (name, hash) of what plain Python can follow too."""
-    yield "short", digest(table(400).encode(), orbit(150).encode())
+    """Yield the hash of an orbit that plain Python can follow too."""
+    yield "short", digest(table(400).encode(), chaotic_orbit(150).encode())
 
 
 def sincos():
-    """Yield the table alone."""
     yield "table", table(200_000)
 
 
 @jit
 def calls_the_library(a):
-    """A control: a call that `compiled` must see."""
+    """A control: `compiled` must see this call."""
     return math.sin(a)
 
 
 @njit(fastmath=True)
 def may_fuse(a, b):
-    """A control: a sum of products that a processor with FMA fuses here."""
+    """A control: a processor with FMA fuses this sum of products."""
     total = 0.0
     for i in range(a.size):
         total += a[i] * b[i]
@@ -219,7 +203,7 @@ def may_fuse(a, b):
 
 
 def compiled():
-    """Yield (function, what must not be in its machine code) of every compiled function."""
+    """Yield (function, library calls and fused operations) of every compiled function."""
     dict(everything())
     BALL.inverse_impact(0.1, 0.1, 0.1)
     cell.cell(0.2, 6.25, 16, 1000)

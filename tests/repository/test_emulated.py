@@ -1,12 +1,12 @@
-"""Other processors, emulated: the matrix's probe and all published figures. Minutes, so on request:
+"""Emulated processors give the same bytes: the probe of the matrix and all published figures.
 
-    ./reproduce test -m emulated
+    ./reproduce test -m emulated    # takes minutes
 
-Needs Debian's qemu-user; for aarch64 also apt with its packages (dpkg --add-architecture arm64,
-apt-get update), from which a Python 3.11 is unpacked, and the package index, for wheels of the
-versions and hashes in requirements/lock.txt. Nothing is installed. ZLIB_NG names a libz.so.1 of
-zlib-ng, built with --zlib-compat (Debian has no package of it), which takes the system's place.
-What is missing is skipped and named.
+The tests need Debian's qemu-user. For aarch64 they also need apt with its packages
+(dpkg --add-architecture arm64, apt-get update), from which a Python 3.11 is unpacked, and the
+package index, for wheels with the versions and hashes in requirements/lock.txt. Nothing is
+installed. ZLIB_NG names a libz.so.1 of zlib-ng, built with --zlib-compat (Debian has no package of
+it), which replaces the system's. A test whose requirements are missing is skipped with the reason.
 """
 
 import json
@@ -19,7 +19,7 @@ import zipfile
 
 import pytest
 from project import ROOT
-from test_matrix import SWITCHES, probe
+from test_matrix import CONTROLS, probe
 
 from pipeline.checks.checksums import read_sums
 
@@ -41,13 +41,13 @@ PLATFORMS = [f"manylinux_2_{minor}_aarch64" for minor in (28, 27, 26, 24, 17)]
 PLATFORMS += ["manylinux2014_aarch64"]
 
 
-def need(*tools):
+def require(*tools):
     for tool in tools:
         if shutil.which(tool) is None:
             pytest.skip(f"no {tool} here")
 
 
-def quietly(*command, cwd):
+def run_or_skip(*command, cwd):
     result = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
     if result.returncode:
         last = (result.stderr.strip().splitlines() or ["?"])[-1]
@@ -57,20 +57,20 @@ def quietly(*command, cwd):
 @pytest.fixture(scope="module")
 def nehalem():
     """An x86-64 processor without AVX and FMA."""
-    need("qemu-x86_64")
+    require("qemu-x86_64")
     return ["qemu-x86_64", "-cpu", "Nehalem", sys.executable], {}
 
 
 @pytest.fixture(scope="module")
 def aarch64(tmp_path_factory):
     """An aarch64 processor with a Python and packages of its own."""
-    need("qemu-aarch64", "apt-get", "dpkg")
+    require("qemu-aarch64", "apt-get", "dpkg")
     folder = tmp_path_factory.mktemp("aarch64")
     debs = folder / "debs"
     debs.mkdir()
-    quietly("apt-get", "download", *(f"{name}:arm64" for name in DEBIAN.split()), cwd=debs)
+    run_or_skip("apt-get", "download", *(f"{name}:arm64" for name in DEBIAN.split()), cwd=debs)
     for package in debs.iterdir():
-        quietly("dpkg", "-x", package, folder / "root", cwd=folder)
+        run_or_skip("dpkg", "-x", package, folder / "root", cwd=folder)
     locked = (ROOT / "requirements" / "lock.txt").read_text()
     wanted = {
         entry
@@ -82,7 +82,7 @@ def aarch64(tmp_path_factory):
     pip += ["--only-binary", ":all:", "--python-version", "3.11", "--implementation", "cp"]
     pip += [f"--abi={abi}" for abi in ("cp311", "abi3", "none")]
     pip += [f"--platform={platform}" for platform in PLATFORMS]
-    quietly(*pip, "-r", "lock.txt", "-d", "wheels", cwd=folder)
+    run_or_skip(*pip, "-r", "lock.txt", "-d", "wheels", cwd=folder)
     for wheel in (folder / "wheels").iterdir():
         zipfile.ZipFile(wheel).extractall(folder / "site")
     python = folder / "root" / "usr" / "bin" / "python3.11"
@@ -109,23 +109,21 @@ def machine(request):
 
 
 def test_the_same_bytes(machine, tmp_path):
-    command, environment = machine
+    python, environment = machine
     caches = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    found = probe(tmp_path / "there", "everything", caches | environment, python=command)
-    expected = probe(tmp_path / "here", "everything", {})
-    assert [
-        name for name in expected if found[name] != expected[name] and name not in SWITCHES
-    ] == []
-    if "Nehalem" in command:
+    found = probe(tmp_path / "emulated", "everything", caches | environment, python=python)
+    expected = probe(tmp_path / "native", "everything", {})
+    assert {name for name in expected if found[name] != expected[name]} <= CONTROLS
+    if "Nehalem" in python:
         assert not {"AVX", "FMA3", "X86_V3"} & set(found["simd"])
         assert found["library"] != expected["library"]
 
 
 def test_the_published_figures(machine, tmp_path):
-    command, environment = machine
+    python, environment = machine
     caches = {"NUMBA_CACHE_DIR": str(tmp_path), "MPLCONFIGDIR": str(tmp_path)}
     result = subprocess.run(
-        [*command, str(ROOT / "tests" / "paper_probe.py")],
+        [*python, str(ROOT / "tests" / "paper_probe.py")],
         env=os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment,
         capture_output=True,
         text=True,

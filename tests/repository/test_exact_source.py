@@ -1,4 +1,4 @@
-"""The source of what reaches a file keeps to arithmetic that is the same everywhere."""
+"""The source behind the figures uses only arithmetic that is the same everywhere."""
 
 import ast
 import re
@@ -9,19 +9,8 @@ from project import ROOT, SHIPPED
 from pipeline import config
 from pipeline.config import build_specs
 
-EXACT = {
-    "prod",
-    "sqrt",
-    "floor",
-    "ceil",
-    "inf",
-    "nan",
-    "isnan",
-    "isfinite",
-    "copysign",
-    "ulp",
-    "nextafter",
-}
+EXACT = {"prod", "sqrt", "floor", "ceil", "inf", "nan", "isnan", "isfinite", "copysign", "ulp"}
+EXACT |= {"nextafter"}
 INEXACT = re.compile(
     r"(arc)?(sin|cos|tan)h?2?|a(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p|addexp2?)?|(float_)?power|"
     r"cbrt|hypot|dot|vdot|inner|outer|matmul|tensordot|einsum|kron|convolve|correlate|polyfit|sinc|"
@@ -29,15 +18,14 @@ INEXACT = re.compile(
 )
 
 
-def behind_the_figures():
-    """Every file of the project whose bits can reach a figure."""
-    results = build_specs.of_scenes(config.load(SHIPPED)["variants"])
-    files = {file for made in results.values() for file in made.sources}
-    return sorted(file for file in files if file.endswith(".py"))
+def sources_of_the_figures():
+    """Every Python file whose bits can reach a figure."""
+    specs = build_specs.of_scenes(config.load(SHIPPED)["variants"]).values()
+    return sorted({file for spec in specs for file in spec.sources if file.endswith(".py")})
 
 
 def inexact(tree):
-    """Yield what has other bits on other machines, in a parsed module."""
+    """Yield the operations in a parsed module whose bits differ between machines."""
     for node in ast.walk(tree):
         match node:
             case ast.Attribute(value=ast.Name("math"), attr=name) if name not in EXACT:
@@ -52,14 +40,15 @@ def inexact(tree):
             case ast.BinOp(op=ast.MatMult()) | ast.AugAssign(op=ast.MatMult()):
                 yield "@"
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
-                # Squares and powers of whole numbers are products; others go to pow.
-                whole = ast.unparse(right).lstrip("-").isdecimal()
-                # Fractions are exact.
+                # Squares and powers of whole numbers are products, and fractions are exact. Other
+                # powers call pow.
+                base, exponent = ast.unparse(left), ast.unparse(right)
+                whole = exponent.lstrip("-").isdecimal()
                 if not (
-                    ast.unparse(left).isdecimal()
-                    or ast.unparse(left).startswith("Fraction(")
-                    or ast.unparse(right) == "2"
-                    or (whole and ast.unparse(left) in ("2.0", "10.0"))
+                    base.isdecimal()
+                    or base.startswith("Fraction(")
+                    or exponent == "2"
+                    or (whole and base in ("2.0", "10.0"))
                 ):
                     yield ast.unparse(node)
             case ast.keyword(arg="fastmath" | "parallel", value=value):
@@ -67,12 +56,13 @@ def inexact(tree):
                     yield node.arg
 
 
-@pytest.mark.parametrize("file", behind_the_figures())
-def test_source_keeps_to_exact_arithmetic(file):
+@pytest.mark.parametrize("file", sources_of_the_figures())
+def test_the_source_uses_exact_arithmetic(file):
     assert list(inexact(ast.parse((ROOT / file).read_text()))) == []
 
 
-def test_the_reading_of_the_source_finds_what_it_should():
+def test_inexact_operations_are_found():
+    faults = ["np.dot", "@", "math.sin", "a ** 0.5", "np.hypot", "fastmath"]
     text = "np.dot(a, b); a @ b; math.sin(a); a ** 0.5; np.hypot(a, b); f(fastmath=True)"
-    found = list(inexact(ast.parse(f"{text}; a**2; 2.0**-9; math.sqrt(a)")))
-    assert sorted(found) == sorted(["np.dot", "@", "math.sin", "a ** 0.5", "np.hypot", "fastmath"])
+    found = inexact(ast.parse(f"{text}; a**2; 2.0**-9; math.sqrt(a)"))
+    assert sorted(found) == sorted(faults)

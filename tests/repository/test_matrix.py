@@ -1,4 +1,4 @@
-"""The same bits whatever the machine pretends to be: one probe under many settings.
+"""The bits are the same under settings of other machines: one probe runs under each of them.
 
 The probe computes tables, orbits, all stages and a figure of each kind; see matrix_probe.py.
 """
@@ -19,7 +19,7 @@ from slowly import slowly
 from pseudorigid.kernel import arithmetic
 
 PROBE = ROOT / "tests" / "matrix_probe.py"
-SWITCHES = {"library", "simd"}  # of the probe's answers those that the settings may change
+CONTROLS = {"library", "simd"}  # the probe's answers that the settings may change
 
 GLIBC = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4"}
 NUMPY = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX512_ICL"}
@@ -27,7 +27,8 @@ OPENBLAS = {"OPENBLAS_CORETYPE": "Prescott"}
 GENERIC = {"NUMBA_CPU_NAME": "generic"}
 ELSEWHERE = {"LANG": "C", "LC_ALL": "tr_TR.UTF-8", "TZ": "Pacific/Chatham", "PYTHONHASHSEED": "7"}
 THREADS = {"OMP_NUM_THREADS": "3", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "2"}
-VARIANTS = {
+ALL_BUT_COMPILER = "all but the compiler"
+SETTINGS = {
     "numpy without SIMD": NUMPY,
     "glibc without FMA and AVX2": GLIBC,
     "another OpenBLAS kernel": OPENBLAS,
@@ -35,9 +36,11 @@ VARIANTS = {
     "another locale, time zone, hash seed and folder": ELSEWHERE,
     "other numbers of threads": THREADS,
     "a hostile matplotlibrc": {},
-    "all but the compiler": NUMPY | GLIBC | OPENBLAS | ELSEWHERE | THREADS,
+    ALL_BUT_COMPILER: NUMPY | GLIBC | OPENBLAS | ELSEWHERE | THREADS,
     "all at once": NUMPY | GLIBC | OPENBLAS | GENERIC | ELSEWHERE | THREADS,
 }
+# Each costs as much as a run of everything, and where code is compiled anew three times as much.
+SLOWLY = [ALL_BUT_COMPILER, *slowly(*(name for name in SETTINGS if name != ALL_BUT_COMPILER))]
 HOSTILE = """
 backend: pdf
 figure.dpi: 37
@@ -62,9 +65,8 @@ def probe(folder, mode, environment, src=ROOT / "src", python=(sys.executable,))
     folder.mkdir(parents=True)
     (folder / "matplotlibrc").write_text(HOSTILE if "matplotlibrc" in folder.name else "")
     kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
-    command = [*python, str(PROBE), mode]
     result = subprocess.run(
-        command,
+        [*python, str(PROBE), mode],
         env=kept | {"PYTHONPATH": str(src), "MPLCONFIGDIR": str(folder)} | environment,
         cwd=folder,
         capture_output=True,
@@ -81,16 +83,18 @@ def answer(shared):
 
     def ask(name):
         def run(folder):
-            mode, environment, src = {
-                "compiled here": ("compiled", {"NUMBA_CACHE_DIR": str(folder)}, ROOT / "src"),
-                "compiled for all": ("compiled", own_code(folder), ROOT / "src"),
-                "plain": ("short", {"NUMBA_DISABLE_JIT": "1"}, ROOT / "src"),
-                "as it is": ("everything", {}, ROOT / "src"),
-            }.get(name) or (
-                ("sincos", {}, edited(folder / "src", name))
-                if name in edits()
-                else ("everything", settings(name, folder), ROOT / "src")
-            )
+            own_cache = {"NUMBA_CACHE_DIR": str(folder / "code")}
+            mode, environment, src = "everything", SETTINGS.get(name, {}), ROOT / "src"
+            if "NUMBA_CPU_NAME" in environment:
+                environment = environment | own_cache
+            elif name == "not compiled":
+                mode, environment = "short", {"NUMBA_DISABLE_JIT": "1"}
+            elif name == "compiled here":
+                mode, environment = "compiled", own_cache
+            elif name == "compiled for all":
+                mode, environment = "compiled", GENERIC | own_cache
+            elif name in edits():
+                mode, src = "sincos", edited_source(folder / "src", name)
             found = probe(folder / name, mode, environment, src)
             (folder / "answer.json").write_text(json.dumps(found))
 
@@ -99,53 +103,37 @@ def answer(shared):
     return ask
 
 
-def own_code(folder):
-    """Code compiled for any processor, apart from this one's."""
-    return GENERIC | {"NUMBA_CACHE_DIR": str(folder / "code")}
-
-
-def settings(name, folder):
-    """The environment of a variant."""
-    own = own_code(folder) if "NUMBA_CPU_NAME" in VARIANTS[name] else {}
-    return VARIANTS[name] | own
-
-
-def edited(src, name):
+def edited_source(src, name):
     """A copy of the source with one of the edits."""
-    source, text = edits()[name]
+    line, replacement = edits()[name]
     shutil.copytree(ROOT / "src", src, ignore=NO_CACHES)
     file = src / "pseudorigid" / "kernel" / "arithmetic.py"
-    assert file.read_text().count(source) == 1
-    file.write_text(file.read_text().replace(source, text))
+    assert file.read_text().count(line) == 1
+    file.write_text(file.read_text().replace(line, replacement))
     return src
 
 
 def edits():
-    """Name -> (a line of arithmetic.py, what takes its place)."""
-    one = float.hex(math.nextafter(arithmetic._S1, 1.0))
+    """Name -> (text of arithmetic.py, its replacement)."""
+    neighbour = float.hex(math.nextafter(arithmetic._S1, 1.0))
     text = Path(arithmetic.__file__).read_text()
     constant = re.search(r'^_S1 = float\.fromhex\("(.*)"\)$', text, re.MULTILINE)
     sine = "    cosine, sine = quarter_turns(cosine, sine, n)\n    return"
     return {
-        "a constant": (constant[0], f'_S1 = float.fromhex("{one}")'),
+        "a constant": (constant[0], f'_S1 = float.fromhex("{neighbour}")'),
         "the library": (sine, "    sine, cosine = math.sin(t), math.cos(t)\n    return"),
     }
 
 
-# Each costs as much as a run of everything, and where code is compiled anew three times as much.
-QUICK = "all but the compiler"
-SLOWLY = [QUICK, *slowly(*(name for name in VARIANTS if name != QUICK))]
-
-
-@pytest.mark.parametrize("variant", SLOWLY)
-def test_the_same_bytes(answer, variant):
-    expected, found = answer("as it is"), answer(variant)
+@pytest.mark.parametrize("settings", SLOWLY)
+def test_the_same_bytes(answer, settings):
+    expected, found = answer("as it is"), answer(settings)
     assert set(found) == set(expected)
-    assert [name for name in found if found[name] != expected[name] and name not in SWITCHES] == []
+    assert {name for name in found if found[name] != expected[name]} <= CONTROLS
 
 
 def test_plain_python_finds_the_compiled_bits(answer):
-    assert answer("plain")["short"] == answer("as it is")["short"]
+    assert answer("not compiled")["short"] == answer("as it is")["short"]
 
 
 @pytest.mark.parametrize("edit", ["a constant", *slowly("the library")])
@@ -153,24 +141,22 @@ def test_a_change_of_sincos_shows(answer, edit):
     assert answer(edit)["table"] != answer("as it is")["table"]
 
 
-def test_control_the_library_feels_the_switch(answer):
-    if answer(QUICK)["library"] == answer("as it is")["library"]:
+def test_control_the_c_library_honours_the_settings(answer):
+    if answer(ALL_BUT_COMPILER)["library"] == answer("as it is")["library"]:
         pytest.skip("the C library's own sines do not change here: no FMA, or not glibc on x86-64")
 
 
-def test_control_numpy_feels_the_switch(answer):
-    before = answer("as it is")["simd"]
-    if "X86_V3" not in before:
-        pytest.skip("this processor has none of the SIMD that the switch takes away")
-    assert "X86_V3" not in answer(QUICK)["simd"]
+def test_control_numpy_honours_the_settings(answer):
+    if "X86_V3" not in answer("as it is")["simd"]:
+        pytest.skip("this processor has none of the SIMD that the setting takes away")
+    assert "X86_V3" not in answer(ALL_BUT_COMPILER)["simd"]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("target", ["compiled here", "compiled for all"])
 def test_compiled_code_fuses_nothing_and_calls_no_library(answer, target):
     found = answer(target)
-    calls = found.pop("__main__.calls_the_library")
-    assert calls == ["llvm.sin.f64"]
+    assert found.pop("__main__.calls_the_library") == ["llvm.sin.f64"]
     fused = found.pop("__main__.may_fuse")
     if target == "compiled here" and "FMA3" in answer("as it is")["simd"]:
         assert any("fmadd" in name for name in fused)
