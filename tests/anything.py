@@ -1,4 +1,4 @@
-"""Random documents and bytes for the tests of what somebody else may have written."""
+"""Random documents and bytes, for the tests of files from elsewhere."""
 
 import copy
 
@@ -19,28 +19,28 @@ VALUES = JSON | st.sampled_from(PATHS)
 
 @st.composite
 def edited(draw, document):
-    """A JSON document in which some places hold something else, or nothing."""
+    """Replace, add or remove some values of a JSON document."""
     document = copy.deepcopy(document)
     for _ in range(draw(st.integers(1, 3))):
-        place = document
-        while isinstance(place, (dict, list)) and place:
-            keys = sorted(place) if isinstance(place, dict) else range(len(place))
+        part = document
+        while isinstance(part, (dict, list)) and part:
+            keys = sorted(part) if isinstance(part, dict) else range(len(part))
             key = draw(st.sampled_from(list(keys)))
-            if not isinstance(place[key], (dict, list)) or draw(st.integers(0, 2)) == 0:
+            if not isinstance(part[key], (dict, list)) or draw(st.integers(0, 2)) == 0:
                 if draw(st.booleans()):
-                    place[key] = draw(VALUES)
-                elif isinstance(place, dict):
-                    place[draw(st.sampled_from(PATHS))] = place.pop(key)
+                    part[key] = draw(VALUES)
+                elif isinstance(part, dict):
+                    part[draw(st.sampled_from(PATHS))] = part.pop(key)
                 else:
-                    place.append(draw(VALUES))
+                    part.append(draw(VALUES))
                 break
-            place = place[key]
+            part = part[key]
     return document
 
 
 @st.composite
 def spoilt(draw, data):
-    """Bytes of which some were changed, cut out, doubled or appended."""
+    """Change, cut out, double or append some bytes."""
     for _ in range(draw(st.integers(1, 3))):
         start = draw(st.integers(0, len(data))) // draw(st.sampled_from([1, 512, 1]))
         size = draw(st.sampled_from([1, 3, 12, 512, 5000]))

@@ -1,4 +1,4 @@
-"""Fixtures for the whole suite, and what is done once before it."""
+"""Fixtures of the whole suite, and the compilation before it."""
 
 import os
 import pickle
@@ -14,24 +14,24 @@ from pipeline.records import sources
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_cmdline_main(config):
-    """A worker for each core, where nothing else is asked for (-n0, -p no:xdist)."""
+    """Use one worker per core, unless an option says otherwise (-n0, -p no:xdist)."""
     option = config.option
-    asked = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
-    if not (asked or hasattr(config, "workerinput")):
+    chosen = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
+    if not (chosen or hasattr(config, "workerinput")):
         option.numprocesses, option.dist = len(os.sched_getaffinity(0)), "worksteal"
 
 
 def pytest_configure(config):
-    """Compile everything once, before workers would each do it for themselves."""
+    """Compile everything once; otherwise each worker would."""
     if hasattr(config, "workerinput") or config.option.collectonly:
         return
-    # Where that fails, a test will tell why; each worker then compiles what it needs.
+    # If this fails, a test says why, and each worker compiles what it needs.
     subprocess.run([sys.executable, str(ROOT / "tests" / "warm.py")], check=False, cwd=ROOT)
 
 
 @pytest.fixture(scope="session")
 def shared(tmp_path_factory, request):
-    """name, make -> a folder that one process made, for all of them; to be left as it is."""
+    """(name, make) -> a read-only folder that one process makes for all workers."""
     base = tmp_path_factory.getbasetemp()
     base = base.parent if hasattr(request.config, "workerinput") else base
     return lambda name, make: once(base / "shared" / name, make)
@@ -39,7 +39,7 @@ def shared(tmp_path_factory, request):
 
 @pytest.fixture(scope="session")
 def pickled(shared):
-    """name, compute -> what one process computed, for all of them."""
+    """(name, compute) -> a value that one process computes for all workers."""
 
     def read(name, compute):
         def make(folder):
@@ -53,7 +53,7 @@ def pickled(shared):
 
 @pytest.fixture(scope="session")
 def derived(pickled):
-    """The dataset of all derivations, which take seconds."""
+    """The dataset of all derivations, which takes seconds to compute."""
     from claim_data import made
 
     from pseudorigid.proofs.derivations import derivations
@@ -63,7 +63,7 @@ def derived(pickled):
 
 @pytest.fixture
 def tree(tmp_path):
-    """A fresh clone, as far as files go: sources, and figures newer than anything."""
+    """The files of a fresh clone: sources, and figures that are newer than anything."""
     return fresh_tree(tmp_path / "a fresh clone")
 
 
@@ -82,19 +82,19 @@ def _accept(folder, finished):
 
 @pytest.fixture(scope="session")
 def finished(shared):
-    """A copy in which everything was made, from the state of a fresh clone; to be left as it is."""
+    """A read-only copy of a fresh clone in which every figure was made."""
     return Tree(shared("a folder with spaces", _finish))
 
 
 @pytest.fixture
 def done(finished, tmp_path):
-    """A copy of the finished one, for one test."""
+    """A copy of `finished` that one test may change."""
     return finished.copy(tmp_path / "done")
 
 
 @pytest.fixture(scope="session")
 def accepted(shared, finished):
-    """A finished copy whose small figures were accepted; not to be changed."""
+    """A read-only copy of `finished` whose small figures were accepted."""
     return Tree(shared("accepted here", lambda folder: _accept(folder, finished.path)))
 
 
@@ -109,13 +109,13 @@ def _compare_variants(folder):
 
 @pytest.fixture(scope="session")
 def variants(shared):
-    """Three small scenes and variants that were made, two of them compared; to be left as it is."""
+    """A read-only copy with three small scenes and two variants, one of them compared."""
     return Tree(shared("variants in a folder with spaces", _compare_variants))
 
 
 @pytest.fixture
 def moved(accepted, tmp_path, monkeypatch):
-    """A fresh copy of that folder in another place, for one fault."""
+    """A copy of `accepted` in another folder, for one fault."""
     tree = accepted.copy(tmp_path / "moved")
     monkeypatch.setattr(sources, "ROOT", tree.path)
     monkeypatch.setattr(sources, "SRC", tree.path / "src")

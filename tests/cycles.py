@@ -1,9 +1,9 @@
-"""Balls whose periodic orbits are looked for, and names."""
+"""Balls and energies whose periodic orbits the tests search for."""
 
 import numpy as np
 
 NAMES = ("x", "xdot", "udot", "tau")
-# (k, g, energy), the last four with strongly stretched orbits
+# (k, g, energy); orbits of the last four stretch the ball strongly.
 SETTINGS = [
     (0.2, 0.04, 0.01),
     (0.2, 0.04, 0.001),
@@ -23,4 +23,5 @@ PERIODS = range(1, 13)
 
 
 def points_of(orbits, i):
+    """The points and flights of the i-th orbit, (4, period)."""
     return np.stack([orbits[name].values[i] for name in NAMES])

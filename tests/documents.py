@@ -1,4 +1,4 @@
-"""A config with one correct scene of each kind, and a table of what is wrong with others."""
+"""A correct config with the paper's kinds of picture, and ways to spoil it."""
 
 import json
 
@@ -66,12 +66,12 @@ GOOD = {"ball": {"k": 0.2, "g": 0.04}, "scenes": SCENES}
 
 
 def good():
-    """A correct document, anew each time, no part of it in two places."""
+    """A deep copy of GOOD."""
     return json.loads(json.dumps(GOOD))
 
 
 def changed(path, value):
-    """A copy of GOOD with the value at a dotted path replaced, or the key removed by `...`."""
+    """A copy of GOOD with the value at a dotted path replaced; `...` removes the key."""
     document = good()
     block = document
     *parents, last = (int(key) if key.isdigit() else key for key in path.split("."))
@@ -85,7 +85,7 @@ def changed(path, value):
 
 
 def complaints(document):
-    """The lines with which a document is refused."""
+    """The lines of the error for an incorrect document."""
     with pytest.raises(config.ConfigError) as raised:
         config.check(document)
     assert str(raised.value).splitlines() == list(raised.value.lines)
@@ -93,6 +93,6 @@ def complaints(document):
 
 
 def complaint(document):
-    """The one line with which a document is refused."""
+    """The line of the error for a document with one mistake."""
     (line,) = complaints(document)
     return line

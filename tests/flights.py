@@ -1,9 +1,8 @@
-"""Families of hard flights, and how far off the time to the next impact is at a state.
+"""Families of hard flights, and the error of the time to the next impact.
 
-The truth is that of pseudorigid.proofs.reference_solver, in ball arithmetic, proved to be the first
-root; where that one finds a double root undecided, or the double's answer is another root, the
-mpmath solver of independent_solver.py decides. A slow test holds the two against
-each other.
+The correct time is the first root that pseudorigid.proofs.reference_solver proves in ball
+arithmetic. Where that solver cannot decide about a double root, or the time in doubles is another
+root, the mpmath solver of independent_solver.py decides. A slow test compares the two solvers.
 """
 
 import math
@@ -15,7 +14,8 @@ from mpmath import mpf
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.reference_solver import first_root
 
-# Relative error of tau over max(1, condition), see Verdict: at most 4.1e-16 at 102,000 states.
+# Largest relative error of tau over max(1, condition), see Verdict; measured 4.1e-16 at 102,000
+# states.
 TAU = 5e-16
 
 
@@ -32,12 +32,12 @@ def any_ball(rng):
 
 
 def ahead(v, w):
-    """The velocities or their opposites, whichever are on the section."""
+    """The velocities, or their opposites, that are on the section."""
     return (v, w) if v + w >= 0.0 else (-v, -w)
 
 
 def before(k, b, c):
-    """(v, w) just before the impact that gives b, c: the impact law is its own inverse."""
+    """(v, w) just before the impact after which the velocities are b, c."""
     return ((1 - k) * b - 2 * k * c) / (1 + k), (-2 * b - (1 - k) * c) / (1 + k)
 
 
@@ -51,7 +51,7 @@ def wide(rng):
 
 
 def near_grazing(rng):
-    """v + w down to 1e-12, x above, at and below -g, down to a rounding."""
+    """v + w is at least 1e-12, and x is above, at or below -g, down to a rounding."""
     k, g = any_ball(rng)
     x = -g * (1.0 + rng.integers(-1, 2) * log_uniform(rng, 1e-16, 1.0))
     v = sign(rng) * log_uniform(rng, 1e-4, 1.0)
@@ -59,7 +59,7 @@ def near_grazing(rng):
 
 
 def on_the_rim(rng):
-    """v + w = 0 exactly: at rest on the floor, or leaving it without speed."""
+    """v + w = 0 exactly: the ball rests on the floor or leaves it without speed."""
     k, g = any_ball(rng)
     x = -g * (1.0 + rng.integers(-1, 2) * log_uniform(rng, 1e-15, 30.0))
     v = sign(rng) * log_uniform(rng, 1e-6, 1.0)
@@ -67,7 +67,7 @@ def on_the_rim(rng):
 
 
 def near_miss(rng):
-    """A flight that touches the floor at t, f(t) = f'(t) = 0 solved for b and c, then moved."""
+    """A flight that touches the floor, f(t) = f'(t) = 0, and is then perturbed."""
     while True:
         k, g = any_ball(rng)
         t = mpf(log_uniform(rng, 1e-5, 40.0))
@@ -86,7 +86,7 @@ def near_miss(rng):
 
 
 def long_flight(rng):
-    """Up to thousands of vibrations in the air."""
+    """A flight of up to thousands of vibrations."""
     k, g = log_uniform(rng, 0.01, 1.0), log_uniform(rng, 1e-4, 1e-3)
     b = -log_uniform(rng, 1e-2, 1.0)
     x, c = rng.uniform(-1.0, 1.0, 2) * log_uniform(rng, 1e-3, 1.0) * -b
@@ -94,7 +94,7 @@ def long_flight(rng):
 
 
 def convex(rng):
-    """A < g: the gap has no inflection."""
+    """The amplitude is below g, so the gap has no inflection."""
     k, g = any_ball(rng)
     x, c = g * rng.uniform(-0.7, 0.7, 2) * log_uniform(rng, 1e-3, 1.0)
     return k, g, x, *ahead(*before(k, -abs(c) - g * log_uniform(rng, 1e-6, 30.0), c))
@@ -104,7 +104,7 @@ FAMILIES = (wide, near_grazing, on_the_rim, near_miss, long_flight, convex)
 
 
 def proved(state):
-    """The proved tau of a state as an mpmath number, or None where its root is double."""
+    """The proved tau of a state as an mpmath number, or None at a double root."""
     try:
         root = first_root(*state).mid()
     except ArithmeticError:
@@ -114,7 +114,7 @@ def proved(state):
 
 
 def error(state):
-    """The relative error of tau over max(1, condition) at one state; inf for another root."""
+    """The relative error of tau over max(1, condition) at a state; inf for another root."""
     state = tuple(float(a) for a in state)
     tau = Ball(*state[:2]).time_to_impact(*state[2:])
     true = proved(state)
@@ -129,11 +129,11 @@ def error(state):
 
 
 def by_mpmath(tau, true):
-    """The same against a Verdict, which knows where two roots are one to a double."""
+    """The relative error of tau against a Verdict."""
     if true.tau == 0 or tau == 0.0:
         return 0.0 if true.tau == tau else math.inf
     off = abs(float((tau - true.tau) / true.tau))
     if true.rival is not None:
-        # a touch to within rounding: either root will do, each known to sqrt(eps) only
+        # The flight touches within rounding: either root is right, and known only to sqrt(eps).
         return 0.0 if min(off, abs(float((tau - true.rival) / true.rival))) < 1e-6 else math.inf
     return off / max(1.0, true.condition)

@@ -1,12 +1,11 @@
-"""The judge: the next impact to 60 digits, proved to be the first by a method that is not ours.
+"""Solve for the next impact to 60 digits, by a method that is not the package's.
 
 The gap f(t) = x + b t + g t^2/2 - x cos t + c sin t has f'' = g + x cos t - c sin t, whose zeros
 are known in closed form. Between two of them f' is monotone and has at most one zero; between two
-zeros of f' the gap is monotone and has at most one root. So all candidates can be listed and none
-be missed. Doubles are used only to pass over pieces on which f stays far below zero, far being a
-millionth of its largest term.
+zeros of f' the gap is monotone and has at most one root. So no candidate is missed. Doubles only
+skip pieces on which f stays below zero by more than a millionth of its largest term.
 
-A state is taken exactly as its doubles are; b and c are computed from them with 60 digits.
+The doubles of a state are exact; b and c are computed from them with 60 digits.
 """
 
 import math
@@ -18,20 +17,20 @@ from mpmath import mp, mpf
 
 mp.dps = 60
 
-# Below this depth, relative to the terms of f, doubles cannot tell a near miss from a touch.
+# Depth, relative to the terms of f, below which doubles cannot tell a near miss from a touch.
 UNDECIDABLE = 1e-15
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is true of one flight: 60-digit numbers, and what a double can be asked to know."""
+    """The next impact of a state in 60 digits, and how well doubles can know it."""
 
     tau: mpf
     slope: mpf  # f'(tau)
     state: tuple  # (x', v', w')
     depth: float  # least |f| / terms at a local maximum that decides which root is first, or inf
-    rival: mpf | None  # the other candidate for tau where depth < UNDECIDABLE
-    condition: float  # terms / (tau |f'(tau)|): by how many roundings of its terms tau may be off
+    rival: mpf | None  # other candidate for tau if depth < UNDECIDABLE
+    condition: float  # terms / (tau |f'(tau)|): error of tau in roundings of its terms
 
 
 class Gap:
@@ -39,7 +38,7 @@ class Gap:
 
     def __init__(self, x, b, c, s, g, size_b=None):
         self.x, self.b, self.c, self.s, self.g = x, b, c, s, g
-        self.size_b = abs(b) if size_b is None else size_b  # of what b is the difference
+        self.size_b = abs(b) if size_b is None else size_b  # size of the terms of b
         self.amplitude = mpmath.sqrt(x * x + c * c)
 
     def __call__(self, t):
@@ -59,14 +58,14 @@ class Gap:
         return self.g + self.x * cosine - self.c * sine
 
     def terms(self, t):
-        """The size of what f is the sum of; for small t with its equal terms taken out."""
+        """The size of the terms of f; for small t without those that cancel."""
         if t < mpmath.pi / 4:
             rest = abs(self.c) * t / 6 + abs(self.x) * t * t / 24
             return self.s * t + (abs(self.g + self.x) / 2 + rest) * t * t
         return abs(self.x) + self.size_b * t + self.g * t * t / 2 + self.amplitude
 
     def starts_below(self):
-        """Whether f < 0 just after 0, exactly: the sign of its first derivative that is not 0."""
+        """Whether f < 0 just after 0: the sign of its first derivative that is not 0."""
         for derivative in (-self.s, self.g + self.x, -self.c, -self.x):
             if derivative != 0:
                 return derivative < 0
@@ -74,7 +73,7 @@ class Gap:
 
 
 def _solve(f, slope, low, high, guess):
-    """The root of f in [low, high], where f changes sign once: Newton in a shrinking bracket."""
+    """Find the root of f in [low, high], where f changes sign once, by bracketed Newton steps."""
     rising = f(high) > 0
     t = mpf(guess)
     if not low < t < high:
@@ -94,7 +93,7 @@ def _solve(f, slope, low, high, guess):
         if abs(after - t) <= abs(after) * mpf(10) ** -45:
             return after
         t = after
-    raise AssertionError("the judge does not converge")
+    raise AssertionError("Newton's method does not converge")
 
 
 def _inflections(gap, until):
@@ -112,7 +111,7 @@ def _inflections(gap, until):
     def exact(i):
         return first[i % 2] + (i // 2) * turn
 
-    # where g + x = 0 one of them is 0 itself, up to the last of the 60 digits
+    # If g + x = 0, one of them is 0 itself, up to the last of the 60 digits.
     floor = mpf(10) ** -40 if gap.g + gap.x == 0 else mpf(0)
     begin = next(i for i in range(4) if exact(i) > floor)
     end = 2 * int(until / turn) + 4
@@ -124,7 +123,7 @@ def _inflections(gap, until):
 
 
 def _float_screen(gap, edges):
-    """Which pieces [edges[i], edges[i+1]] may hold f >= 0: all but those far below zero."""
+    """Whether each piece [edges[i], edges[i+1]] may hold f >= 0."""
     x, b, c, g = (float(a) for a in (gap.x, gap.b, gap.c, gap.g))
     amplitude = math.hypot(x, c)
 
@@ -137,7 +136,7 @@ def _float_screen(gap, edges):
     low, high = edges[:-1].copy(), edges[1:].copy()
     margin = 1e-6 * (abs(x) + amplitude + (abs(b) + g * high) * (1.0 + high))
     ends = np.maximum(f(low), f(high))
-    # where f' falls from + to - within the piece, its maximum is inside
+    # If f' falls from + to - within the piece, the maximum is inside.
     inside = (slope(low) > -margin) & (slope(high) < margin)
     for _ in range(50):
         middle = 0.5 * (low + high)
@@ -148,9 +147,9 @@ def _float_screen(gap, edges):
 
 
 def _monotone_pieces(gap):
-    """(low, high, f(low), f(high)) of the monotone pieces of f that may hold a root, in order."""
+    """Yield (low, high, f(low), f(high)) of monotone pieces of f that may hold a root, in order."""
     below = gap.b * gap.b - 2 * gap.g * (gap.x - gap.amplitude)
-    last = (-gap.b + mpmath.sqrt(below)) / gap.g + 1  # f > x + b t + g t^2/2 - A > 0 from here on
+    last = (-gap.b + mpmath.sqrt(below)) / gap.g + 1  # f > x + b t + g t^2/2 - A > 0 after this
     grid, exact = _inflections(gap, last)
     edges = np.array([0.0, *grid, float(last)])
 
@@ -187,7 +186,7 @@ def _float_critical(gap, low, high):
 
 
 def _guess(gap, low, high, f_low, f_high):
-    """A start for Newton: from the end that is nearer to zero, by its parabola."""
+    """A start for Newton's method, from the parabola at the end where |f| is smaller."""
     near, value, side = (low, f_low, 1) if abs(f_low) < abs(f_high) else (high, f_high, -1)
     steep, bend = gap.slope(near), gap.bend(near)
     square = steep * steep - 2 * bend * value
@@ -198,7 +197,7 @@ def _guess(gap, low, high, f_low, f_high):
 
 
 def first_root(gap):
-    """(tau, depth, rival) of a Gap: see Verdict."""
+    """Find (tau, depth, rival) of a Gap, see Verdict."""
     if not gap.starts_below():
         return mpf(0), math.inf, None
     tau, depth, rival = None, math.inf, None
@@ -225,12 +224,12 @@ def first_root(gap):
         if tau is not None and not depth < UNDECIDABLE:
             break
     if tau is None:
-        raise AssertionError("the judge found no root")
+        raise AssertionError("no root was found")
     return tau, depth, rival
 
 
 def judge(k, g, x, v, w):
-    """The Verdict on the next impact of a state just before an impact; v + w >= 0."""
+    """Find the next impact of a state with v + w >= 0, just before an impact."""
     k, g, x, v, w = (mpf(float(a)) for a in (k, g, x, v, w))
     with mpmath.workdps(_digits(g, x, v, w)):
         gap, b, c = flight(k, g, x, v, w)
@@ -243,7 +242,7 @@ def judge(k, g, x, v, w):
 
 
 def condition(k, g, x, v, w, tau):
-    """By how many roundings of its terms tau may be off: see Verdict."""
+    """The error of tau in roundings of its terms, see Verdict."""
     k, g, x, v, w = (mpf(float(a)) for a in (k, g, x, v, w))
     with mpmath.workdps(_digits(g, x, v, w)):
         return _condition(flight(k, g, x, v, w)[0], tau)
@@ -257,14 +256,14 @@ def _condition(gap, tau):
 
 
 def _digits(g, x, v, w):
-    """60 digits, and more where a flight is so short that f = x (1 - cos t) + ... loses them."""
+    """The working digits: 60, and more for short flights, in which the terms of f cancel."""
     size, s = abs(x) + abs(v) + abs(w) + g, v + w
     smallest = min(a for a in (s, abs(g + x), size) if a > 0)
     return 60 + 4 * max(0, int(mpmath.log10(size / smallest)))
 
 
 def flight(k, g, x, v, w):
-    """(Gap, b, c) of the flight that follows the impact of a 60-digit state."""
+    """(Gap, b, c) of the flight after the impact of a 60-digit state."""
     s = v + w
     e = 2 * s / (1 + k)
     b, c = v - k * e, w - e
@@ -272,7 +271,7 @@ def flight(k, g, x, v, w):
 
 
 def exact_map(k, g, x, v, w):
-    """(x', v', w', tau) for 60-digit numbers, as judge() finds them."""
+    """(x', v', w', tau) for 60-digit numbers, by the method of `judge`."""
     gap, b, c = flight(k, g, x, v, w)
     tau = first_root(gap)[0]
     cosine, sine = mpmath.cos_sin(tau)
@@ -280,7 +279,7 @@ def exact_map(k, g, x, v, w):
 
 
 def exact_jacobian(k, g, x, v, w, step=1e-20):
-    """The 3 x 3 Jacobian by central differences of exact_map, to step^2: a list of rows."""
+    """The rows of the Jacobian by central differences of exact_map, with an error of step^2."""
     k, g = mpf(float(k)), mpf(float(g))
     at = [mpf(float(a)) for a in (x, v, w)]
     columns = []

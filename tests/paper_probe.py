@@ -1,9 +1,9 @@
-"""Make published figures in one process and print a JSON line of their hashes.
+"""Make the published figures in one process and print a JSON line of their hashes.
 
     python tests/paper_probe.py [scene ...]
 
-Without snakemake, whose jobs are processes of their own and would leave an emulator: each stage and
-each drawing by the function that its declaration names, data through files in a temporary folder.
+The jobs of snakemake are processes of their own, which an emulator would not follow. So this calls
+the function of each stage and drawing itself, with data in files of a temporary folder.
 """
 
 import hashlib
@@ -24,7 +24,6 @@ SHIPPED = Path(__file__).with_name("scenes.yaml")
 
 
 def computed(name, block, inputs):
-    """The Dataset of a stage."""
     stage = STAGES[name]
     ball = Ball(**block["ball"])
     fields = {key: block[key] for key in block.keys() - {"ball", "energy"}}
@@ -33,25 +32,24 @@ def computed(name, block, inputs):
 
 
 class Results:
-    """The results of variants, each dataset computed when it is asked for, in a folder."""
+    """Datasets of variants in a folder, each computed when it is needed."""
 
     def __init__(self, folder, variants):
-        self.folder, self.expected = Path(folder), build_specs.of_variants(variants)
+        self.folder, self.specs = Path(folder), build_specs.of_variants(variants)
 
     def data(self, path):
-        """A dataset after a round through its file."""
+        """A dataset as read from its file."""
         file = self.folder / path
         if not file.exists():
             file.parent.mkdir(parents=True, exist_ok=True)
-            block = self.expected[path].config
+            block = self.specs[path].config
             stage = file.stem.rpartition("_")[0]
             about = block["ball"] | {"energy": float(block["energy"]), "stage": stage}
             artifacts.save(computed(stage, block, self.inputs(path)), file, block, **about)
         return artifacts.load(file)
 
     def inputs(self, path):
-        """The datasets that a result is made from."""
-        return [self.data(used) for used in self.expected[path].inputs]
+        return [self.data(used) for used in self.specs[path].inputs]
 
 
 def paper(folder, names=()):
@@ -61,7 +59,7 @@ def paper(folder, names=()):
     figures = paths.figures(variants).values()
     results = Results(folder, variants)
     for path in (behind[-1] for scene, behind in figures if not names or scene in names):
-        block = results.expected[path].config
+        block = results.specs[path].config
         kind = import_module(f"pseudorigid.figures.kinds.{block['picture']}")
         picture = render(kind.draw(block, *results.inputs(path)), Path(path).suffix[1:])
         yield Path(path).name, hashlib.sha256(picture).hexdigest()

@@ -1,4 +1,4 @@
-"""A copy of the project in a folder of its own, driven as a user drives it."""
+"""Copies of the project in folders of their own, run as a user runs them."""
 
 import fcntl
 import os
@@ -21,7 +21,7 @@ NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 
 def shipped():
-    """The committed scenes, parsed: a new document each time."""
+    """A new document with the committed scenes."""
     return yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
 
 
@@ -33,26 +33,25 @@ class Tree:
 
     @property
     def config(self):
-        """Where its config is."""
         return self.path / "config.yaml"
 
     def document(self):
-        """Its config, parsed."""
+        """Parse its config."""
         return yaml.safe_load(self.config.read_text(encoding="utf-8"))
 
     def write(self, document):
-        """Give it another config."""
+        """Replace its config."""
         self.config.write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
 
     def edit(self, scene, **fields):
-        """Change fields of a scene in its config; None removes one."""
+        """Change fields of a scene in its config; None removes a field."""
         document = self.document()
         block = document["scenes"][scene] | fields
         document["scenes"][scene] = {k: v for k, v in block.items() if v is not None}
         self.write(document)
 
     def warm(self):
-        """Bring compiled code along, as far as the copy means the same, and what files mean."""
+        """Copy the machine code of modules that mean the same, and the hashes of meanings."""
         here, there = Path(locator.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
         there.mkdir(exist_ok=True)
         for kept in here.glob("meanings-*.json"):
@@ -60,20 +59,20 @@ class Tree:
         for kept in here.glob("pseudorigid.*-*"):
             module = kept.name.rpartition("-")[0]
             subfolder = locator.subfolder.__wrapped__
-            with suppress(ValueError):  # of a module that is there no more
+            with suppress(ValueError):  # the module no longer exists
                 if subfolder(self.path / "src", module)[0] == kept.name:
                     shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)
 
     def command(self, *arguments):
-        """What ./reproduce runs once .venv is ready."""
+        """The command that ./reproduce runs when .venv is ready."""
         return [sys.executable, "-P", "-m", "pipeline", *arguments]
 
     def environment(self):
-        """What ./reproduce runs it in."""
+        """The environment in which ./reproduce runs its command."""
         return os.environ | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
 
     def run(self, *arguments, **environment):
-        """Run to the end; the result's stdout holds all that a user sees."""
+        """Run a command; stdout of the result holds all that a user sees."""
         return subprocess.run(
             self.command(*arguments),
             env=self.environment() | environment,
@@ -86,26 +85,26 @@ class Tree:
         )
 
     def start(self, *arguments, **how):
-        """Begin a run."""
+        """Start a run."""
         how = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL} | how
         how = {"env": self.environment(), "stdin": subprocess.DEVNULL, "cwd": "/"} | how
         return subprocess.Popen(self.command(*arguments), **how)
 
     def planned(self, *targets):
-        """The outputs of the jobs that a run would start now, without their records."""
+        """The results that a run would make now."""
         result = self.run(*targets, "-n", "--quiet", "host")
         assert result.returncode == 0, result.stdout
         return set(re.findall(r"^    output: ([^\s,]+)", result.stdout, re.MULTILINE))
 
     def published(self):
-        """Name -> (bytes, inode, mtime) of everything in paper_figures/."""
+        """Name -> (bytes, inode, mtime) of each file in paper_figures/."""
         return {
             file.name: (file.read_bytes(), file.stat().st_ino, file.stat().st_mtime_ns)
             for file in (self.path / "paper_figures").iterdir()
         }
 
     def copy(self, path):
-        """Another copy, results and all, that a test may spoil."""
+        """Copy it with its results."""
         shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)
         tree = Tree(path)
         tree.warm()
@@ -113,10 +112,10 @@ class Tree:
 
 
 def fresh_tree(path, document=None):
-    """A clone as far as files go: sources, a config, and figures newer than anything.
+    """Make the files of a fresh clone: sources, a config, and figures newer than anything.
 
-    `document` is its config, by default the shipped scenes with little work in them. Every
-    committed figure has a stand-in.
+    `document` is its config, by default the shipped scenes with little work. A text file stands for
+    each committed figure.
     """
     path.mkdir(parents=True)
     for part in PARTS:
@@ -139,7 +138,7 @@ def fresh_tree(path, document=None):
 
 
 def small(document):
-    """A config whose scenes, the paper's alone, hold as little work as shows that they work."""
+    """Reduce a config to the paper's scenes with as little work as shows that they work."""
     document |= {part: {} for part in ("variants", "sweeps", "claims", "proofs")}
     for block in document["scenes"].values():
         if isinstance(block.get("impacts"), list):
@@ -155,7 +154,7 @@ def small(document):
 
 
 def of_scenes(*names, **parts):
-    """A small config of some of the shipped scenes, drawn as png; no variants unless given."""
+    """A small config of some of the shipped scenes, drawn as png, with further parts."""
     document = small(shipped())
     scenes = {name: document["scenes"][name] | {"formats": ["png"]} for name in names}
     return {"ball": document["ball"], "scenes": scenes} | parts
@@ -163,19 +162,19 @@ def of_scenes(*names, **parts):
 
 @contextmanager
 def locked(path):
-    """Wait until no other process holds this lock."""
+    """Hold a lock file, after any other process has released it."""
     with open(path, "w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
 def once(folder, make):
-    """What `make(folder)` leaves in a folder, made by the first process that asks for it."""
+    """Fill a folder by `make(folder)` in the first process that asks for it."""
     folder.parent.mkdir(parents=True, exist_ok=True)
     done = folder.with_name(f"{folder.name}.done")
     with locked(folder.with_name(f"{folder.name}.lock")):
         if not done.exists():
-            shutil.rmtree(folder, ignore_errors=True)  # of one that failed
+            shutil.rmtree(folder, ignore_errors=True)  # left by a process that failed
             make(folder)
             done.touch()
     return folder

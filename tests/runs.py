@@ -1,4 +1,4 @@
-"""What a run says and leaves, for the tests of runs."""
+"""Read the output and the files of a run."""
 
 import re
 
@@ -7,22 +7,22 @@ FIG3 = {
     "results/paper/motion_fig3.nc",
     "results/paper/figures/fig3.png",
 }
-# Of the small scenes 3, 4 and 7; one without Figure 4, at an energy without such an orbit.
+# Variants of the small scenes 3, 4 and 7; at the energy of `low`, Figure 4's orbit does not exist.
 VARIANTS = {"low": {"energy": 0.0017}, "doubled": {"scale": 2}}
 
 
-def rows(said):
+def rows(output):
     """File -> recomputed or current, from the table at the end of a run."""
-    found = re.findall(r"^\S+ +(\S+) +[\d,]+ kB +(recomputed|current)\b", said, re.MULTILINE)
-    return dict(found)
+    row = r"^\S+ +(\S+) +[\d,]+ kB +(recomputed|current)\b"
+    return dict(re.findall(row, output, re.MULTILINE))
 
 
 def contents(tree):
-    """Name -> bytes of what is published."""
+    """Name -> bytes of each published file."""
     return {name: content for name, (content, _, _) in tree.published().items()}
 
 
 def last_line(result):
-    """The last line of a run, in which there is no traceback."""
+    """The last line of a run that printed no traceback."""
     assert "Traceback" not in result.stdout
     return result.stdout.splitlines()[-1]

@@ -1,4 +1,4 @@
-"""A scene and made-up data of each kind of picture, drawn in a moment."""
+"""A scene and synthetic data of each of the paper's kinds of picture."""
 
 import hashlib
 from functools import cache
@@ -49,7 +49,7 @@ ATTRS = {"k": 0.2, "g": 0.04, "energy": 0.01}
 
 
 def states(count, seed):
-    """States on the energy surface, from uniform numbers and square roots only."""
+    """Random states on the energy surface, computed without library functions."""
     k, g, energy = ATTRS["k"], ATTRS["g"], ATTRS["energy"]
     radius = np.sqrt(2 * energy + g * g / k)
     x, y = np.random.default_rng(seed).uniform(-0.7, 0.7, (2, count)) * radius
@@ -124,23 +124,21 @@ DATA = {
 
 
 def module(kind):
-    """The module that draws a kind of picture."""
     return import_module(f"pseudorigid.figures.kinds.{kind}")
 
 
 def draw(kind):
-    """The figure of a kind."""
     return module(kind).draw(SCENES[kind], *DATA[kind]())
 
 
 @cache
 def drawn(kind):
-    """The figure of a kind, drawn once for all tests that only look at it."""
+    """The figure of a kind, drawn once for all tests that do not change it."""
     return draw(kind)
 
 
 def digests(kinds):
-    """Draw these kinds in every format: a hash for each file."""
+    """Draw kinds in every format; file -> hash."""
     return {
         f"{kind}.{suffix}": hashlib.sha256(render(draw(kind), suffix)).hexdigest()
         for kind in kinds

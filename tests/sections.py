@@ -1,4 +1,4 @@
-"""States spread over the section of a ball."""
+"""States spread over the section of the energy surface."""
 
 import math
 
@@ -10,7 +10,7 @@ BALL = Ball(k=0.2, g=0.04)
 
 
 def section_states(ball, count, seed=0, energy=None):
-    """States spread over the section's disk, by default at E/g^2 = 6.25 as in Figure 2."""
+    """Random states of a ball at an energy, by default E/g^2 = 6.25 as in Figure 2."""
     energy = 6.25 * ball.g**2 if energy is None else energy
     rng = np.random.default_rng(seed)
     centre, radius = ball.section(energy)
@@ -21,7 +21,7 @@ def section_states(ball, count, seed=0, energy=None):
 
 
 def sea(n, energy=0.01, ball=BALL):
-    """n states over the section, islands and sea."""
+    """n random states over the section, in islands and sea."""
     rng = np.random.default_rng(n)
     radius, angle = np.sqrt(rng.random(n)), 2.0 * np.pi * rng.random(n)
     centre, size = ball.section(energy)

@@ -1,10 +1,10 @@
-"""Parameters of tests that .ci/run runs and the default suite leaves out."""
+"""Parameters of slow tests, which .ci/run runs and the default suite does not."""
 
 import pytest
 
 
 def slowly(*values):
-    """Further values of a parameter; a tuple stands for several parameters."""
+    """Mark values of a parameter as slow; a tuple holds the values of several parameters."""
     return [
         pytest.param(*(value if isinstance(value, tuple) else [value]), marks=pytest.mark.slow)
         for value in values

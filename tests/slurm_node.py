@@ -1,6 +1,7 @@
-"""A real Slurm of two nodes on this machine: munged, slurmctld, two slurmd, in their own folder.
+"""Run Slurm with two nodes on this machine, in a folder of its own.
 
-Debian's packages slurm-wlm and munge have all of it. Its daemons need root.
+It needs Debian's packages slurm-wlm and munge. The daemons (munged, slurmctld and two slurmd) need
+root.
 """
 
 import os
@@ -51,7 +52,7 @@ NODES = ("one", "two")
 
 
 def missing():
-    """Why Slurm cannot run here, or None."""
+    """The reason why Slurm cannot run here, or None."""
     lacking = [name for name in NEEDED if shutil.which(name) is None]
     if lacking:
         return f"{', '.join(lacking)} not installed: apt install slurm-wlm munge"
@@ -59,11 +60,11 @@ def missing():
 
 
 class Cluster:
-    """The running daemons; a context manager that ends them."""
+    """Context manager that starts the daemons and stops them."""
 
     def __enter__(self):
         self.folder = Path(tempfile.mkdtemp(prefix="slurm-"))
-        self.folder.chmod(0o755)  # of munge's socket
+        self.folder.chmod(0o755)  # for munge's socket
         for name in ("state", *(f"spool.{node}" for node in NODES)):
             (self.folder / name).mkdir()
         key = self.folder / "munge.key"
@@ -72,7 +73,7 @@ class Cluster:
         host = socket.gethostname().split(".")[0]
         config = self.folder / "slurm.conf"
         config.write_text(CONFIG.format(folder=self.folder, host=host, ports=free_ports(3)))
-        # The plugin clears SLURM_CONF in jobs, where srun then looks into /etc.
+        # The plugin clears SLURM_CONF in jobs, and srun would then read /etc.
         srun = self.folder / "bin" / "srun"
         srun.parent.mkdir()
         srun.write_text(f'#!/bin/sh\nSLURM_CONF={config} exec {shutil.which("srun")} "$@"\n')
@@ -103,11 +104,10 @@ class Cluster:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def start_node(self, node):
-        """Start the daemon of a node."""
         self.start("slurmd", "-D", "-N", node, name=node)
 
     def start(self, program, *arguments, name=None):
-        """Start a daemon in the foreground of a session of its own."""
+        """Start a daemon in a session of its own."""
         name = name or program
         with open(self.folder / f"{name}.out", "a", encoding="utf-8") as out:
             self.running[name] = subprocess.Popen(
@@ -119,7 +119,6 @@ class Cluster:
             )
 
     def stop(self, name, number=signal.SIGTERM):
-        """End a daemon."""
         process = self.running.pop(name)
         process.send_signal(number)
         try:
@@ -129,37 +128,37 @@ class Cluster:
             process.wait()
 
     def ask(self, *command):
-        """What a command of Slurm prints."""
+        """Run a command of Slurm and return what it prints."""
         result = subprocess.run(
             command, env=os.environ | self.environment, capture_output=True, text=True, check=False
         )
         return result.stdout
 
     def jobs(self, state="R"):
-        """The jobs in a state: number -> the node it is or was on."""
+        """Job number -> node, for the jobs in a state."""
         lines = self.ask("squeue", "-h", "-t", state, "-o", "%i %N").splitlines()
         return {number: node for number, _, node in (line.partition(" ") for line in lines)}
 
     def states(self):
-        """The state of each node."""
+        """Node -> state."""
         return dict(
             line.split() for line in self.ask("sinfo", "-h", "-N", "-o", "%N %T").splitlines()
         )
 
 
 def free_ports(count):
-    """Ports that nothing listens to now."""
+    """Ports that nothing listens to."""
     sockets = [socket.socket() for _ in range(count)]
-    for one in sockets:
-        one.bind(("127.0.0.1", 0))
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
+    for each in sockets:
+        each.bind(("127.0.0.1", 0))
+    ports = [each.getsockname()[1] for each in sockets]
+    for each in sockets:
+        each.close()
     return ports
 
 
 def wait(condition, seconds, what):
-    """Return once `condition()` is true; TimeoutError, naming `what`, if that takes longer."""
+    """Wait until `condition()` is true; raise TimeoutError, which names `what`, after `seconds`."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:

@@ -1,8 +1,8 @@
-"""Compile what the tests use, once: workers that start together would each do it for themselves.
+"""Compile the kernels that the tests use, so that workers do not each compile them.
 
     python tests/warm.py
 
-Machine code is kept where pseudorigid.kernel.compiled.locator says; a second call does nothing.
+pseudorigid.kernel.compiled.locator says where the machine code is kept. A second call does nothing.
 """
 
 import hashlib
@@ -14,14 +14,13 @@ sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "src
 
 
 def compile_stages():
-    """Call the stages with the types that they are called with."""
     import matrix_probe
 
     dict(matrix_probe.everything())
 
 
 def compile_the_rest():
-    """Likewise the ball's methods, a cell of a sweep, and the study."""
+    """Call the ball's methods, a cell of a sweep, and the study."""
     import numpy as np
 
     from pseudorigid.dynamics.ball import Ball
