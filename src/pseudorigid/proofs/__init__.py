@@ -1,8 +1,8 @@
-"""Theorems with certificates, and true orbits, both proved in ball arithmetic.
+"""Proofs in ball arithmetic: theorems with certificates, and correctly rounded orbits.
 
-`search` proposes certificates and `checks` decides about them; they share only the map over balls
-and jets in `enclosure`. `theorems` has the statements, and `true_orbits` follows orbits of exact
-starts. `reference_solver` proves the time to the next impact of states in double precision.
+`enclosure` has the impact map over balls and jets. `search` proposes certificates and `checks`
+decides about them; the two share nothing but the map. `theorems` has the statements,
+`true_orbits` the orbits of exact starts, and `reference_solver` proves impacts of doubles.
 """
 
 import importlib
