@@ -56,7 +56,7 @@ def no_clipping(monkeypatch):
         assert not np.any((part < -1e-9) | (part > 1.0 + 1e-9)), axis.name
 
     def checked_place(self, x, y):
-        if self.kept == (0.0, 1.0):
+        if self.clip_range == (0.0, 1.0):
             assert_inside(self.up, y)
         return place(self, x, y)
 

@@ -120,7 +120,7 @@ def test_fonts_of_the_system_are_not_used(tmp_path):
     manager.ttflist.insert(0, manager.ttflist.pop())
     try:
         assert font_manager.findfont("DejaVu Serif") == copy
-        with fonts.delivered():
+        with fonts.shipped_only():
             assert font_manager.findfont("DejaVu Serif") == own
     finally:
         del manager.ttflist[0]

@@ -1,8 +1,6 @@
-"""The pictures: one module for each kind, one style, one door through which a picture is saved.
+"""Drawing: one module for each kind of picture, one style, and one way to write a file.
 
-Each kind has `draw(scene, dataset, ...)`, which returns a matplotlib Figure; `canvas.render` makes
-a file's bytes of it.
-
-Nothing here looks at the user's matplotlib settings or fonts, keeps state between two pictures, or
-uses arithmetic whose bits depend on the machine. Importing this package imports none of them.
+`kinds.NAME.draw(scene, *datasets)` returns a matplotlib Figure; `canvas.render` turns it into the
+bytes of a file. The pictures ignore the user's matplotlib settings and fonts, and use no arithmetic
+whose bits depend on the machine. Importing this package imports none of its modules.
 """

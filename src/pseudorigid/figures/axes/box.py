@@ -1,4 +1,4 @@
-"""The box around a three-dimensional picture: the opaque energy surface between panes and axes."""
+"""A three-dimensional box with panes, axes and the opaque energy surface."""
 
 import numpy as np
 
@@ -10,37 +10,30 @@ from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
 from .projection import Projection
 
-_WIDE = 1500  # pixels: drawn at five inches, read at a column's width
+_WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
 _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
 _COLUMNS, _ROW = 4, 1.45 * _SIZE  # of the key above the box; points
-_SIDES = 2000  # of the lines that the surface may hide
+_SIDES = 2000  # pieces of a line of the box, which the surface hides one by one
 
 
 class Box:
-    """A figure with a box of equal data scales for scene["axes"] seen by scene["view"].
+    """A figure of a box with equal data scales around the opaque energy surface.
 
-    The energy surface is opaque: what lies behind it, data, panes or axes, is not drawn. Its
-    outline is, and its edge, where impacts graze. `points` and `line` draw data into the box, as
-    far as they lie inside; `figure` is the result.
+    What lies behind the surface is not drawn. Its outline and its edge, the grazing rim, are drawn.
+    `points` and `line` draw those data that lie inside the box; `figure` is the result.
 
     Parameters
     ----------
     scene : dict
-        `axes`: for x, xdot, udot limits and ticks; `view`: elevation and azimuth in degrees;
-        `energy` and `ball`: those of the surface, written above the box.
+        `axes` with limits and ticks of x, xdot and udot; `view` with elevation (between 0 and 90)
+        and azimuth in degrees; `energy` and `ball` of the surface, which are written above the box.
     entries : sequence
-        What the key says beside them, as for `panel.key`.
-
-    Raises
-    ------
-    ValueError
-        An elevation that is not between 0 and 90 degrees: the panes behind the data suit a view
-        from above.
+        Entries of the key, as for `panel.key`.
     """
 
     def __init__(self, scene, entries=()):
-        if not 0 < scene["view"]["elevation"] < 90:
+        if not 0 < scene["view"]["elevation"] < 90:  # the panes suit a view from above
             raise ValueError(f"elevation {scene['view']['elevation']} is not between 0 and 90")
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
@@ -56,12 +49,12 @@ class Box:
         self.line(*self.surface.outline(self.view), style.PANE, 0.6)
         self.line(*self.surface.rim(), style.RIM, 0.9)
 
-    def points(self, x, y, z, color, size, **how):
-        """Draw small opaque dots of `size` points across, in the order given."""
-        there = self.seen(x, y, z)
-        across, up = self.view(x[there], y[there], z[there])
-        how = {"mew": 0, "marker": "o"} | how
-        self.sheet.draw(across, up, ls="none", ms=size, color=color, **how)
+    def points(self, x, y, z, color, size, **line_style):
+        """Draw opaque dots of `size` points across, in the order given."""
+        visible = self.seen(x, y, z)
+        across, up = self.view(x[visible], y[visible], z[visible])
+        line_style = {"mew": 0, "marker": "o"} | line_style
+        self.sheet.draw(across, up, ls="none", ms=size, color=color, **line_style)
 
     def line(self, x, y, z, color, width):
         """Draw a line of `width` points, broken where a coordinate is NaN."""
@@ -70,26 +63,26 @@ class Box:
             self.sheet.draw(*piece, lw=width, color=color)
 
     def seen(self, x, y, z):
-        """Whether each point lies in the box, and not behind what of the surface does."""
-        there = inside(self.spans, (x, y, z))
-        for other in self.surface.before(self.view.eye, x, y, z):
-            there &= ~(inside(self.spans, other) & self.surface.has(*other))
-        return there
+        """Return whether each point lies in the box and the surface in the box does not hide it."""
+        visible = inside(self.spans, (x, y, z))
+        for front in self.surface.before(self.view.eye, x, y, z):
+            visible &= ~(inside(self.spans, front) & self.surface.has(*front))
+        return visible
 
     def refuse_hidden(self, x, y, z):
-        """Raise ValueError, one line, where the surface hides every point within the limits."""
+        """Raise ValueError, one line, if none of the points can be seen."""
         if not self.seen(x, y, z).any():
             raise ValueError(f"view {self.seen_from}: the energy surface hides all that is drawn")
 
     def _fit(self, rows):
-        """Place the box on a sheet with room for labels and key, and return the sheet."""
+        """Place the box on a sheet with room for labels and `rows` of the key; return the sheet."""
         left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
         right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
         inner = _WIDE - (left + right) * POINT
         across, up = self.view(*self.view.corners().T)
         inner_high = inner * float((up.max() - up.min()) / (across.max() - across.min()))
         self.view.place(left * POINT, 0, inner, inner_high)
-        # A label reaches down by its height where it hangs, by half of it elsewhere.
+        # A hanging label reaches down by its height, another one by half of that.
         edges = [0.0, inner_high]
         for at, step, reach, _, size in self._labels():
             middle = self.view(*at)[1] + step[1] * reach * POINT
@@ -102,35 +95,35 @@ class Box:
         return Sheet(_WIDE, high)
 
     def _key(self, text, cells):
-        """Write energy and ball into the key's first two cells and name the marks in the rest."""
+        """Write energy and ball into the first two cells of the key, and name the marks after."""
         top, left = self.sheet.high - (4 + _ROW / 2) * POINT, 45
         self.sheet.text(left - 8, top, text, ha="left", va="center", size=_SIZE)
         key(self.sheet, cells, top, _COLUMNS, left, _WIDE - left, _SIZE)
 
     def _edge(self, start, along, color, width):
-        """Draw the box's line through `start` in the direction of one axis."""
+        """Draw the line of the box through `start` in the direction of one axis."""
         low, high = self.spans[along]
-        places = np.array([start] * (_SIDES + 1), dtype=float)
-        places[:, along] = low + (high - low) * np.arange(_SIDES + 1) / _SIDES
-        places[-1, along] = high
-        self.line(*places.T, color, width)
+        vertices = np.array([start] * (_SIDES + 1), dtype=float)
+        vertices[:, along] = low + (high - low) * np.arange(_SIDES + 1) / _SIDES
+        vertices[-1, along] = high
+        self.line(*vertices.T, color, width)
 
     def _panes(self):
         """Draw the three panes behind the data: their grid lines, then their outlines."""
         # The pane behind the data is the one whose outward normal points away from the eye.
         back = [span[eye <= 0] for span, eye in zip(self.spans, self.view.eye, strict=True)]
-        pairs = [(one, other) for one in range(3) for other in range(3) if one != other]
         for values, color in ((self.ticks, style.GRID), (self.spans, style.PANE)):
-            for fixed, along in pairs:
-                for value in values[fixed]:
-                    start = list(back)
-                    start[fixed] = value
-                    self._edge(start, along, color, 0.6)
+            for fixed in range(3):
+                for along in (axis for axis in range(3) if axis != fixed):
+                    for value in values[fixed]:
+                        start = list(back)
+                        start[fixed] = value
+                        self._edge(start, along, color, 0.6)
 
     def _axes(self):
-        """Return for each axis where it starts and the direction of its ticks on the sheet.
+        """Return the start of each axis, and the direction of its ticks on the sheet.
 
-        An axis is an edge of the box that nothing stands before: two on the floor, one upright.
+        The axes are edges of the box with nothing before them: two on the floor, one upright.
         """
         (x0, x1), (y0, y1), (z0, _) = self.spans
         east, north, _ = self.view.eye
@@ -150,14 +143,14 @@ class Box:
         return across / length, up / length
 
     def _labels(self):
-        """Yield (place in the box, direction from there, points in it, text, size)."""
+        """Yield (place in the box, direction from there, distance in points, text, size)."""
         for along, (start, step) in enumerate(self._axes()):
             for tick in self.ticks[along]:
                 at = [*start[:along], tick, *start[along + 1 :]]
                 yield at, step, _TICK + _GAP, style.number(tick), _SIZE
             low, high = self.spans[along]
             name = list(style.NAMES.values())[along]
-            if along == 2:  # its name stands above its end, the others' beside their middle
+            if along == 2:  # this name stands above its axis, the others beside the middle
                 yield [*start[:2], high], (0.0, 1.0), 2 * _GAP, name, _NAME
                 continue
             size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
@@ -182,6 +175,6 @@ class Box:
 
 
 def _ems(ticks):
-    """Return the width of the widest label in units of its size, from above."""
+    """Return an upper bound of the width of the widest label, in units of its size."""
     wide = {".": 0.26, "\N{MINUS SIGN}": 0.7}
     return max(sum(wide.get(char, 0.51) for char in style.number(tick)) for tick in ticks)

@@ -1,6 +1,6 @@
-"""Limits of axes where a scene gives none, of data or a window, and whether they show anything.
+"""Axis limits and ticks from data, and refusal of axes that show none of the data.
 
-Matplotlib's own locators take logarithms of the C library; these are exact.
+Matplotlib's locators use logarithms of the C library; the arithmetic here is exact.
 """
 
 import math
@@ -11,13 +11,14 @@ import numpy as np
 
 from ..canvas import style
 
-# How many times as large as the data limits may be: of a box or window, of a line's abscissa (a run
-# may be a short try-out of a longer one), of its ordinate (where it may be flat); and at least.
-_SPOT, _LINE, _FLAT, _LEAST = 1e3, 1e4, 1e6, 1e-12
+# Limits are refused if they are wider than the data by these factors. The abscissa of a line may be
+# wide because a run may be a short trial of a longer one, and its ordinate because it may be flat.
+_WIDEST_DOTS, _WIDEST_ABSCISSA, _WIDEST_ORDINATE = 1e3, 1e4, 1e6
+_NARROWEST = 1e-12  # of the size of the data
 
 
 def of_window(low, high):
-    """An axis for a window: its edges as limits, the shortest decimals near them as ticks."""
+    """Return an axis with a window's edges as limits and the shortest decimals inside as ticks."""
     for digits in range(1, 16):
         power = 10**digits
         ticks = [math.ceil(low * power) / power, math.floor(high * power) / power]
@@ -27,34 +28,27 @@ def of_window(low, high):
 
 
 def of_data(*values, margin=0.0, room=0.03, most=8):
-    """An axis with round limits around data.
+    """Return an axis, limits and ticks, with round limits around arrays that may have NaN.
 
     Parameters
     ----------
     *values : array_like
-        Their NaN do not count.
     margin : float
-        The part of the axis at either end that stays without a tick: where axes meet, the labels
-        of two would too.
+        Part of the axis without ticks at either end, for axes that meet at a corner.
     room : float
-        What is left between data and limits, as a part of the data's span.
+        Space between data and limits as a part of the span of the data.
     most : int
-        Steps between ticks at the most.
-
-    Returns
-    -------
-    dict
-        limits and ticks, the doubles nearest to decimals.
+        Largest number of steps between ticks.
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
     size = max(abs(low), abs(high))
-    if not high - low > 1e-9 * size:  # one value, as far as a label can tell
+    if not high - low > 1e-9 * size:  # labels could not tell the values apart
         low, high = low - (size or 1.0), high + (size or 1.0)
     low, high = low - room * (high - low), high + room * (high - low)
     step = _step((high - low) / most)
     fine = step / 5  # limits are whole numbers of it
-    low, high = _written(low) // fine, -(-_written(high) // fine)
+    low, high = _as_written(low) // fine, -(-_as_written(high) // fine)
     first, last = low + margin * (high - low), high - margin * (high - low)
     ticks = range(-int(-first // 5), int(last // 5) + 1)
     return {
@@ -64,7 +58,7 @@ def of_data(*values, margin=0.0, room=0.03, most=8):
 
 
 def complete(scene, **axes):
-    """The scene with an axis of each name: its own, or what the function of that name makes."""
+    """Return the scene with all named axes, calling `axes[name]()` for those that it lacks."""
     own = scene.get("axes", {})
     return scene | {
         "axes": {name: own[name] if name in own else make() for name, make in axes.items()}
@@ -72,48 +66,43 @@ def complete(scene, **axes):
 
 
 def complete_box(scene, *datasets):
-    """The scene with the axes of a box, whose corners meet: its own or around the data."""
+    """Return the scene with the axes of a box, around the datasets for those that it lacks."""
     data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
     axes = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
     return complete(scene, **axes)
 
 
 def inside(limits, values):
-    """Where every one of `values`, arrays of one shape, is within its limits (low, high)."""
+    """Return where every array of `values` is within its limits (low, high)."""
     pairs = zip(limits, values, strict=True)
     return np.logical_and.reduce([(low <= part) & (part <= high) for (low, high), part in pairs])
 
 
 def _step(least):
-    """The smallest of 1, 2, 5 times a power of ten that is at least `least`, exactly."""
+    """Return the smallest of 1, 2, 5 times a power of ten that is at least `least`, exactly."""
     power = Fraction(10) ** int(f"{least:e}".partition("e")[2])
     return next(digit * power for digit in (1, 2, 5, 10, 20) if float(digit * power) >= least)
 
 
-def _written(value):
-    """The decimal that a double is written as: 0.3 is three tenths, not a little less."""
+def _as_written(value):
+    """Return the decimal that a double is written as: 0.3 is three tenths."""
     return Fraction(repr(value))
 
 
 def refuse_empty(axes, values, joined=False):
-    """Refuse axes that show nothing of the data, or no more of it than a spot.
+    """Raise ValueError, one line, if axes show none of the data or shrink them to a spot.
 
     Parameters
     ----------
     axes : mapping
-        Name -> axis, with limits; may have more names than `values`.
+        Name -> axis with limits; may have more names than `values`.
     values : mapping
         Name -> ndarray, all of one shape.
     joined : bool
-        Whether values that follow each other along the first dimension are joined by lines. Then
-        the first name is the abscissa, and along the others the data may be flat.
-
-    Raises
-    ------
-    ValueError
-        One line with the axis, its limits, and where the data lie.
+        Whether lines join consecutive values along the first dimension. Then the first name is the
+        abscissa, and the data may be flat along the others.
     """
-    shown = []
+    visible = []
     for name, value in values.items():
         low, high = axes[name]["limits"]
         known = value[np.isfinite(value)]
@@ -121,18 +110,18 @@ def refuse_empty(axes, values, joined=False):
             raise ValueError(f"axes.{name}: there is nothing to be drawn")
         least, most = float(known.min()), float(known.max())
         size = max(abs(least), abs(most))
-        widest = (_FLAT if shown else _LINE) if joined else _SPOT
+        widest = (_WIDEST_ORDINATE if visible else _WIDEST_ABSCISSA) if joined else _WIDEST_DOTS
         half = 0.5 * high - 0.5 * low  # the whole may overflow
-        why = {
+        reasons = {
             "all data lie beyond them": high < least or most < low,
             "too wide to show the data": half > 0.5 * widest * size > 0.0,
-            "too narrow to show the data": half < _LEAST * size,
+            "too narrow to show the data": half < _NARROWEST * size,
         }
-        for words in (words for words, wrong in why.items() if wrong):
+        for reason in (reason for reason, holds in reasons.items() if holds):
             where = f"the data lie from {least:.6g} to {most:.6g}"
-            raise ValueError(f"axes.{name}.limits [{low}, {high}]: {words}: {where}")
+            raise ValueError(f"axes.{name}.limits [{low}, {high}]: {reason}: {where}")
         ends = (value[:-1], value[1:]) if joined else (value, value)
-        shown.append((np.minimum(*ends) <= high) & (np.maximum(*ends) >= low))
-    if not np.logical_and.reduce(shown).any():
-        said = ", ".join(f"axes.{name}.limits {axes[name]['limits']}" for name in values)
-        raise ValueError(f"nothing lies within {said} at once")
+        visible.append((np.minimum(*ends) <= high) & (np.maximum(*ends) >= low))
+    if not np.logical_and.reduce(visible).any():
+        limits = ", ".join(f"axes.{name}.limits {axes[name]['limits']}" for name in values)
+        raise ValueError(f"nothing lies within {limits} at once")

@@ -1,4 +1,4 @@
-"""A plane picture: a figure of one panel; limits and ticks as the scene gives them."""
+"""A figure of one panel with the limits and ticks of a scene."""
 
 from itertools import pairwise
 
@@ -12,28 +12,24 @@ _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
 
 
 class Plane(Panel):
-    """A figure of a column's width; what lies beyond an axis is cut off.
+    """A figure of a column's width that cuts off what lies beyond its axes.
 
     Parameters
     ----------
     scene : dict
-        Its energy and ball are written above the frame.
+        Its energy and ball are written above the frame, without `energy` the ball alone.
     axes : pair of str
         Keys of scene["axes"], which have limits and ticks.
     names : pair of str
-        The axes' names, the second one written above its upper end.
-    high : int
-        The height of the figure in pixels, a multiple of 75.
-    right : int
-        The margin beside the frame in pixels.
-    energy : bool
-        Whether the picture is of the scene's one energy.
+        Names of the axes; the second is written above the upper end of its axis.
+    high, right : int
+        Height of the figure, a multiple of 75, and the margin at the right, in pixels.
     """
 
     tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN
     baseline = "center_baseline"
     corners = "projecting"
-    kept = (-np.inf, np.inf)
+    clip_range = (-np.inf, np.inf)
 
     def __init__(self, scene, axes, names, high=825, right=60, energy=True):
         sheet = Sheet(style.COLUMN, high)
@@ -49,18 +45,18 @@ class Plane(Panel):
         setting = style.setting(scene, energy)
         self._text(_LEFT, high - 4 * POINT, setting, "left", "top")
 
-    def line(self, x, y, **how):
+    def line(self, x, y, **line_style):
         """Draw a line inside the frame, broken where a coordinate is NaN."""
-        super().line(x, y, clip=self.frame, **how)
+        super().line(x, y, clip=self.frame, **line_style)
 
-    def dots(self, x, y, color, size, **how):
-        """Draw dots of `size` points across, on the frame too."""
-        self._dots(*self.place(x, y), color, size, **how)
+    def dots(self, x, y, color, size, **line_style):
+        """Draw dots of `size` points across, also across the frame."""
+        self._dots(*self.place(x, y), color, size, **line_style)
 
     def beside(self, entries):
-        """Write texts to the right of the frame: entries of (height y, text), from above.
+        """Write texts to the right of the frame, from entries of (height y, text) in falling order.
 
-        Where they would cover each other they are moved apart.
+        Texts that would cover each other are moved apart.
         """
         heights = self.place(0, [y for y, _ in entries])[1].tolist()
         middle, step = sum(heights) / len(heights), 1.3 * style.PLAIN * POINT
@@ -70,31 +66,34 @@ class Plane(Panel):
             self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
 
     def legend(self, *entries):
-        """Name lines above the frame's right-hand end, where no data can be.
+        """Name lines and dots above the right end of the frame, where no data can be.
 
-        An entry is (text, its width in points, style of the line); a style with `dots` is a dot
-        of that size.
+        An entry is (text, its width in points, line style); the style of dots has `color` and, as
+        `dots`, their size.
         """
         across, up = self.frame[2], self.frame[3] + 8.5 * POINT
-        for text, width, how in reversed(entries):
+        for text, width, line_style in reversed(entries):
             across -= width * POINT
             self._text(across, up, text, "left", "center")
             start, end = across - 18 * POINT, across - 4 * POINT
-            if "dots" in how:
-                self._dots([(start + end) / 2 + 3 * POINT], [up], how["color"], how["dots"])
+            if "dots" in line_style:
+                middle = [(start + end) / 2 + 3 * POINT]
+                self._dots(middle, [up], line_style["color"], line_style["dots"])
             else:
-                self.sheet.draw([start, end], [up, up], **how)
+                self.sheet.draw([start, end], [up, up], **line_style)
             across = start - 8 * POINT
 
     def _label(self, x, text):
-        """As far to the right as it stays on the sheet: half its width is at most this."""
-        return min(x, style.COLUMN - 0.32 * len(text) * style.PLAIN * POINT - 6)
+        """Move a label to the left if it would leave the sheet."""
+        half_width = 0.32 * len(text) * style.PLAIN * POINT  # an upper bound
+        return min(x, style.COLUMN - half_width - 6)
 
-    def _dots(self, across, up, color, size, **how):
-        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **{"mew": 0} | how)
+    def _dots(self, across, up, color, size, **line_style):
+        line_style = {"mew": 0} | line_style
+        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **line_style)
 
 
 def thousands(ticks):
-    """The power of ten to take out of the labels: 0 below ticks of five digits."""
+    """Return the power of ten to take out of tick labels: 0 if none has five digits."""
     power = len(str(int(max(abs(tick) for tick in ticks)))) - 1
     return power if power >= 4 else 0

@@ -1,4 +1,7 @@
-"""A box of equal data scales seen from afar: orthographic projection in closed form."""
+"""Orthographic projection of a box with equal data scales, in closed form.
+
+Matplotlib's 3-D axes multiply matrices, whose last bit depends on the processor.
+"""
 
 from fractions import Fraction
 from itertools import product
@@ -9,17 +12,14 @@ _PI = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
 
 
 class Projection:
-    """Where a point (x, y, z) of a box falls on a sheet.
-
-    In closed form, since matplotlib's 3-D axes multiply matrices, whose last bit depends on the
-    processor. `place` puts the projection so that the box fits a rectangle.
+    """The map from points (x, y, z) of a box to a sheet.
 
     Parameters
     ----------
     limits : array_like, shape (3, 2)
-        The three axes' ends.
+        The ends of the three axes.
     view : dict
-        elevation and azimuth in degrees, as seen from the middle of the box.
+        elevation and azimuth of the eye in degrees, seen from the middle of the box.
     """
 
     def __init__(self, limits, view):
@@ -32,11 +32,11 @@ class Projection:
         self.scale, self.shift = 1.0, (0.0, 0.0)
 
     def corners(self):
-        """Return the box's eight corners as an (8, 3) array, z fastest."""
+        """Return the eight corners of the box as an (8, 3) array, z fastest."""
         return np.array(list(product(*self.limits)))
 
     def place(self, left, bottom, width, height):
-        """Scale and shift so that the box fits the rectangle and touches it, in the middle."""
+        """Scale and shift so that the box touches the sides of a rectangle, centred in it."""
         self.scale, self.shift = 1.0, (0.0, 0.0)
         across, up = self(*self.corners().T)
         wide, high = across.max() - across.min(), up.max() - up.min()
@@ -55,7 +55,7 @@ class Projection:
 
 
 def sincos_degrees(degrees):
-    """Return (sin, cos) of an angle in degrees, correctly rounded: exact series, one rounding."""
+    """Return (sin, cos) of an angle in degrees, correctly rounded, from exact series."""
     angle = Fraction(degrees) % 360 * _PI / 180
     sine, cosine, term, order = Fraction(0), Fraction(0), Fraction(1), 0
     while order < 60:

@@ -1,4 +1,4 @@
-"""Coloured cells between axes, their scale of colours, and round ticks."""
+"""Coloured cells between axes, their colour scale, and round ticks."""
 
 from fractions import Fraction
 from itertools import cycle
@@ -10,24 +10,24 @@ from ..canvas import style
 from ..canvas.sheet import POINT
 from .panel import Axis, log10
 
-_SIZE = 6.0  # points: text beside a scale
-_STEPS = 64  # colours of a scale
+_SIZE = 6.0  # points: text beside a colour scale
+_COLOURS = 64  # of a scale
 _MINOR = 1.5  # points: the length of a minor tick
-_LONGEST = 7  # characters of a tick's label that have room at the left of a chart
+_LONGEST = 7  # characters of a tick label that fit at the left of a chart
 
 
 def cells(panel, sweep, shades, table):
-    """A rectangle a cell, shades (k, energy) from 0 to 1, grey where NaN.
+    """Draw a rectangle for each cell, coloured by shades (k, energy) from 0 to 1, grey if NaN.
 
-    What is beyond has the colour of the end. They are an image of whole pixels, so that a PNG has
-    each cell's colour; in a file of vectors they would weigh megabytes.
+    Shades beyond 0 and 1 have the colours of the ends. The cells are an image of whole pixels: a
+    PNG has the exact colour of each, and a vector file stays small.
     """
     left, bottom, right, top = panel.frame
     energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
     along = log10(energy) if panel.across.decades else energy
-    x = _pixels(edges(along), panel.across.limits, 0, right - left)
-    y = _pixels(edges(k), panel.up.limits, 0, top - bottom)
-    steps = np.clip((np.nan_to_num(shades) * _STEPS).astype(np.int64), 0, _STEPS - 1)
+    x = _pixels(edges(along), panel.across.limits, right - left)
+    y = _pixels(edges(k), panel.up.limits, top - bottom)
+    steps = np.clip((np.nan_to_num(shades) * _COLOURS).astype(np.int64), 0, _COLOURS - 1)
     colors = palette(table)[steps]
     colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
     image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
@@ -35,9 +35,9 @@ def cells(panel, sweep, shades, table):
 
 
 def scale(sheet, frame, largest, table):
-    """The colours beside the frame, from 0 to `largest`."""
+    """Draw the colour scale beside a frame, from 0 to `largest`."""
     left, right = frame[2] + 25, frame[2] + 55
-    bounds = _pixels(np.arange(_STEPS + 1) / _STEPS, (0.0, 1.0), 0, frame[3] - frame[1])
+    bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), frame[3] - frame[1])
     column = np.repeat(palette(table), np.diff(bounds), axis=0)
     _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
@@ -48,40 +48,40 @@ def scale(sheet, frame, largest, table):
 
 
 def minor(panel, across=True):
-    """Short ticks without labels, of the axis up, and of the other one too."""
+    """Draw minor ticks, without labels, at the left and, if `across`, below a panel."""
     left, bottom, right, top = panel.frame
-    how, size = {"color": style.FRAME, "lw": 0.5}, _MINOR * POINT
+    line_style, size = {"color": style.FRAME, "lw": 0.5}, _MINOR * POINT
     if across:
-        for x in left + panel.across.between(_minor(panel.across)) * (right - left):
-            panel.sheet.draw([x, x], [bottom, bottom - size], **how)
-    for y in bottom + panel.up.between(_minor(panel.up)) * (top - bottom):
-        panel.sheet.draw([left, left - size], [y, y], **how)
+        for x in left + panel.across.between(_minor_ticks(panel.across)) * (right - left):
+            panel.sheet.draw([x, x], [bottom, bottom - size], **line_style)
+    for y in bottom + panel.up.between(_minor_ticks(panel.up)) * (top - bottom):
+        panel.sheet.draw([left, left - size], [y, y], **line_style)
 
 
-def _minor(axis):
+def _minor_ticks(axis):
     return decades(*axis.limits) if axis.decades else between(axis.ticks, *axis.limits)
 
 
 def palette(name):
-    """Colours of one of matplotlib's tables, (_STEPS, 3): red, green and blue, up to 255."""
+    """Return colours of a table of matplotlib, shape (64, 3): red, green and blue up to 255."""
     table = np.array(matplotlib.colormaps[name].colors)
-    rows = table[(2 * np.arange(_STEPS) + 1) * len(table) // (2 * _STEPS)]
+    rows = table[(2 * np.arange(_COLOURS) + 1) * len(table) // (2 * _COLOURS)]
     return (rows * 255 + 0.5).astype(np.uint8)
 
 
 def _paste(sheet, left, bottom, image):
-    """An image (height, width, 3), lowest row first, pixel for pixel."""
+    """Draw an image (height, width, 3), lowest row first, pixel for pixel."""
     sheet.figure.figimage(image, xo=left, yo=bottom, origin="lower", zorder=0.6)
 
 
-def _pixels(values, limits, start, end):
-    """Whole pixels of values between limits that lie at `start` and `end`."""
+def _pixels(values, limits, size):
+    """Return whole pixels of values, 0 at the lower limit and `size` at the upper one."""
     low, high = limits
-    return [int(start + (value - low) / (high - low) * (end - start) + 0.5) for value in values]
+    return [int((value - low) / (high - low) * size + 0.5) for value in values]
 
 
 def edges(values):
-    """The borders between cells: halfway, and as far again outside; a single one is a unit wide."""
+    """Return the borders of cells, halfway between their values; a single cell is a unit wide."""
     if values.size == 1:
         return np.array([values[0] - 0.5, values[0] + 0.5])
     middle = 0.5 * (values[1:] + values[:-1])
@@ -89,28 +89,31 @@ def edges(values):
 
 
 def wider(low, high, below, above):
-    """Limits around others, wider by parts of their span."""
+    """Return limits that are wider by parts of their span."""
     span = high - low
     return low - below * span, high + above * span
 
 
 def linear(low, high, count, name=""):
-    """An axis with about `count` round ticks; what long labels have in common goes to its name."""
+    """Return an axis with about `count` round ticks.
+
+    If their labels would be long, what they have in common is written in the name.
+    """
     low, high = float(low), float(high)
-    places = ticks(low, high, count) if count else ()
-    if all(len(style.number(place)) <= _LONGEST for place in places):
-        return Axis((low, high), places, name)
+    values = ticks(low, high, count) if count else ()
+    if all(len(style.number(value)) <= _LONGEST for value in values):
+        return Axis((low, high), values, name)
     power = int(f"{(high - low) / count:e}".partition("e")[2])
     unit = Fraction(10) ** power
-    base = 1000 * unit * (Fraction(repr(places[0])) // (1000 * unit))
-    labels = [style.number(float((Fraction(repr(place)) - base) / unit)) for place in places]
+    base = 1000 * unit * (Fraction(repr(values[0])) // (1000 * unit))
+    labels = [style.number(float((Fraction(repr(value)) - base) / unit)) for value in values]
     if base:
         name = f"{name}, less {style.number(float(base))}"
-    return Axis((low, high), places, rf"{name}, / $10^{{{power}}}$", labels=labels)
+    return Axis((low, high), values, rf"{name}, / $10^{{{power}}}$", labels=labels)
 
 
 def ticks(low, high, count):
-    """About `count` round numbers from low to high."""
+    """Return about `count` round numbers from low to high."""
     step, factors = 1e-12, cycle((2.0, 2.5, 2.0))
     while (high - low) / step > count:
         step *= next(factors)
@@ -119,17 +122,17 @@ def ticks(low, high, count):
     return [float(f"{i * step:.10g}") for i in range(first, last + 1)]
 
 
-def between(places, low, high):
-    """Minor ticks from low to high: halfway between round numbers in equal steps."""
-    if len(places) < 2:
+def between(values, low, high):
+    """Return minor ticks from low to high, halfway between equally spaced ticks."""
+    if len(values) < 2:
         return []
-    step = places[1] - places[0]
-    halves = [places[0] + (i - 0.5) * step for i in range(len(places) + 1)]
+    step = values[1] - values[0]
+    halves = [values[0] + (i - 0.5) * step for i in range(len(values) + 1)]
     return [half for half in halves if low <= half <= high]
 
 
 def decades(low, high):
-    """Minor ticks of an axis of decades, from low to high: 2, 3, ... 9 times powers of ten."""
+    """Return minor ticks of a logarithmic axis: exponents of 2, 3, ... 9 times powers of ten."""
     logs = log10(np.arange(2, 10))
-    found = [n + part for n in range(int(np.floor(low)), int(np.ceil(high))) for part in logs]
-    return [float(place) for place in found if low <= place <= high]
+    exponents = [n + part for n in range(int(np.floor(low)), int(np.ceil(high))) for part in logs]
+    return [float(exponent) for exponent in exponents if low <= exponent <= high]

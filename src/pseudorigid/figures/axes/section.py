@@ -1,4 +1,4 @@
-"""The whole section at an energy in the chart (x, y): a disk, whose rim is where impacts graze."""
+"""The section at an energy in the chart (x, y): an elliptic disk bounded by the grazing rim."""
 
 import math
 
@@ -10,28 +10,14 @@ from .panel import Panel
 from .raster import linear
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
-_SIDES = 720
-_STEP = 0.06  # of the frame's height, in halves of its width
+_SIDES = 720  # of the rim
+_STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
 
 class Section(Panel):
-    """A panel around a section, with the room above and below it that rounding to a step leaves.
+    """A panel around the whole section of a ball (k and g) with the given radius along y = 0.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    frame : tuple
-        As of a Panel.
-    ball : mapping
-        k and g.
-    radius : float
-        Of the section along y = 0.
-    room : float
-        Half the frame's width in radii.
-    ticks : int
-        About so many on each axis.
-    names : (str, str)
-        Of the axes.
+    Half the frame's width is `room` radii, each axis has about `ticks` ticks.
     """
 
     def __init__(self, sheet, frame, ball, radius, room, ticks=0, names=("", "")):
@@ -43,8 +29,8 @@ class Section(Panel):
         axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
         super().__init__(sheet, frame, *axes, grid=False)
 
-    def rim(self, **how):
+    def rim(self, **line_style):
         """Draw the rim."""
         sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
         x = self.centre + self.radius * cosine
-        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, **how)
+        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, **line_style)

@@ -1,8 +1,7 @@
-"""Matplotlib's own fonts alone.
+"""Restrict matplotlib to the fonts that it ships with.
 
-Matplotlib has no setting that leaves out the fonts of the system, one of which could be another
-version of its own. This file replaces its list of fonts for a while; a test fails where that has no
-effect any more.
+Matplotlib has no setting that leaves out the fonts of the system, which may hold another version of
+a shipped font. A private attribute is used instead; a test fails if it stops having an effect.
 """
 
 from contextlib import contextmanager
@@ -12,14 +11,14 @@ from matplotlib import font_manager
 
 
 @contextmanager
-def delivered():
-    """Let matplotlib find the fonts that it is delivered with, and no others, in the body."""
-    manager, own = font_manager.fontManager, matplotlib.get_data_path()
-    found = manager.ttflist
+def shipped_only():
+    """Let matplotlib find only the fonts that it ships with."""
+    manager, folder = font_manager.fontManager, matplotlib.get_data_path()
+    all_fonts = manager.ttflist
     try:
-        manager.ttflist = [font for font in found if font.fname.startswith(own)]
+        manager.ttflist = [font for font in all_fonts if font.fname.startswith(folder)]
         manager._findfont_cached.cache_clear()
         yield
     finally:
-        manager.ttflist = found
+        manager.ttflist = all_fonts
         manager._findfont_cached.cache_clear()

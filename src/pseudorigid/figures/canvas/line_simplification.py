@@ -1,28 +1,19 @@
-"""Leave out the vertices of a line that nobody sees, so that the rest has bends worth the name.
+"""Leave out the vertices of a line that lie on a straight piece of it.
 
-Where a line is all but straight, matplotlib's rasteriser joins its edges where two almost parallel
-lines meet: the last bit of a product then decides over a pixel's shade, and that bit depends on the
-processor (on aarch64 the rasteriser is compiled with fused multiply-add).
+Where two edges of a line are almost parallel, matplotlib's rasteriser joins them at the
+intersection of two almost parallel lines. The last bit of a product then decides the shade of a
+pixel, and that bit depends on the processor: on aarch64 the rasteriser is compiled with fused
+multiply-add.
 """
 
 import numpy as np
 
 
 def bends(across, up, tolerance):
-    """The vertices to keep, the ends among them.
+    """Return the indices of the vertices to keep, which include both ends.
 
-    A line through those passes the others, which lie between its ends, at no more than `tolerance`.
-
-    Parameters
-    ----------
-    across, up : array_like, shape (n,)
-        Whole numbers: the comparisons are exact.
-    tolerance : int
-
-    Returns
-    -------
-    list of int
-        Indices.
+    The line through the kept vertices passes each other vertex at a distance of at most
+    `tolerance`. Coordinates are whole numbers, so that the comparisons are exact.
     """
     x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
     keep = [0]
@@ -31,10 +22,11 @@ def bends(across, up, tolerance):
         inner = slice(last + 1, i + 1)
         wide, high = x[i + 1] - x[last], y[i + 1] - y[last]
         dx, dy = x[inner] - x[last], y[inner] - y[last]
-        square = wide * wide + high * high
+        length_squared = wide * wide + high * high
         along = dx * wide + dy * high
         off = np.abs(dx * high - dy * wide)
-        unseen = (off <= tolerance * np.sqrt(float(square))) & (along >= 0) & (along <= square)
-        if square == 0 or not unseen.all():
+        near = off <= tolerance * np.sqrt(float(length_squared))
+        between = (along >= 0) & (along <= length_squared)
+        if length_squared == 0 or not (near & between).all():
             keep.append(i)
     return [*keep, len(x) - 1] if len(x) > 1 else keep

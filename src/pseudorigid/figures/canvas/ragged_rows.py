@@ -8,23 +8,15 @@ _LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
 
 
 def rows(dataset):
-    """One slice for each row: `row_size` samples each, one row after the other (CF)."""
+    """Return a slice for each row of a CF contiguous ragged array, from its `row_size`."""
     ends = [0, *np.cumsum(dataset["row_size"].values, dtype=np.int64).tolist()]
     return [slice(start, end) for start, end in pairwise(ends)]
 
 
 def pieces(*coordinates):
-    """The runs without NaN of a line, long ones cut where they join on.
+    """Yield the runs of a line without NaN, as tuples of arrays.
 
-    The cut pieces share a vertex, so that they draw as one line.
-
-    Parameters
-    ----------
-    *coordinates : ndarray, shape (n,)
-
-    Yields
-    ------
-    tuple of ndarray
+    Long runs are cut into pieces that share a vertex, so that they are drawn as one line.
     """
     gap = np.isnan(coordinates).any(axis=0)
     ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))

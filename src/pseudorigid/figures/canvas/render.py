@@ -1,4 +1,4 @@
-"""The one way from a picture to a file's bytes: PNG, SVG or PDF, the same everywhere."""
+"""Write a figure as PNG, SVG or PDF with the same bytes on every machine."""
 
 import struct
 import zlib
@@ -7,75 +7,43 @@ from io import BytesIO
 import deflate
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from . import style
 
 FORMATS = ("png", "svg", "pdf")
-_NOTHING = {
+_NO_METADATA = {
     "svg": {"Date": None, "Creator": None, "Format": None, "Type": None},
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
 
 
-def render(figure, extension):
-    """A figure as the bytes of a file.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    extension : {"png", "svg", "pdf"}
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    ValueError
-        Another extension.
-    """
+def render(figure: Figure, extension: str) -> bytes:
+    """Return the bytes of a figure's file; raise ValueError if `extension` is not in FORMATS."""
     if extension not in FORMATS:
         raise ValueError(f"{extension}: a picture is one of {', '.join(FORMATS)}")
     if extension == "png":
         return png(pixels(figure), figure.dpi)
     stream = BytesIO()
     with style.pinned():
-        figure.savefig(stream, format=extension, metadata=_NOTHING[extension])
+        figure.savefig(stream, format=extension, metadata=_NO_METADATA[extension])
     return stream.getvalue()
 
 
-def pixels(figure):
-    """The rendered figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-
-    Returns
-    -------
-    ndarray of uint8, shape (height, width, 3)
-        Red, green and blue.
-    """
+def pixels(figure: Figure) -> np.ndarray:
+    """Render a figure to an array of uint8, shape (height, width, 3): red, green and blue."""
     with style.pinned():
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
     return np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])
 
 
-def png(image, dpi):
-    """An image as PNG, written here chunk by chunk so that the bytes depend on the image alone.
+def png(image: np.ndarray, dpi: float) -> bytes:
+    """Encode an array of uint8, shape (height, width, 3), as PNG.
 
-    Rows are left unfiltered (smallest for drawings, whose colours are few) and the compressor is
-    libdeflate, from its own wheel, where Pillow takes the zlib that it was built with.
-
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (height, width, 3)
-    dpi : float
-
-    Returns
-    -------
-    bytes
+    The chunks are written here, so that the bytes depend on the image alone. Pillow would use the
+    zlib that it was built with; the compressor here is libdeflate, which its wheel contains. Rows
+    are not filtered, which gives the smallest files for drawings with few colours.
     """
     height, width, _ = image.shape
     rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)

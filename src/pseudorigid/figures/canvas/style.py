@@ -1,4 +1,4 @@
-"""The one style: matplotlib's own defaults and fonts, the same whoever runs it."""
+"""The style of all pictures: matplotlib's defaults, its own fonts, and fixed colours."""
 
 from contextlib import contextmanager
 
@@ -10,14 +10,14 @@ DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
 PLAIN = 9.0  # points: text in a picture of that width
 
-# Okabe and Ito's hues, which stay apart under every kind of colour blindness.
+# The hues of Okabe and Ito, which can be told apart with every kind of colour blindness.
 BLUE, VERMILION, GREEN, ORANGE = "#0072b2", "#d55e00", "#009e73", "#e69f00"
 PURPLE, SKY, BLACK = "#cc79a7", "#56b4e9", "#000000"
 HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
-# The paper's green and blue for the two kinds of manifold, the one light and yellowish, the other
-# dark, so that they too stay apart.
+# The paper's green and blue for the two kinds of manifold. One is light and yellowish and the other
+# dark, so that they can be told apart too.
 STABLE, UNSTABLE = "#4fa82a", "#123fb0"
-MANIFOLDS = UNSTABLE, STABLE  # by `stable` of their datasets, 0 or 1
+MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = "#7a5c3a"
@@ -25,11 +25,11 @@ RIM = "#7a5c3a"
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 
 _SETTINGS = {
-    # One family for words, numbers and formulas, of those that matplotlib brings along.
+    # One family for words, numbers and formulas, which matplotlib ships.
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
-    # Simplifying a path, or rounding its joins, goes through comparisons and sines that may
-    # differ in the last bit between machines.
+    # Matplotlib simplifies paths and rounds joins by comparisons and sines whose last bit may
+    # differ between machines.
     "path.simplify": False,
     "lines.solid_joinstyle": "bevel",
     "lines.solid_capstyle": "butt",
@@ -43,12 +43,12 @@ _SETTINGS = {
 
 @contextmanager
 def pinned():
-    """Matplotlib as it is delivered, plus this style: no matplotlibrc, no font of the system.
+    """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system.
 
-    Everything that makes or renders a picture runs inside; also a decorator. What was set before
-    comes back afterwards.
+    Everything that makes or renders a picture runs in this context, which is also a decorator. The
+    previous settings come back afterwards.
     """
-    with matplotlib.rc_context(), fonts.delivered():
+    with matplotlib.rc_context(), fonts.shipped_only():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
         yield
@@ -60,7 +60,7 @@ def pale(color):
 
 
 def setting(scene, energy=True):
-    """Return a scene's energy, unless it has several, and its ball in one line."""
+    """Return a line with the energy and the ball of a scene, without `energy` the ball alone."""
     values = {"E": scene["energy"]} if energy else {}
     values |= scene["ball"]
     return ", ".join(f"${name}$ = {number(value)}" for name, value in values.items())

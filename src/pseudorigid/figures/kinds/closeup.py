@@ -12,23 +12,10 @@ _DOT = 3.4  # points
 
 @style.pinned()
 def draw(scene, manifolds):
-    """The branches inside a window around a saddle; stable ones green, unstable ones blue.
+    """Draw the branches inside a window around a saddle; stable ones green, unstable ones blue.
 
-    Parameters
-    ----------
-    scene : dict
-        Its axes, if it gives none, are those of the window.
-    manifolds : xarray.Dataset
-        Of that stage, with the saddle in the attributes point_x and point_xdot.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes that show nothing, or a window through which no branch passes.
+    The scene's axes default to those of the window. Raises ValueError if they show nothing or no
+    branch passes through the window.
     """
     if np.isnan(manifolds["x"].values).all():
         low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))
@@ -54,16 +41,6 @@ def draw(scene, manifolds):
 
 
 def plane(scene):
-    """The empty picture of a scene with its axes.
-
-    Parameters
-    ----------
-    scene : dict
-        With axes x and xdot.
-
-    Returns
-    -------
-    Plane
-    """
+    """Return the empty picture of a scene with axes x and xdot."""
     names = (style.NAMES["x"], style.NAMES["xdot"])
     return Plane(scene, ("x", "xdot"), names, high=975, right=75)

@@ -1,4 +1,4 @@
-"""Clusters of impacts: flight times in the sea, and what one cluster says of the next."""
+"""Clusters of impacts: flight times in the sea, and correlations between clusters."""
 
 from dataclasses import replace
 
@@ -9,52 +9,39 @@ from ..axes.raster import linear, ticks
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
-_LEFT, _RIGHT = 135, 1005
-_COLUMNS = (1, 135, 550), (0, 590, 1005)  # y, which remembers more, and x: index and frame
-_LOWER = 240  # bottom of the lowest panels
+_LEFT, _RIGHT = 135, 1005  # pixels
+_COLUMNS = (1, 135, 550), (0, 590, 1005)  # index in _NAMES, left and right of a column of panels
+_LOWER = 240  # pixels: bottom of the lowest panels
 _NAMES = "$x$", "$y$"
 _MARKS = ("o", "s", "^", "D")
-_ROOM = 1.1  # of the largest number: its text stands above
-_CAP = 0.04  # half the width of the line at a bar's end, in clusters
+_ROOM = 1.1  # upper end of an axis, in units of the largest number
+_CAP = 0.04  # half the width of the line at a bar's end, in lags
 
 
 @style.pinned()
 def draw(scene, clusters):
-    """Return the Figure of flight times and of the memory from cluster to cluster.
+    """Draw flight times, and the correlation and dependence between clusters against their lag.
 
-    Parameters
-    ----------
-    scene : dict
-    clusters : Dataset
-        The artifact of that stage.
-
-    Returns
-    -------
-    Figure
-        Above: the distribution of flight times, with the cuts. Middle: correlation of y at the
-        beginning of a cluster with y so many clusters later, and beside it of x with x. Below:
-        share of the variance of y, and of x, there that is explained by where the earlier cluster
-        began. Lines above and below a mark are the ends of its 95 % interval.
+    Above is the distribution of flight times, with the cuts. In the middle are correlations of y,
+    and of x, between the first states of two clusters. Below is the share of the variance of y,
+    and of x, that is explained by the cell in which the earlier cluster begins.
     """
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
-    by_line = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
-    span = 0.1 * (int(_ROOM * 10.0 * float(np.abs(by_line).max())) + 1)
-    by_cell = [clusters[f"dependence{end}"].values for end in ("", "_low", "_high")]
-    most = max(np.ceil(_ROOM * 10.0 * float(np.max(by_cell))), 7.0) / 10.0
+    correlations = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
+    span = 0.1 * (int(_ROOM * 10.0 * float(np.abs(correlations).max())) + 1)
+    shares = [clusters[f"dependence{end}"].values for end in ("", "_low", "_high")]
+    most = max(np.ceil(_ROOM * 10.0 * float(np.max(shares))), 7.0) / 10.0
     for i, left, right in _COLUMNS:
-        name = f"Correlation of {_NAMES[i]}"
-        rows = [values[..., i, i] for values in by_line]
-        up = linear(-span, span, 9, name)
-        panel = _by_lag(sheet, (left, 680, right, 1010), clusters, up)
+        up = linear(-span, span, 9, f"Correlation of {_NAMES[i]}")
+        panel = _panel_by_lag(sheet, (left, 680, right, 1010), clusters, up)
         panel.line(panel.across.limits, [0.0, 0.0], color=style.BLACK, lw=0.7)
-        _marks(sheet, panel, clusters, rows)
+        _marks(panel, clusters, [values[..., i, i] for values in correlations])
         name = f"Variance of {_NAMES[i]} explained"
-        rows = [values[..., i] for values in by_cell]
-        up = linear(min(0.0, _ROOM * float(np.min(by_cell))), most, 5, name)
-        panel = _by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
-        _marks(sheet, panel, clusters, rows)
+        up = linear(min(0.0, _ROOM * float(np.min(shares))), most, 5, name)
+        panel = _panel_by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
+        _marks(panel, clusters, [values[..., i] for values in shares])
     names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
     entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
     key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
@@ -62,26 +49,27 @@ def draw(scene, clusters):
 
 
 def _flights(sheet, frame, clusters):
+    """Draw the histogram of flight times with the cuts."""
     edges = clusters["bin_edge"].values
     share = clusters["flights"].values / clusters["flights"].values.sum()
     last = float(edges[-1])
     across = linear(0.0, last, 10, "Time of flight")
-    tall = 0.01 * (int(100.0 * float(share.max())) + 1)
-    panel = Panel(sheet, frame, across, linear(0.0, tall, 6, "Share of flights"), grid=False)
+    highest = 0.01 * (int(100.0 * float(share.max())) + 1)
+    panel = Panel(sheet, frame, across, linear(0.0, highest, 6, "Share of flights"), grid=False)
     corners = np.repeat(edges, 2)[1:-1]
     panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
     cuts = clusters["cut"].values
     for i, cut in enumerate(cuts):
-        panel.line([cut, cut], [0.0, tall], color=style.HUES[i], lw=0.8, ls="--")
+        panel.line([cut, cut], [0.0, highest], color=style.HUES[i], lw=0.8, ls="--")
         period = f"{float(clusters['period'].values[i]):.1f}"
-        left = np.any((cuts > cut) & (cuts < cut + 0.1 * last))  # no room at the right
-        side = {"ha": "right", "shift": (-2, 0)} if left else {"ha": "left", "shift": (2, 0)}
-        panel.note(cut, (0.95 - 0.1 * i) * tall, period, **side)
+        crowded = np.any((cuts > cut) & (cuts < cut + 0.1 * last))  # by the next cut
+        side = {"ha": "right", "shift": (-2, 0)} if crowded else {"ha": "left", "shift": (2, 0)}
+        panel.note(cut, (0.95 - 0.1 * i) * highest, period, **side)
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
-def _by_lag(sheet, frame, clusters, up):
-    """A panel against the number of clusters between, labelled at the left of the sheet only."""
+def _panel_by_lag(sheet, frame, clusters, up):
+    """Return a panel against the lag, labelled at the left and at the bottom of the sheet only."""
     last = int(clusters["lag"].values[-1])
     if frame[0] != _LEFT:
         up = replace(up, labels=[""] * len(up.ticks))
@@ -90,9 +78,9 @@ def _by_lag(sheet, frame, clusters, up):
     return Panel(sheet, frame, across if frame[1] == _LOWER else across.blank(), up)
 
 
-def _marks(sheet, panel, clusters, rows):
-    """A mark for each cut and lag, between the ends of its interval."""
-    value, low, high = rows
+def _marks(panel, clusters, estimates):
+    """Draw a mark with its interval for each cut and lag, from (value, low, high)."""
+    value, low, high = estimates
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i in range(cuts.size):
         at = lags + min(0.2, 0.8 / cuts.size) * (i - 0.5 * (cuts.size - 1))
@@ -104,4 +92,4 @@ def _marks(sheet, panel, clusters, rows):
     widest = 0.5 * float((high - low).max())
     _, _, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
-    sheet.text(right - 3 * POINT, top - 3 * POINT, text, ha="right", va="top", size=7.0)
+    panel.sheet.text(right - 3 * POINT, top - 3 * POINT, text, ha="right", va="top", size=7.0)

@@ -9,31 +9,16 @@ from ..axes.plane import Plane
 from ..canvas import style
 from ..canvas.sheet import POINT
 
-_FROM = 0.25  # of the impacts: where the inset begins
-_LEAST = 170  # pixels between the first two exponents that have room for an inset
+_INSET_START = 0.25  # of the impacts
+_INSET_ROOM = 170  # pixels: the least distance of the first two exponents that takes an inset
 
 
 @style.pinned()
 def draw(scene, lyapunov):
-    """The exponents' histories, one hue an orbit, named at their ends.
+    """Draw the histories of the exponents, one hue an orbit, named at their ends.
 
-    The largest ones have an inset below them, with a line at each of its ticks. It stands above its
-    own part of the impacts, with the same ticks.
-
-    Parameters
-    ----------
-    scene : dict
-    lyapunov : xarray.Dataset
-        Of that stage: exponent (impact, orbit, index) and impact.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes that show nothing.
+    An inset below the largest exponents shows them on a finer scale. It stands above its own part
+    of the impacts and has the same ticks. Raises ValueError if the axes show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     greatest = exponent.max(axis=2)
@@ -54,43 +39,39 @@ def draw(scene, lyapunov):
         refuse_empty(scene["axes"], {"largest": greatest[later]})
     for orbit in range(orbits):
         hue = style.HUES[orbit % len(style.HUES)]
-        there = ~np.isnan(exponent[:, orbit, 0])
+        known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
-            picture.line(impact[there], exponent[there, orbit, index], color=hue, lw=0.8)
+            picture.line(impact[known], exponent[known, orbit, index], color=hue, lw=0.8)
         if inset:
-            how = {"color": hue, "lw": 0.8, "clip": inset.frame}
-            inset.line(impact[there], greatest[there, orbit], **how)
+            inset.line(impact[known], greatest[known, orbit], color=hue, lw=0.8, clip=inset.frame)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
 
 
 class _Inset(Panel):
-    kept = (-np.inf, np.inf)
+    clip_range = (-np.inf, np.inf)
     size = 7.0
 
 
 def _inset(picture, largest, first, second, last):
-    """The panel between the first exponent and the second at the right.
-
-    None without room there, or where the last impact comes before its begin.
-    """
+    """Return the panel between the first exponent and the second, None if there is no room."""
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
-    if not high - low > _LEAST:
+    if not high - low > _INSET_ROOM:
         return None
     start, end = picture.across.limits
-    start += _FROM * (end - start)
+    start += _INSET_START * (end - start)
     if last < start:
         return None
-    outer = zip(picture.across.ticks, picture.across.labels, strict=True)
-    shown = {tick: label for tick, label in outer if start < tick < end}
-    across = Axis((start, end), [*shown], labels=[*shown.values()])
+    labelled = zip(picture.across.ticks, picture.across.labels, strict=True)
+    labels = {tick: label for tick, label in labelled if start < tick < end}
+    across = Axis((start, end), [*labels], labels=[*labels.values()])
     bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
-    frame = left + _FROM * (right - left), bottom, right, high - 0.2 * (high - low)
+    frame = left + _INSET_START * (right - left), bottom, right, high - 0.2 * (high - low)
     return _Inset(picture.sheet, frame, across, Axis(**largest))
 
 
 def plane(scene):
-    """The empty picture of a scene with its axes."""
+    """Return the empty picture of a scene with axes impact and exponent."""
     names = ("Number of impacts", "Lyapunov exponents")
     return Plane(scene, ("impact", "exponent"), names, right=84)

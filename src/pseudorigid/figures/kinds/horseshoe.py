@@ -1,4 +1,4 @@
-"""The sets of a horseshoe along a connection, over the tangle, and one set's image magnified."""
+"""The sets of a horseshoe along a connection, over the manifolds, and one covering relation."""
 
 import numpy as np
 
@@ -9,36 +9,19 @@ from ..canvas import style
 from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
 
-_HIGH = 1500
+_HIGH = 1500  # pixels
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
-_ROOM = 1.3  # sides of the square to the top of the lower panel, whose name stands there
+_ROOM = 1.3  # height of the lower panel over that of its square; the square's name stands above it
 
 
 @style.pinned()
 def draw(scene, manifolds, horseshoe):
-    """The sets of a horseshoe in the chart (x, y = xdot - k udot), over the tangle.
+    """Draw the sets of a horseshoe in the chart (x, y = xdot - k udot), over the manifolds.
 
-    Above: the sets, drawn as dots, far larger than they are, at the saddles and along the
-    connection. Below: the middle set of the chain as the square from -1 to 1, and across it the
-    image of the set before it, whose two ends, beyond the square, are heavy.
-
-    Parameters
-    ----------
-    scene : dict
-        Its axes x, y, p and q, where it gives none, are those of the data.
-    manifolds : xarray.Dataset
-        Of that stage.
-    horseshoe : xarray.Dataset
-        As from `proofs.theorems.pictures.horseshoe_data`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes that show none of the sets, or nothing of the image.
+    Above are the sets, as dots that are far larger than they are. Below is the middle set of the
+    chain as the square from -1 to 1, and across it the image of the set before, with its two ends
+    heavy. The dataset `horseshoe` is that of `proofs.theorems.pictures.horseshoe_data`. Raises
+    ValueError if the axes show none of the sets or nothing of the image.
     """
     line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
     scene = complete(
@@ -52,25 +35,27 @@ def draw(scene, manifolds, horseshoe):
     for name in "pq":
         refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
     sheet = Sheet(style.COLUMN, _HIGH)
-    x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in ("x", "y", "p", "q"))
-    _tangle(Window(sheet, _ABOVE, x, y), manifolds, horseshoe)
+    x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in "xypq")
+    panel = Window(sheet, _ABOVE, x, y)
+    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
+        hue = style.pale(style.MANIFOLDS[stable])
+        panel.line(line_x[span], line_y[span], color=hue, lw=0.4)
+    _sets(panel, horseshoe)
     _relation(Window(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
     return sheet.figure
 
 
-def _tangle(panel, manifolds, horseshoe):
-    x, y = chart(horseshoe.attrs["k"], *states_of(manifolds))
-    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
-        panel.line(x[span], y[span], color=style.pale(style.MANIFOLDS[stable]), lw=0.4)
+def _sets(panel, horseshoe):
+    """Draw the sets and the key."""
     x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
-    for those, hue, size in (
+    for sets, hue, size in (
         (chain < 0.0, style.BLUE, 2.0),
         (chain > 0.0, style.GREEN, 2.0),
         (np.isnan(chain), style.VERMILION, 3.6),
         (chain == 0.0, style.BLACK, 3.6),
     ):
-        panel.dots(x[those], y[those], hue, size=size)
+        panel.dots(x[sets], y[sets], hue, size=size)
     entries = (
         ("at the saddles", style.VERMILION, "o", False, 3.6),
         ("middle set", style.BLACK, "o", False, 3.6),
@@ -84,6 +69,7 @@ def _tangle(panel, manifolds, horseshoe):
 
 
 def _relation(panel, horseshoe):
+    """Draw the image of a set across the square of the next."""
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
     panel.line(*square, color=style.BLACK, lw=1.0)

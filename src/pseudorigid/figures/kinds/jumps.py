@@ -1,4 +1,4 @@
-"""The section in the chart (x, y): where the map jumps, islands, symmetry lines, grazing rim."""
+"""The section in the chart (x, y): jumps of the map, orbits, symmetry lines, grazing rim."""
 
 import numpy as np
 
@@ -9,38 +9,26 @@ from ..canvas import style
 from ..canvas.ragged_rows import rows
 from ..canvas.sheet import POINT, Sheet
 
-_WIDE = 825  # pixels of the large panel
-_AT = 150  # its left edge
-_SMALL = 270  # pixels of a small panel
+_LEFT, _LARGE, _SMALL = 150, 825, 270  # pixels: left of the large panel, sides of the panels
 MAP, INVERSE = style.VERMILION, style.BLUE
 _SEA = "#d4d4d4"
 
 
 @style.pinned()
 def draw(scene, jumps, orbits):
-    """Return the Figure of the section, with the curves where the map and its inverse jump.
+    """Draw the section with the curves where the map and its inverse jump.
 
-    Parameters
-    ----------
-    scene : dict
-        `sea`: which of the orbits are grey.
-    jumps, orbits : Dataset
-        The artifacts of these stages.
-
-    Returns
-    -------
-    Figure
-        Above: the section at the first energy. Below: sections at up to three energies next to that
-        at which the curves are born.
+    Above is the section at the first energy, with the orbits in scene["sea"] in grey. Below are
+    sections at up to three energies next to that at which the curves are born.
     """
     sheet = Sheet(style.COLUMN, 1500)
     top = sheet.high - 75
-    frame = (_AT, top - _WIDE, _AT + _WIDE, top)
+    frame = (_LEFT, top - _LARGE, _LEFT + _LARGE, top)
     radius = float(jumps["radius"].values[0])
     panel = Section(sheet, frame, jumps.attrs, radius, 1.06, 5, ("$x$", NAME))
     _orbits(panel, orbits, set(scene["sea"]))
     panel.rim(zorder=4.5)
-    _lines(panel, jumps)
+    _symmetry_lines(panel, jumps)
     _curves(panel, jumps, 0)
     entries = [
         ("the map jumps", MAP, "", False),
@@ -50,7 +38,7 @@ def draw(scene, jumps, orbits):
         ("symmetry lines", style.PURPLE, "", True),
         ("chaotic orbit", _SEA, "o", False),
     ]
-    key(sheet, entries, frame[1] - 128, 3, _AT - 50, _WIDE + 60)
+    key(sheet, entries, frame[1] - 128, 3, _LEFT - 50, _LARGE + 60)
     corner(sheet, frame, style.setting(scene))
     _births(sheet, jumps)
     return sheet.figure
@@ -64,12 +52,12 @@ def _orbits(panel, orbits, sea):
         panel.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
 
-def _lines(panel, jumps):
-    how = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
+def _symmetry_lines(panel, jumps):
+    dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
     ends = [panel.centre - panel.radius, panel.centre + panel.radius]
-    panel.line(ends, [0.0, 0.0], **how)
-    for branch in range(jumps.sizes["branch"]):
-        panel.line(jumps["flight_x"].values[:, branch], jumps["flight_y"].values[:, branch], **how)
+    panel.line(ends, [0.0, 0.0], **dashes)
+    for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
+        panel.line(x, y, **dashes)
 
 
 def _curves(panel, jumps, row):
@@ -79,13 +67,13 @@ def _curves(panel, jumps, row):
 
 
 def _births(sheet, jumps):
-    """Whole sections at energies above that of the birth, each in its own proportions."""
+    """Draw whole sections at energies above that of the birth, each in its own proportions."""
     energies = jumps["energy"].values
     born = jumps["length"].values > 0.0
     rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
     if not rising:
         text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
-        vacant(sheet, (_AT, 60, _AT + _WIDE, 60 + _SMALL), text)
+        vacant(sheet, (_LEFT, 60, _LEFT + _LARGE, 60 + _SMALL), text)
     for number, row in enumerate(rising[:3]):
         left = 60 + number * (_SMALL + 60)
         frame = (left, 60, left + _SMALL, 60 + _SMALL)

@@ -11,23 +11,9 @@ _DOT = 2.4  # points
 
 @style.pinned()
 def draw(scene, motion):
-    """-x(t) and u(t), which touch at the impacts and nowhere else.
+    """Draw -x(t) and u(t), which touch at the impacts, and mark these.
 
-    Parameters
-    ----------
-    scene : dict
-    motion : xarray.Dataset
-        A sampled motion: t, position, strain (sample), each flight sampled from one impact to the
-        next, and impact_t, impact_position (impact), which are marked.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes that show nothing of the lines.
+    Raises ValueError if the axes show nothing of the lines.
     """
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
     scene = complete(
@@ -38,13 +24,13 @@ def draw(scene, motion):
     both = {"t": [*t, np.nan, *t], "displacement": [*-x, np.nan, *u]}
     refuse_empty(scene["axes"], {name: np.array(both[name]) for name in both}, joined=True)
     picture = plane(scene)
-    mass = {"color": style.BLUE, "lw": 1.0}
+    height = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
-    picture.line(t, -x, **mass)
+    picture.line(t, -x, **height)
     picture.line(t, u, **strain)
     picture.dots(motion["impact_t"].values, -motion["impact_position"].values, style.BLACK, _DOT)
     picture.legend(
-        ("$-x(t)$", 26, mass),
+        ("$-x(t)$", 26, height),
         ("$u(t)$", 18, strain),
         ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
     )
@@ -52,15 +38,5 @@ def draw(scene, motion):
 
 
 def plane(scene):
-    """The empty picture of a scene with its axes.
-
-    Parameters
-    ----------
-    scene : dict
-        With axes t and displacement.
-
-    Returns
-    -------
-    Plane
-    """
+    """Return the empty picture of a scene with axes t and displacement."""
     return Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))

@@ -10,26 +10,10 @@ _CURVE, _SEA = 0.8, 0.4  # points
 
 @style.pinned()
 def draw(scene, orbits):
-    """A scene's orbits in (x, xdot, udot).
+    """Draw orbits in (x, xdot, udot) on the opaque energy surface.
 
-    The orbits with index in scene["sea"] come first, in grey; each other one has a hue of its own.
-    What the surface hides is not drawn.
-
-    Parameters
-    ----------
-    scene : dict
-        Axes that it does not give are those of the orbits.
-    orbits : xarray.Dataset
-        Of that stage: x, xdot, udot (point), row_size (orbit).
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        A sea that the scene does not have, axes that show nothing, or a view that does.
+    The orbits with index in scene["sea"] are drawn first, in grey; each other one has its own hue.
+    Raises ValueError if the sea names an orbit that does not exist, or nothing can be seen.
     """
     scene = complete_box(scene, orbits)
     refuse_empty(scene["axes"], {name: orbits[name].values for name in style.NAMES})
@@ -37,12 +21,11 @@ def draw(scene, orbits):
     sea = set(scene["sea"])
     if not sea <= set(range(len(spans))):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")
-    entries = [("chaotic orbit", style.SEA, "o", False)] if sea else []
-    box = Box(scene, entries)
+    box = Box(scene, [("chaotic orbit", style.SEA, "o", False)] if sea else [])
     box.refuse_hidden(*(orbits[name].values for name in style.NAMES))
-    others = [index for index in range(len(spans)) if index not in sea]
-    hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(others)}
-    for index in sorted(sea) + others:
+    regular = [index for index in range(len(spans)) if index not in sea]
+    hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
+    for index in sorted(sea) + regular:
         state = (orbits[name].values[spans[index]] for name in style.NAMES)
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(*state, hue, size)

@@ -11,23 +11,10 @@ _DOT = 3.2  # points
 
 @style.pinned()
 def draw(scene, twist):
-    """The twist coefficient of the fixed point over the energy.
+    """Draw the twist coefficient of the fixed point against the energy.
 
-    Parameters
-    ----------
-    scene : dict
-        Its marks, energies among its own, are marked as dots and named, its zero as a ring.
-    twist : xarray.Dataset
-        As from `proofs.theorems.pictures.twist_data`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes that show nothing of the line.
+    The energies in scene["marks"] have dots with labels, the zero a ring. Raises ValueError if the
+    axes show nothing of the line.
     """
     energy, values = twist["energy"].values, twist["twist"].values
     scene = complete(
