@@ -1,4 +1,4 @@
-"""Rotation number and exponent against the start on y = 0: plateaus, edges, where no twist is."""
+"""Rotation number and exponent against the start on y = 0."""
 
 import numpy as np
 
@@ -9,29 +9,19 @@ from ..axes.raster import linear, ticks, wider
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
-_LEFT, _RIGHT = 135, 1005
+_LEFT, _RIGHT = 135, 1005  # pixels
 _STARTS = "Start on $y=0$, section radii from the centre"
-_FAR = 4.0  # medians of all curves: a curve that departs further does not set the lowest axis
+_FAR = 4.0  # a curve longer than this times the median does not set the lowest axis
 _HUES = (*style.HUES, style.SEA)
 
 
 @style.pinned()
 def draw(scene, rotation):
-    """Return the Figure of rotation numbers and exponents.
+    """Draw rotation numbers and exponents.
 
-    Parameters
-    ----------
-    scene : dict
-    rotation : Dataset
-        The artifact of that stage.
-
-    Returns
-    -------
-    Figure
-        From above: rotation number and exponent at the first energy, chaotic starts in grey; a
-        detail of the rotation number, with the chains of islands that make gaps between curves;
-        by how much the rotation number differs from the fixed point's at all energies, as far as
-        the main island reaches.
+    Above are rotation number and exponent at the first energy, chaotic starts in grey. In the
+    middle is a detail of the rotation number, with the plateaus of chains of islands. Below is the
+    difference of the rotation number from the fixed point's, at all energies, over the main island.
     """
     sheet = Sheet(style.COLUMN, 2025)
     entries = [
@@ -48,86 +38,88 @@ def draw(scene, rotation):
 
 
 def _first_energy(sheet, scene, rotation):
-    place, turns, grown = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
-    good = regular(grown, rotation.attrs["impacts"])
+    """Draw rotation number and exponent against the start at the first energy."""
+    start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
+    good = regular(growth, rotation.attrs["impacts"])
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     across = linear(at - 0.03, 1.0, 10, _STARTS)
-    regulars = turns[good] if good.any() else turns
-    limits = wider(*_span(np.append(regulars, fixed)), 0.1, 0.1)
+    regular_turns = turns[good] if good.any() else turns
+    limits = wider(*_span(np.append(regular_turns, fixed)), 0.1, 0.1)
     above = _LEFT, 1565, _RIGHT, 1875
     panel = Panel(sheet, above, across.blank(), linear(*limits, 5, "Rotation number"))
     shown = ~good & (turns > limits[0]) & (turns < limits[1])
-    panel.dots(place[shown], turns[shown], style.SEA, size=1.6)
-    panel.dots(place[good], turns[good], style.BLUE, size=1.6)
+    panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
+    panel.dots(start[good], turns[good], style.BLUE, size=1.6)
     panel.dots([at], [fixed], style.VERMILION, size=3.4)
     corner(sheet, above, style.setting(scene))
-    top = max(np.ceil(10.0 * grown.max()), 1.0) / 10.0
-    up = linear(min(-top / 15.0, grown.min()), top, 5, "Exponent")
+    top = max(np.ceil(10.0 * growth.max()), 1.0) / 10.0
+    up = linear(min(-top / 15.0, growth.min()), top, 5, "Exponent")
     panel = Panel(sheet, (_LEFT, 1265, _RIGHT, 1465), across, up)
-    panel.dots(place[~good], grown[~good], style.SEA, size=1.6)
-    panel.dots(place[good], grown[good], style.BLUE, size=1.6)
+    panel.dots(start[~good], growth[~good], style.SEA, size=1.6)
+    panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 
 
 def _span(values):
-    """Least and largest of some numbers that may have NaN, apart even where they are one."""
+    """Return least and largest of values that may have NaN, moved apart if they are equal."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     return (low, high) if high > low else (low - 0.01, high + 0.01)
 
 
 def _detail(sheet, frame, rotation):
-    place, turns, grown = (
+    """Draw the rotation numbers of regular starts at higher resolution, with their plateaus."""
+    start, turns, growth = (
         rotation[f"detail_{name}"].values for name in ("place", "rotation", "exponent")
     )
-    good = regular(grown, rotation.attrs["detail_impacts"])
-    across = linear(place[0], place[-1], 5, _STARTS)
+    good = regular(growth, rotation.attrs["detail_impacts"])
+    across = linear(start[0], start[-1], 5, _STARTS)
     limits = wider(*_span(turns[good] if good.any() else turns), 0.05, 0.2)
     panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
     if not good.any():
         vacant(sheet, frame, "all these starts are chaotic")
-    panel.dots(place[good], turns[good], style.BLUE, size=1.6)
-    for p, q, first, last in plateaus(place[good], turns[good]):
+    panel.dots(start[good], turns[good], style.BLUE, size=1.6)
+    for p, q, first, last in plateaus(start[good], turns[good]):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
-        how = {"ha": "left", "va": "top", "shift": (4, -2)}
-        if first > place[0] + 0.8 * (place[-1] - place[0]):
-            how = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
-        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **how)
+        side = {"ha": "left", "va": "top", "shift": (4, -2)}
+        if first > start[0] + 0.8 * (start[-1] - start[0]):
+            side = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
+        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **side)
 
 
 def _energies(sheet, frame, rotation):
+    """Draw the departure from the fixed point's rotation number against the start, by energy."""
     curves = []
     for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
-        grown = rotation["exponent"].values[row, : island(rotation, row)]
-        keep = np.flatnonzero(regular(grown, rotation.attrs["impacts"]))
-        fixed = float(rotation["fixed_place"].values[row])
-        place = rotation["place"].values[row, keep] - fixed
+        growth = rotation["exponent"].values[row, : island(rotation, row)]
+        keep = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
+        start = rotation["place"].values[row, keep] - float(rotation["fixed_place"].values[row])
         change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
-        curves.append((float(rotation["energy"].values[row]), place, change))
-    low, high, places = _departures([change for _, _, change in curves])
+        curves.append((float(rotation["energy"].values[row]), start, change))
+    low, high, up_ticks = _departure_axis([change for _, _, change in curves])
     within = [(low <= change) & (change <= high) for _, _, change in curves]
-    near = [place[shown] for (_, place, _), shown in zip(curves, within, strict=True)]
-    far = max((float(place.max()) for place in near if place.size), default=0.0)
+    visible = [start[shown] for (_, start, _), shown in zip(curves, within, strict=True)]
+    far = max((float(start.max()) for start in visible if start.size), default=0.0)
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
-    up = Axis((low, high), places, "Rotation number, less the fixed point's")
+    up = Axis((low, high), up_ticks, "Rotation number, less the fixed point's")
     panel = Panel(sheet, frame, across, up)
     entries = []
-    for number, (energy, place, change) in enumerate(curves):
+    for number, (energy, start, change) in enumerate(curves):
         shown = within[number]
         cut = shown.size if shown.all() else int(np.argmin(shown))
         hue, dashed = _HUES[number % len(_HUES)], number >= len(_HUES)
-        panel.line(place[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
+        panel.line(start[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
-    deep = -(-len(entries) // 2)
-    key(sheet, entries, frame[1] + 18 + 39 * (deep - 1), 2, _LEFT + 20, 370, 6.5)
+    rows = -(-len(entries) // 2)
+    key(sheet, entries, frame[1] + 18 + 39 * (rows - 1), 2, _LEFT + 20, 370, 6.5)
 
 
-def _departures(curves):
-    """Limits and ticks for all curves; if one is far longer than most, for as much as most need."""
+def _departure_axis(curves):
+    """Return limits (low, high) and ticks for all curves but those far longer than the median."""
     sizes = [float(np.abs(curve).max()) for curve in curves if curve.size] or [0.0]
     most = max(sizes) if max(sizes) <= _FAR * np.median(sizes) else float(np.median(sizes))
     step = ticks(0.0, max(most, 1e-9), 2.5)[1]
-    every = np.concatenate([[0.0], *curves])
-    ends = (min(float(end), most) for end in (-every.min(), every.max()))
-    low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps; half a one is room
-    places = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
-    return -(low + 0.5) * step, (high + 0.5) * step, places
+    values = np.concatenate([[0.0], *curves])
+    ends = (min(float(end), most) for end in (-values.min(), values.max()))
+    low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps, with half a step
+    tick_values = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
+    return -(low + 0.5) * step, (high + 0.5) * step, tick_values

@@ -10,27 +10,18 @@ from ..axes.panel import Axis, Panel, corner, decades, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
-_LEFT, _RIGHT = 135, 1005
-_WIDE = 0.001  # of a bar of the histogram
+_LEFT, _RIGHT = 135, 1005  # pixels
+_BAR = 0.001  # width of a bar of the histogram in the paper's case
 _LN10 = 2.302585092994046
 
 
 @style.pinned()
 def draw(scene, spread, lyapunov):
-    """Return the Figure of exponents against length, and of the distribution of short runs.
+    """Draw exponents against length, and the distribution of exponents of short runs.
 
-    Parameters
-    ----------
-    scene : dict
-    spread, lyapunov : Dataset
-        The artifacts of these stages; of the second the last exponents are marked.
-
-    Returns
-    -------
-    Figure
-        Above: range, quartiles and mean of the largest exponent over all stretches of a length.
-        Middle: the histogram of stretches as long as the marked ones. Below: exponents of regular
-        orbits, and ln n/n.
+    Above are range, quartiles and mean of the largest exponent over all stretches of a length. In
+    the middle is the histogram of stretches as long as the runs of `lyapunov`, whose exponents are
+    marked. Below are exponents of regular orbits, and ln n/n.
     """
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
@@ -42,16 +33,17 @@ def draw(scene, spread, lyapunov):
 
 
 def _lengths(sheet, frame, spread, paper):
+    """Draw range, quartiles and mean of the exponent against the length."""
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
     low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
     across = Axis((low - 0.1, high + 0.1), tuple(range(low, high + 1)), "Length in impacts", True)
-    every = stretches(spread, first)
-    least = float(every.min())
+    shortest = stretches(spread, first)
+    least = float(shortest.min())
     ticks = tuple(0.01 * (4 * i) for i in range(int(least / 0.04), 7))
     limits = (*ticks[:1], 0.27)
-    if not (paper and least >= 0.0 and float(every.max()) < 0.27):
-        limits, ticks = _round(every)
+    if not (paper and least >= 0.0 and float(shortest.max()) < 0.27):
+        limits, ticks = _round_axis(shortest)
     up = Axis(limits, ticks, "Largest exponent in the sea")
     panel = Panel(sheet, frame, across, up)
     if paper:
@@ -66,46 +58,49 @@ def _lengths(sheet, frame, spread, paper):
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
-def _round(*values):
-    """Round limits and ticks of an axis around data."""
+def _round_axis(*values):
+    """Return round limits and ticks around data."""
     axis = of_data(*values)
     return tuple(axis["limits"]), tuple(axis["ticks"])
 
 
 def _short_runs(sheet, frame, spread, lyapunov, paper):
+    """Draw the histogram of short runs, with their mean and the marked orbits."""
     marked = final_exponents(lyapunov)[:, 0]
     block, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
-    # runs as long as those of the marked orbits, as far as blocks allow
+    # Runs are as long as those of the marked orbits, as far as blocks allow.
     short = block * min(max(int(lyapunov["impact"].values[-1]) // block, 1), blocks)
     runs = stretches(spread, short)
     paper = paper and short == 200_000
-    (low, high), places = (0.205, 0.255), (0.21, 0.22, 0.23, 0.24, 0.25)
-    if not paper:
-        (low, high), places = _round(runs, marked)
-    wide = _WIDE if paper else (high - low) / 50
-    edges = low + wide * np.arange(round((high - low) / wide) + 1)
-    counts = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
-    room = 1.0 if paper else 1.2  # for the mean's name
-    tall = 0.02 * (int(room * float(counts.max()) / 0.02) + 1)
-    across = Axis((low, high), places, f"Exponent of {short:,} impacts")
-    step = 0.04 if tall <= 0.24 else 0.1 if tall <= 0.6 else 0.2
-    ticks = tuple(step * i for i in range(int(tall / step + 1e-9) + 1))
-    panel = Panel(sheet, frame, across, Axis((0.0, tall), ticks, "Share of runs"), grid=False)
-    for count, left in zip(counts[counts > 0.0], edges[:-1][counts > 0.0], strict=True):
-        outline = [left, left, left + wide, left + wide]
-        panel.line(outline, [0.0, count, count, 0.0], color=style.FRAME, lw=0.5)
-    mean = float(runs.mean())
-    panel.line([mean] * 2, [0.0, tall], color=style.BLACK, lw=0.9)
-    panel.note(mean, tall, "mean", ha="right", va="top", shift=(-3, -4))
     if paper:
-        panel.line([EXPONENT] * 2, [0.0, tall], color=style.BLUE, lw=0.9, ls="--")
-        panel.note(EXPONENT, tall, "the paper", va="top", shift=(3, -4))
-    panel.dots(marked, [0.35 * counts.max()] * marked.size, style.VERMILION, size=3.4)
-    whose = "Figure 7's" if paper else "orbits from starts"
-    corner(sheet, frame, f"{runs.size:,} runs; dots: {whose}")
+        (low, high), ticks, bar = (0.205, 0.255), (0.21, 0.22, 0.23, 0.24, 0.25), _BAR
+    else:
+        (low, high), ticks = _round_axis(runs, marked)
+        bar = (high - low) / 50
+    edges = low + bar * np.arange(round((high - low) / bar) + 1)
+    share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
+    room = 1.0 if paper else 1.2  # for the mean's name
+    highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
+    across = Axis((low, high), ticks, f"Exponent of {short:,} impacts")
+    step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
+    ticks = tuple(step * i for i in range(int(highest / step + 1e-9) + 1))
+    panel = Panel(sheet, frame, across, Axis((0.0, highest), ticks, "Share of runs"), grid=False)
+    for height, left in zip(share[share > 0.0], edges[:-1][share > 0.0], strict=True):
+        outline = [left, left, left + bar, left + bar]
+        panel.line(outline, [0.0, height, height, 0.0], color=style.FRAME, lw=0.5)
+    mean = float(runs.mean())
+    panel.line([mean] * 2, [0.0, highest], color=style.BLACK, lw=0.9)
+    panel.note(mean, highest, "mean", ha="right", va="top", shift=(-3, -4))
+    if paper:
+        panel.line([EXPONENT] * 2, [0.0, highest], color=style.BLUE, lw=0.9, ls="--")
+        panel.note(EXPONENT, highest, "the paper", va="top", shift=(3, -4))
+    panel.dots(marked, [0.35 * share.max()] * marked.size, style.VERMILION, size=3.4)
+    orbits = "Figure 7's" if paper else "orbits from starts"
+    corner(sheet, frame, f"{runs.size:,} runs; dots: {orbits}")
 
 
 def _regular(sheet, frame, spread):
+    """Draw the exponents of regular orbits against their length."""
     keep = spread["length"].values >= 16
     n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
     high = len(str(int(n[-1])))
@@ -117,7 +112,7 @@ def _regular(sheet, frame, spread):
     up = decades((lowest, highest), "Largest exponent in the islands", 1 + (highest - lowest) // 8)
     panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
-        one = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
-        panel.line(n, one, color=style.HUES[island % len(style.HUES)], lw=0.8)
+        positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
+        panel.line(n, positive, color=style.HUES[island % len(style.HUES)], lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
     corner(sheet, frame, "one colour an orbit; dashes: $\\ln\\,n/n$")

@@ -11,7 +11,7 @@ from ..canvas.sheet import POINT
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
-_SHARP = 0.5  # of the reach: how near to each other the two sides of a sharp fold are there
+_SHARP = 0.5  # of the reach: the largest distance there between the two sides of a sharp fold
 _WORDS = dict(enumerate(("one", "two", "three", "four", "five", "six"), 1))
 # Stable branches first and broader: both show where they all but coincide.
 _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
@@ -19,27 +19,13 @@ _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
 @style.pinned()
 def draw(scene, orbits, manifolds, periodic):
-    """A hyperbolic orbit's branches over a backdrop of orbits.
+    """Draw the branches of a hyperbolic orbit over a backdrop of orbits.
 
-    Stable branches are green, unstable ones blue. An open dot marks the end of a line that is not
-    followed further, an open square a line that the map's jump interrupts, and a small full dot a
-    fold so sharp that the line seems to end there. What the surface hides is not drawn.
-
-    Parameters
-    ----------
-    scene : dict
-    orbits, manifolds, periodic : xarray.Dataset
-        Of these stages; `orbits` are the backdrop, and the saddles marked are the points of the
-        first orbit of `periodic` whose type is scene["type"].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    ValueError
-        Axes or a view that show none of the branches, or no orbit of that type.
+    The saddles are the points of the first orbit of `periodic` with type scene["type"]. Stable
+    branches are green, unstable ones blue. An open dot marks the end of a line that is not followed
+    further, an open square a line that a jump of the map interrupts, and a small full dot a sharp
+    fold, where a line seems to end. Raises ValueError if no branch can be seen or there is no such
+    orbit.
     """
     scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], {name: manifolds[name].values for name in style.NAMES})
@@ -65,60 +51,53 @@ def draw(scene, orbits, manifolds, periodic):
 
 
 def _branches(box, manifolds):
+    """Draw the branches, and on top of them the marks of their tips, jumps and ends."""
     spans, state = rows(manifolds), states_of(manifolds)
-    marks, every, jumps = [], np.array(box.view(*state)), _jumps(manifolds)
+    marks, pixels, jumps = [], np.array(box.view(*state)), _jumps(manifolds)
+    hollow = {"mfc": "white", "mew": 0.6}
     for stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
             line = state[:, span]
             box.line(*line, hue, width)
-            tips = _tips(every[:, span], every)
-            how = {"mfc": "white", "mew": 0.6}
-            marks.append((line[:, tips], hue, _TIP, {}))
-            marks.append((line[:, jumps[span]], hue, _END, how | {"marker": "s"}))
-            marks.append((line[:, [-1]], hue, _END, how))
-    for at, hue, size, how in marks:
-        box.points(*at, hue, size, **how)
+            marks.append((line[:, _tips(pixels[:, span], pixels)], hue, _TIP, {}))
+            marks.append((line[:, jumps[span]], hue, _END, hollow | {"marker": "s"}))
+            marks.append((line[:, [-1]], hue, _END, hollow))
+    for at, hue, size, line_style in marks:
+        box.points(*at, hue, size, **line_style)
 
 
 def _jumps(manifolds):
-    """Whether each vertex is next to a jump of the map, which interrupts its line."""
+    """Return whether each vertex is next to a jump of the map, which interrupts its line."""
     gap = np.isnan(manifolds["x"].values)
     return ~gap & (np.append(gap[1:], False) | np.insert(gap[:-1], 0, False))
 
 
-def _tips(line, every):
-    """Where a line on the sheet turns back so sharply that it seems to end.
+def _tips(line, all_lines):
+    """Return the vertices of sharp folds of a line that no other line continues.
 
-    Parameters
-    ----------
-    line, every : ndarray, shape (2, n)
-        In pixels, NaN where lines are interrupted: this line, and all of them.
-
-    Returns
-    -------
-    list of int
-        Vertices of the line with its two sides close together and no line going on beyond.
+    Both arrays have shape (2, n), in pixels, NaN where lines are interrupted. At a sharp fold the
+    two sides of the line are close together.
     """
     reach, tips = _REACH * POINT, []
-    every = every[:, ~np.isnan(every[0])]
-    for some in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):
-        place = some[~np.isnan(line[0, some])]
-        if place.size == 0:
+    all_lines = all_lines[:, ~np.isnan(all_lines[0])]
+    for run in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):
+        vertices = run[~np.isnan(line[0, run])]
+        if vertices.size == 0:
             continue
-        piece = line[:, place]
+        piece = line[:, vertices]
         steps = np.sqrt((np.diff(piece) ** 2).sum(axis=0))
         along = np.concatenate([[0.0], np.cumsum(steps)])
         before, after = (
             np.array([np.interp(along + shift, along, part) for part in piece])
             for shift in (-reach, reach)
         )
-        beyond = 2.0 * piece - 0.5 * (before + after)  # as far again as the sides come from
+        beyond = 2.0 * piece - 0.5 * (before + after)  # the middle of the sides, mirrored
         inner = (along >= reach) & (along <= along[-1] - reach)
         apart = np.where(inner, np.sqrt(((after - before) ** 2).sum(axis=0)), np.inf)
         sharp = np.concatenate([[False], apart < _SHARP * reach, [False]])
         for start, stop in np.flatnonzero(np.diff(sharp)).reshape(-1, 2):
             tip = start + int(np.argmin(apart[start:stop]))
-            away = ((every - beyond[:, [tip]]) ** 2).sum(axis=0)
-            if not (away < _SHARP * reach * reach).any():
-                tips.append(int(place[tip]))
+            distance_squared = ((all_lines - beyond[:, [tip]]) ** 2).sum(axis=0)
+            if not (distance_squared < _SHARP * reach * reach).any():
+                tips.append(int(vertices[tip]))
     return tips
