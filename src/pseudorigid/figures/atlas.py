@@ -1,4 +1,4 @@
-"""The atlas: how much of the section is regular and how chaotic the rest, over k and E/g^2."""
+"""The atlas: the regular share of the section and the exponent of the rest, over k and E/g^2."""
 
 import math
 from itertools import pairwise
@@ -13,76 +13,70 @@ from .canvas.ragged_rows import pieces
 from .canvas.sheet import POINT, Sheet
 
 RESONANCES = tuple((1, q) for q in range(2, 11))
-PAPER = (0.2, {"Figure 8": 0.625, "Figure 2": 6.25})  # k, and E/g^2 of the paper's two cases
+PAPER_K = 0.2
+PAPER_ENERGIES = {"Figure 8": 0.625, "Figure 2": 6.25}  # E/g^2
 QUOTATION = (
     "the paper: the regular trajectories",
     "“appear to be progressively destroyed",
     "as the total energy increases”",
 )
-LEFT, WIDE, HIGH = 115, 800, 640  # pixels: a panel of the plane, made of whole pixels a cell
+LEFT, WIDE, HIGH = 115, 800, 640  # pixels: the left of a plane's frame, and its largest size
 _SIZE = 6.0  # points: text beside lines
 _NAME = 46  # pixels: the room that the name of a resonance needs
 _NORMAL = 1.959964  # standard errors either way that hold 95 %
-_DASHES = 5.0, 4.0  # widths of a line: the onset of jumps
+_DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
 
 
 def draw(sweep, data):
-    """The picture of a sweep: a plane, or a line where k does not vary.
+    """Draw a sweep: a plane over k and E/g^2, or a line over the energy if it has one k.
 
-    Parameters
-    ----------
-    sweep : dict
-        Of the config: k and energy are lists of numbers.
-    data : xarray.Dataset
-        Of that sweep, as from `sweep.blocks.join`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+    `sweep` is its block of the config with lists of numbers as k and energy, `data` the dataset
+    from `sweep.blocks.join`.
     """
     return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
 
 
 @style.pinned()
 def plane(sweep, data):
-    """Regular share and the sea's exponent, a coloured cell each, over E/g^2 and k.
+    """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k.
 
-    `data` is the dataset of the sweep. Curves: where the fixed point's rotation number is a
-    simple fraction, and where impacts begin to jump; circles: the paper's two cases. Grey: no sea.
+    Curves show where the fixed point's rotation number is a simple fraction, and where impacts
+    begin to jump. Circles are the paper's two cases. Cells without a sea are grey.
     """
     wide, high = (
-        count * max(1, most // count)
+        count * max(1, most // count)  # whole pixels for each cell
         for count, most in ((len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH))
     )
     lower = 320
     upper = lower + high + 195
     sheet = Sheet(style.COLUMN, 75 * -(-(upper + high + 105) // 75))
-    largest = float(np.nanmax(data["exponent"].values, initial=0.05))
-    values = (
-        ("Regular share of the section", data["regular"].values, 1.0, "viridis"),
-        ("Lyapunov exponent of the sea, an impact", data["exponent"].values, largest, "magma"),
+    share, exponent = data["regular"].values, data["exponent"].values
+    largest = float(np.nanmax(exponent, initial=0.05))
+    panels = (
+        (upper, "Regular share of the section", share, 1.0, "viridis"),
+        (lower, "Lyapunov exponent of the sea, an impact", exponent, largest, "magma"),
     )
-    for bottom, (title, shade, most, table) in zip((upper, lower), values, strict=True):
+    for bottom, title, values, most, table in panels:
         frame = (LEFT, bottom, LEFT + wide, bottom + high)
         across = _energy_axis(sweep["energy"], r"$E/g^2$")
         up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
         panel = Panel(sheet, frame, across, up, grid=False)
         raster.minor(panel)
-        raster.cells(panel, sweep, shade / most, table)
+        raster.cells(panel, sweep, values / most, table)
         raster.scale(sheet, frame, most, table)
         sheet.text(frame[2], frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
         _resonances(panel, named=bottom == upper)
-        _jumps(panel)
-        for e in PAPER[1].values():
-            if _inside(across, e) and _inside(up, PAPER[0]):
-                panel.dots(e, PAPER[0], "white", size=5.0, hollow=True)
-                panel.dots(e, PAPER[0], style.BLACK, size=2.5)
+        _onset_of_jumps(panel)
+        for energy in PAPER_ENERGIES.values():
+            if _within(across, energy) and _within(up, PAPER_K):
+                panel.dots(energy, PAPER_K, "white", size=5.0, hollow=True)
+                panel.dots(energy, PAPER_K, style.BLACK, size=2.5)
     _plane_key(sheet, 170)
     return sheet.figure
 
 
 def _plane_key(sheet, top):
-    """What curves, circles and grey mean, a row each from the height `top` down."""
+    """Explain curves, circles and grey in rows from the height `top` down."""
     across, rows = [LEFT, LEFT + 50], [top - 40 * i for i in range(4)]
     texts = (
         "rotation number of the fixed point, 1/2 to 1/10",
@@ -102,9 +96,9 @@ def _plane_key(sheet, top):
 
 @style.pinned()
 def line(sweep, data):
-    """Regular share with its 95 % interval, and the sea's exponent with quartiles, against energy.
+    """Draw regular share with its 95 % interval, and the sea's exponent with quartiles.
 
-    `data` is the dataset of a sweep with one k; with a g the energy is the paper's E, else E/g^2.
+    The abscissa is the paper's energy E if the sweep has a g, else E/g^2.
     """
     sheet = Sheet(style.COLUMN, 1275)
     k = sweep["k"][0]
@@ -116,98 +110,103 @@ def line(sweep, data):
     share = raster.linear(0.0, 1.0, 5)
     exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
     exponent = raster.linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
-    frames = (110, 635, 1010, 1145), (110, 135, 1010, 545)
-    axes = (across.blank(), across), (share, exponent)
-    panels = [Panel(sheet, *each) for each in zip(frames, *axes, strict=True)]
-    for panel in panels:
+    above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
+    below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
+    for panel, title, bars, rise in (
+        (above, "Regular share of the section", "bars: 95 %", 14),
+        (below, "Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles", 4),
+    ):
         raster.minor(panel)
-    titles = (
-        ("Regular share of the section", "bars: 95 %"),
-        ("Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles"),
-    )
-    for (_, _, right, top), (title, bars), rise in zip(frames, titles, (14, 4), strict=True):
-        sheet.text(110, top + rise * POINT, title, ha="left", va="bottom", size=7.0)
-        sheet.text(right, top + rise * POINT, bars, ha="right", va="bottom", size=_SIZE)
-    shown = [(r, fixed_point.resonance(k, *r) * unit) for r in RESONANCES]
-    shown = [(r, at) for r, at in shown if energy[0] < at < across.limits[1]]
-    places = [_upright(panels, at, color=style.BACKDROP, lw=0.7) for _, at in shown]
-    for ((turns, impacts), _), x in zip(shown, _apart(places), strict=True):
-        text = f"{turns}/{impacts}"
-        sheet.text(x, frames[0][3] + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
-    onset = (1.0 + 0.5 * k) * unit
-    if energy[0] < onset < across.limits[1]:
-        x = _upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
-        sheet.text(x + 6, frames[1][3] - 8, "jumps begin", ha="left", va="top", size=_SIZE)
+        up = panel.frame[3] + rise * POINT
+        sheet.text(110, up, title, ha="left", va="bottom", size=7.0)
+        sheet.text(1010, up, bars, ha="right", va="bottom", size=_SIZE)
+    _upright_lines((above, below), k, energy[0], unit)
     error = _NORMAL * data["exponent_error"].values[0]
     quartiles = data["exponent_low"].values[0], data["exponent_high"].values[0]
-    middle = data["exponent"].values[0]
+    mean = data["exponent"].values[0]
     regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
-    _bars(panels[0], energy, style.BLUE, *regular)
-    _bars(panels[1], energy, style.pale(style.VERMILION), np.full(energy.size, np.nan), *quartiles)
-    _bars(panels[1], energy, style.VERMILION, middle, middle - error, middle + error)
+    _bars(above, energy, style.BLUE, *regular)
+    _bars(below, energy, style.pale(style.VERMILION), np.full(energy.size, np.nan), *quartiles)
+    _bars(below, energy, style.VERMILION, mean, mean - error, mean + error)
     for i, text in enumerate(QUOTATION if "g" in sweep else ()):
-        sheet.text(1000, frames[0][3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
-    for name, e in PAPER[1].items():
-        if k == PAPER[0] and e in sweep["energy"]:
-            at, value = e * unit, float(data["regular"].sel(energy=e).values[0])
-            panels[0].dots(at, value, style.BLACK, size=4.5, hollow=True)
-            panels[0].dots(at, value, style.BLUE, size=2.0)
-            panels[0].note(at, value, name, shift=(4, 11))
+        sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
+    for name, scaled in PAPER_ENERGIES.items():
+        if k == PAPER_K and scaled in sweep["energy"]:
+            at, value = scaled * unit, float(data["regular"].sel(energy=scaled).values[0])
+            above.dots(at, value, style.BLACK, size=4.5, hollow=True)
+            above.dots(at, value, style.BLUE, size=2.0)
+            above.note(at, value, name, shift=(4, 11))
     return sheet.figure
 
 
-def _apart(places):
-    """The places, those of neighbours moved apart where their names would touch."""
-    order = sorted(range(len(places)), key=lambda i: places[i])
-    moved = list(places)
+def _upright_lines(panels, k, first, unit):
+    """Draw the energies of resonances and of the onset of jumps, as far as they are swept."""
+    sheet, last = panels[0].sheet, panels[0].across.limits[1]
+    energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
+    energies = [(name, energy) for name, energy in energies if first < energy < last]
+    lines = [_upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
+    for (name, _), x in zip(energies, _apart(lines), strict=True):
+        up = panels[0].frame[3] + 3 * POINT
+        sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
+    onset = (1.0 + 0.5 * k) * unit
+    if first < onset < last:
+        x = _upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
+        up = panels[1].frame[3] - 8
+        sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
+
+
+def _apart(centres):
+    """Return the centres of names, moved apart where neighbours would touch."""
+    order = sorted(range(len(centres)), key=lambda i: centres[i])
+    moved = list(centres)
     for left, right in pairwise(order):
         push = 0.5 * max(0.0, _NAME - (moved[right] - moved[left]))
         moved[left], moved[right] = moved[left] - push, moved[right] + push
     return moved
 
 
-def _upright(panels, at, **how):
-    """A line through the panels at a place on the axis; its x."""
+def _upright(panels, at, **line_style):
+    """Draw a line through the panels at a value of the abscissa and return its x in pixels."""
     x = float(panels[0].place(at, 0)[0][0])
     for panel in panels:
         _, low, _, high = panel.frame
-        panel.sheet.draw([x, x], [low, high], zorder=0.8, **how)
+        panel.sheet.draw([x, x], [low, high], zorder=0.8, **line_style)
     return x
 
 
 def _bars(panel, x, color, values, low, high):
-    """A dot a cell, joined, with its bar from low to high."""
+    """Draw a dot for each cell, joined by a line, with its bar from low to high."""
     panel.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
     panel.bars(x, low, high, color=color, lw=0.7, zorder=2)
-    seen = ~np.isnan(values)
-    panel.dots(x[seen], values[seen], color, size=1.7)
+    known = ~np.isnan(values)
+    panel.dots(x[known], values[known], color, size=1.7)
 
 
 def _resonances(panel, named):
-    """The curves of the fixed point's resonances, named where they leave the frame."""
-    k = _heights(panel)
+    """Draw the curves of the fixed point's resonances, named where they leave the frame."""
+    ks = _k_values(panel)
     for turns, impacts in RESONANCES:
-        e = np.array([fixed_point.resonance(float(one), turns, impacts) for one in k])
-        inside = np.array([_inside(panel.across, one) for one in e])
-        _curve(panel, np.where(inside, e, np.nan), k)
-        if named and inside.any():
-            last = int(np.flatnonzero(inside)[-1])
-            x, y = (float(place[0]) for place in panel.place(e[last], k[last]))
+        energy = np.array([fixed_point.resonance(float(k), turns, impacts) for k in ks])
+        visible = np.array([_within(panel.across, value) for value in energy])
+        _curve(panel, np.where(visible, energy, np.nan), ks)
+        if named and visible.any():
+            last = int(np.flatnonzero(visible)[-1])
+            x, y = (float(pixel[0]) for pixel in panel.place(energy[last], ks[last]))
             x = max(x, panel.frame[0] + 12 * POINT)
             text = f"{turns}/{impacts}"
             panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
-def _jumps(panel):
-    """Where impacts that graze begin to leave the floor, and the map to jump: E/g^2 = 1 + k/2."""
-    k = _heights(panel)[[0, -1]]
-    e = 1.0 + 0.5 * k
-    if all(_inside(panel.across, one) for one in e):
-        _curve(panel, e, k, dashed=True)
+def _onset_of_jumps(panel):
+    """Draw E/g^2 = 1 + k/2, above which the map jumps."""
+    ks = _k_values(panel)[[0, -1]]
+    energy = 1.0 + 0.5 * ks
+    if all(_within(panel.across, value) for value in energy):
+        _curve(panel, energy, ks, dashed=True)
 
 
-def _heights(panel):
-    """1,000 values of k up the panel, above 0."""
+def _k_values(panel):
+    """Return about 1,000 values of k from bottom to top of a panel, above 0."""
     bottom, top = panel.up.limits
     k = bottom + (top - bottom) * np.arange(1001) / 1000
     return k[k > 0.0]
@@ -219,14 +218,14 @@ def _curve(panel, x, y, dashed=False):
 
 
 def _stroke(sheet, x, y, dashed=False):
-    """A white line edged in black, or white dashes on a black one."""
-    how = {"ls": (0, _DASHES)} if dashed else {}
+    """Draw a white line edged in black, or white dashes on a black line."""
+    dashes = {"ls": (0, _DASHES)} if dashed else {}
     sheet.draw(x, y, color=style.BLACK, lw=1.5, zorder=2.0)
-    sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **how)
+    sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
 def _energy_axis(values, name):
-    """A logarithmic axis where the cells are spaced so, from edge to edge of the cells."""
+    """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
     values = np.array(values)
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
         return raster.linear(*raster.edges(values)[[0, -1]], 5, name)
@@ -235,6 +234,6 @@ def _energy_axis(values, name):
     return Axis((low, high), ticks, name, True, [f"{10.0**tick:g}" for tick in ticks])
 
 
-def _inside(axis, value):
-    """Whether a value lies within the limits of an axis."""
+def _within(axis, value):
+    """Return whether a value lies within the limits of an axis."""
     return 0.0 <= float(axis.fraction(value)[0]) <= 1.0
