@@ -1,4 +1,4 @@
-"""The report: one page that needs nothing else, with every figure and what was measured in it."""
+"""The report and docs/figures.md: every figure, its caption and what was measured in it."""
 
 import base64
 import hashlib
@@ -14,18 +14,19 @@ import pytest
 from project import ROOT, Tree, fresh_tree, shipped, small
 
 from pipeline import config
-from pipeline.checks import claims, published_sets
+from pipeline.checks import claims, figures_page, published_sets
 from pipeline.checks.claims import ledger
 from pipeline.checks.claims.schema import CORRECTED, FALSE
-from pipeline.checks.report import numbers, page
+from pipeline.checks.report import captions, numbers, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.study import CHARTS
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
 
 PAGE = "results/report/report.html"
 CHROMIUM = shutil.which("chromium")
-# What a browser found: how wide the page is, and of which size its pictures are.
+# Report the width of the page and the sizes of its pictures in a browser.
 LOOK = """
 const note = document.createElement("pre");
 note.id = "found";
@@ -40,14 +41,14 @@ document.body.appendChild(note);
 
 
 def make(folder):
-    """Three small scenes, one of them in a variant too, and their report."""
+    """Make three small scenes, one of them in a variant too, and their report."""
     document = small(shipped())
     document["variants"] = {"lower": {"energy": 0.0098, "scenes": {"fig3": {"duration": 9}}}}
     document["scenes"] = {name: document["scenes"][name] for name in ("fig3", "fig6", "fig7")}
     tree = fresh_tree(folder, document)
     shutil.copy(ROOT / "CLAIMS.json", folder)
-    made = tree.run("results/lower/figures/fig3.png")
-    assert made.returncode == 0, made.stdout
+    result = tree.run("results/lower/figures/fig3.png")
+    assert result.returncode == 0, result.stdout
     result = tree.run("report")
     assert result.returncode == 0, result.stdout
     (folder / "said").write_text(result.stdout)
@@ -64,7 +65,7 @@ def text(reported):
 
 
 class Outline(HTMLParser):
-    """The tags of a page with their attributes, and that each is closed."""
+    """The tags of a page with their attributes; each tag must be closed."""
 
     def __init__(self, text):
         super().__init__()
@@ -84,9 +85,10 @@ class Outline(HTMLParser):
         return [attributes for name, attributes in self.tags if name == tag]
 
 
-def rendered(tree):
-    checked = config.load(tree.config)
-    return page.render(tree.path, checked, {})
+def rendered(tree, absent=()):
+    html = page.render(tree.path, config.load(tree.config), dict(absent))
+    Outline(html)
+    return html
 
 
 def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
@@ -98,7 +100,7 @@ def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
     assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
 
-def test_the_page_asks_nothing_of_a_network(text):
+def test_the_page_needs_no_network(text):
     outline = Outline(text)
     policy = [a["content"] for a in outline.all("meta") if "http-equiv" in a]
     assert policy == ["default-src 'none'; img-src data:; style-src 'unsafe-inline'"]
@@ -107,7 +109,7 @@ def test_the_page_asks_nothing_of_a_network(text):
     assert not outline.all("script") and "@import" not in text and "url(" not in text
 
 
-def test_links_lead_somewhere_and_pictures_have_words(text):
+def test_links_have_targets_and_pictures_have_texts(text):
     outline = Outline(text)
     ids = Counter(a["id"] for _, a in outline.tags if "id" in a)
     assert set(ids.values()) == {1}
@@ -121,9 +123,10 @@ def test_links_lead_somewhere_and_pictures_have_words(text):
     assert outline.all("html") == [{"lang": "en"}]
 
 
-def test_each_figure_has_its_caption_and_numbers(text):
-    for words in ("The two lines touch", "The surroundings of one point", "What to see"):
-        assert words in text
+def test_each_figure_has_its_caption_and_numbers(reported, text):
+    scenes = config.load(reported.config)["scenes"]
+    for scene, block in scenes.items():
+        assert captions.caption_of(scene, block).shows in text
     assert "<td>approximately 0.235</td><td>0." in text
     assert "<td>between 0.0925 and 0.0932</td><td>0.09" in text
     assert "<td>0.21 to 0.2116</td><td>0.21 to 0.2116</td>" in text
@@ -141,26 +144,22 @@ def test_corrections_first_and_the_whole_table(text):
     assert len(re.findall(r'<tr role="row" id="claim-\d+">', whole)) == len(claims.CLAIMS)
 
 
-def test_provenance_and_seconds(reported, text):
+def test_the_page_depends_on_results_alone_but_for_provenance(reported, text, tmp_path):
     record = reported.path / "results" / "paper" / "provenance" / "fig3.png.json"
     assert json.loads(record.read_text())["output"]["sha256"] in text
     made = re.findall(r'class="break">(results/\S+)</th>.*data-label="seconds">([^<]*)<', text)
     assert len(made) == 11 and all(re.fullmatch(r"\d+\.\d", seconds) for _, seconds in made)
-
-
-def test_the_same_page_again_but_for_the_seconds(reported, text, tmp_path):
     assert rendered(reported) == text
-    bare = reported.copy(tmp_path / "elsewhere")
-    for path in bare.path.glob("results/*/provenance/*.json"):
-        record = json.loads(path.read_text())
-        path.write_text(json.dumps(record | {"seconds": "many"}))
-    other = rendered(bare)
+    copy = reported.copy(tmp_path / "elsewhere")
+    for path in copy.path.glob("results/*/provenance/*.json"):
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"seconds": "many"}))
+    other = rendered(copy)
     assert "not known" in other
     timed = re.compile(r'data-label="seconds">[^<]*<')
     assert timed.sub("", other) == timed.sub("", text)
 
 
-def test_a_page_without_claims_or_variants(reported, tmp_path):
+def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     tree = reported.copy(tmp_path / "poor")
     (tree.path / "CLAIMS.json").write_text("nothing <b> of the kind")
     shutil.rmtree(tree.path / "results" / "lower")
@@ -174,111 +173,101 @@ def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
     tree = reported.copy(tmp_path / "damaged")
     with open(tree.path / "results" / "paper" / "lyapunov_fig7.nc", "r+b") as file:
         file.truncate(1000)
-    text = rendered(tree)
-    Outline(text)
-    assert re.search(
-        r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc", text
-    )
-    assert "<td>approximately 0.235" not in text
+    text = rendered(tree, {"paper": {"fig6": "no hyperbolic orbit"}}.items())
+    assert "There is no <code>CLAIMS.md</code> that can be read" in text
+    assert "this tree made: lower" in text and '<h2 id="variants"' not in text
+    damaged = r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc"
+    assert re.search(damaged, text) and "<td>approximately 0.235" not in text
+    assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
 
 
-def shown(tree, name):
-    """The article of a committed picture in the page of a tree, without its bytes, or None."""
+def article(tree, name):
+    """Return the article of a committed picture in the page of a tree, without its image."""
     text = re.sub('base64,[^"]*', "base64,", rendered(tree))
-    Outline(text)
     found = re.search(f'<article id="more_figures-{name}[.]png".*?</article>', text, re.DOTALL)
     return found and found.group()
 
 
-def test_committed_pictures_are_shown_where_the_tree_made_none(reported, tmp_path):
+def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
     tree = reported.copy(tmp_path / "committed")
     pictures = sorted((ROOT / "more_figures").glob("*/*.png"))
     shutil.copy(ROOT / "tests" / "scenes.yaml", tree.config)
-    assert shown(tree, "claims-flux") is None
+    assert article(tree, "claims-flux") is None
     shutil.copytree(ROOT / "more_figures", tree.path / "more_figures", dirs_exist_ok=True)
-    for folder in (tree.path / "more_figures").iterdir():  # whatever stands there at the moment
+    for folder in (tree.path / "more_figures").iterdir():  # the pictures may be under work
         files = sorted(folder.glob("*.png"))
         sums = [f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in files]
         (folder / "SHA256SUMS").write_text("".join(sums))
     text = rendered(tree)
     for path in pictures:
         assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1, path
-        article = shown(tree, f"{path.parent.name}-{path.stem}")
-        assert f"{path.parent.name}/{path.name}: the committed one (" in article
-    assert "no hash of measurements is kept" in shown(tree, "study-seconds_grazing")
-    # Its caption would have values that it was not made from.
+        assert f"{path.parent.name}/{path.name}: the committed one (" in text
+    assert "no hash of measurements is kept" in article(tree, "study-seconds_grazing")
+    # Without the manifest, the values in the caption may not be those of the picture.
     (tree.path / "more_figures" / "claims" / "MANIFEST.json").unlink()
-    assert "other values than config.yaml" in shown(tree, "claims-flux")
+    assert "other values than config.yaml" in article(tree, "claims-flux")
+    assert "hyperbolic orbit of period" not in article(tree, "claims-flux")
     with open(tree.path / "more_figures" / "claims" / "flux.png", "ab") as file:
         file.write(b"x")
-    assert "<p>No picture: more_figures/claims/flux.png is not the" in shown(tree, "claims-flux")
-    assert "<img" not in shown(tree, "claims-flux")
+    assert "<p>No picture: more_figures/claims/flux.png is not the" in article(tree, "claims-flux")
+    assert "<img" not in article(tree, "claims-flux")
 
 
-def test_whole_numbers_have_commas_throughout(reported):
+def test_whole_numbers_have_commas(reported):
     block = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}, "starts": [0.1, 0.2]}
-    about = page._Page._about
-    some = block | {"picture": "portrait", "impacts": [20000, 25000]}
-    assert "of 45,000 impacts in all" in about(None, "fig2", some)["shows"]
-    assert (
-        "up to 200,000, at"
-        in about(None, "f", some | {"picture": "exponents", "impacts": 200000})["shows"]
-    )
-    text = re.sub(
-        '<style>.*?</style>|base64,[^"]*|<[^>]*>', " ", rendered(reported), flags=re.DOTALL
-    )
+    portrait = block | {"picture": "portrait", "impacts": [20000, 25000]}
+    assert "of 45,000 impacts in all" in captions.caption_of("fig2", portrait).shows
+    exponents = block | {"picture": "exponents", "impacts": 200000}
+    assert "up to 200,000, at" in captions.caption_of("f", exponents).shows
+    markup = '<style>.*?</style>|base64,[^"]*|<[^>]*>'
+    text = re.sub(markup, " ", rendered(reported), flags=re.DOTALL)
     text = text.partition("What made each result")[0]
     assert not re.findall(r"(?<![\d.,])\d{5,}(?![\d.,])", text)
 
 
-def test_what_cannot_exist_is_said(reported):
-    checked = config.load(reported.config)
-    text = page.render(reported.path, checked, {"paper": {"fig6": "no hyperbolic orbit"}})
-    Outline(text)
-    assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
+def test_every_picture_has_a_caption():
+    assert set(captions.CAPTIONS["kinds"]) == set(KINDS)
+    assert set(captions.CAPTIONS["charts"]) == set(CHARTS)
 
 
-def test_every_chart_has_words():
-    checked = config.load(ROOT / "tests" / "scenes.yaml")
-    scenes = {
-        scene
-        for published_set in published_sets.committed_sets(checked)
-        for scene in published_set.scenes.values()
-        if published_set.folder.rpartition("/")[2] in ("study", "atlas")
-    }
-    assert len(scenes) >= 8 and scenes <= set(numbers.CHARTS)
+def test_the_page_of_figures_is_current_and_complete():
+    text = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
+    assert text == figures_page.page(), "renew it: python -m pipeline.checks.figures_page"
+    pictures = [*ROOT.glob("paper_figures/*.png"), *ROOT.glob("more_figures/*/*.png")]
+    links = Counter(re.findall(r"\]\(\.\./(\S+)\)", text))
+    assert links == Counter(str(path.relative_to(ROOT)) for path in pictures)
+    assert max(map(len, text.splitlines())) <= 100
+    assert not re.findall(r"^[-+*>=] ", text, re.MULTILINE)  # no line of a caption is a list
 
 
 def artifact_paths(scenes):
-    """(scene, stage) -> dataset of the paper's scenes."""
+    """Return (scene, stage) -> dataset of the paper's scenes."""
     return {
         (scene, stage): path
         for (_, scene, stage), path in paths.artifact_paths({config.PAPER: scenes}).items()
     }
 
 
-def test_every_kind_has_a_caption_and_measures(finished):
-    """Of each of the paper's kinds: what is shown comes from the data, not from the config."""
+def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(finished):
     scenes = config.load(finished.config)["scenes"]
-    where = artifact_paths(scenes)
+    files = artifact_paths(scenes)
     for scene, block in scenes.items():
-        kind = KINDS[block["picture"]]
-        data = {stage: load(finished.path / where[scene, stage]) for stage in paths.stages(block)}
-        ours = numbers.measured(block, data.__getitem__)
-        assert kind.headline in ours and "What to see:" in kind.caption()
-        assert set(numbers.PAPER_NUMBERS[scene]) <= set(ours)
-        told = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
-        told |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
-        assert numbers.measured(told, data.__getitem__) == ours
+        data = {stage: load(finished.path / files[scene, stage]) for stage in paths.stages(block)}
+        values = numbers.measured(block, data.__getitem__)
+        assert KINDS[block["picture"]].headline in values
+        assert set(numbers.PAPER_NUMBERS[scene]) <= set(values)
+        other = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
+        other |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
+        assert numbers.measured(other, data.__getitem__) == values
 
 
 def test_other_data_other_numbers(finished):
     scenes = config.load(finished.config)["scenes"]
-    where = artifact_paths(scenes)
+    files = artifact_paths(scenes)
 
     def measured(scene, **changes):
         stages = paths.stages(scenes[scene])
-        data = {stage: load(finished.path / where[scene, stage]) for stage in stages}
+        data = {stage: load(finished.path / files[scene, stage]) for stage in stages}
         for stage, change in changes.items():
             data[stage] = change(data[stage])
         return numbers.measured(scenes[scene], data.__getitem__)
@@ -287,15 +276,15 @@ def test_other_data_other_numbers(finished):
     assert shifted["x of the point"] == "0.3000000" and shifted["window, x"] == "0.2 to 0.4"
     faster = measured("fig2", orbits=lambda d: d.assign(xdot=d["xdot"] * 1.1))
     assert faster["energy"] != measured("fig2")["energy"] == "0.01"
-    other = measured("fig7", lyapunov=lambda d: d.assign(exponent=d["exponent"] + 1.0))
-    assert all(float(value) > 1.0 for value in other["largest exponent"].split(", "))
+    larger = measured("fig7", lyapunov=lambda d: d.assign(exponent=d["exponent"] + 1.0))
+    assert all(float(value) > 1.0 for value in larger["largest exponent"].split(", "))
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
 @pytest.mark.parametrize("width", [1280, 390])
 def test_in_a_browser(reported, text, tmp_path, width):
-    """In a frame of this width, as chromium's own windows are no narrower than 500 pixels."""
+    """The page is shown in a frame, as chromium's windows are no narrower than 500 pixels."""
     inner, outer = tmp_path / "page.html", tmp_path / "outer.html"
     inner.write_text(
         re.sub(r"<meta http-equiv[^>]*>", "", text).replace("</body>", f"<script>{LOOK}</script>")

@@ -6,9 +6,9 @@ from importlib import import_module
 import numpy as np
 import pytest
 import yaml
-from jinja2 import Environment, StrictUndefined
 from legible import assert_text_is_whole_and_apart
 
+from pipeline.checks.report.captions import caption_of
 from pipeline.config import ConfigError, check
 from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
@@ -42,8 +42,7 @@ def made(block, legible=True):
     if legible:
         assert_text_is_whole_and_apart(figure, margin=1, slack=5)  # 10^-5 and 10^1 at a corner
     picture = render(figure, "png")
-    template = Environment(undefined=StrictUndefined).from_string(kind.caption())
-    return picture, kind.numbers(block, **data), template.render(s=block)
+    return picture, kind.numbers(block, **data), caption_of("one", block).shows
 
 
 @pytest.fixture

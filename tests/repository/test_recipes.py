@@ -43,12 +43,7 @@ from ..scene import OfOrbits
 
 
 class Returns(OfOrbits):
-    """the next position against the present one
-
-    Positions of {{ s.starts|length }} orbits: the next one, x', against the present one, x.
-
-    What to see: regular orbits are closed lines.
-    """
+    """the next position against the present one"""
 
     stages = ("orbits",)
     headline = "orbits"
@@ -122,7 +117,18 @@ DOCUMENT = {
 }
 
 
+CAPTION = """
+[kinds.returns]
+title = "the next position against the present one"
+shows = "Positions of {{ s.starts|length }} orbits: the next one, x', against the present one, x."
+see = "Regular orbits are closed lines."
+"""
+
+
 def write_new(tree, files):
+    """Write new files, and append the caption of their kind."""
+    with (tree.path / "src/pipeline/checks/report/captions.toml").open("a") as captions:
+        captions.write(CAPTION)
     for name, text in files.items():
         path = tree.path / name
         assert not path.exists()

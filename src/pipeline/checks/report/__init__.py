@@ -1,1 +1,1 @@
-"""The report: one HTML page with the figures, what was measured in them, and what made them."""
+"""The report: one HTML page with the figures, their numbers and what made them."""

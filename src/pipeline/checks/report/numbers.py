@@ -1,28 +1,31 @@
-"""The paper's numbers beside those measured in our datasets."""
+"""The quantities that the paper prints, and those measured in the datasets of a scene."""
 
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+import xarray as xr
 
 from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ...config.paths import stages
 from ...config.schema.kinds import KINDS
 
-TEXT = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
+_TEXT = Path(__file__).with_name("paper_numbers.toml").read_text(encoding="utf-8")
 # scene -> quantity -> the paper's value
-PAPER_NUMBERS = {
+PAPER_NUMBERS: dict[str, dict[str, str]] = {
     scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
-    for scene, texts in TEXT["printed"].items()
+    for scene, texts in tomllib.loads(_TEXT).items()
 }
-CHARTS = TEXT["charts"]  # chart of the study, or sweep -> what its picture shows
 
 
-def measured(block, load):
-    """Quantity -> value in words, of a scene's block; `load(stage)` reads one of its datasets."""
+def measured(block: dict[str, Any], load: Callable[[str], xr.Dataset]) -> dict[str, str]:
+    """Return the quantities of a scene in words; `load(stage)` reads one of its datasets."""
     return KINDS[block["picture"]].numbers(block, **{stage: load(stage) for stage in stages(block)})
 
 
-def beside(scene, ours):
-    """Rows (quantity, the paper's value or "not printed", ours) of a scene of the paper."""
+def beside(scene: str, values: dict[str, str]) -> list[tuple[str, str, str]]:
+    """Return rows of quantity, the paper's value or "not printed", and the measured value."""
     printed = PAPER_NUMBERS.get(scene, {})
-    return [(name, printed.get(name, "not printed"), value) for name, value in ours.items()]
+    return [(name, printed.get(name, "not printed"), value) for name, value in values.items()]

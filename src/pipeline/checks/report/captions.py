@@ -1,0 +1,49 @@
+"""Captions of all pictures, from captions.toml, for the report and docs/figures.md."""
+
+import tomllib
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import jinja2
+
+CAPTIONS = tomllib.loads(Path(__file__).with_name("captions.toml").read_text(encoding="utf-8"))
+
+
+class Caption(NamedTuple):
+    """The texts of a picture; `shows` and `see` are empty if it has no caption."""
+
+    name: str
+    title: str
+    shows: str
+    see: str
+
+
+def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
+    """Return the caption of a scene, a sweep or a chart of the study.
+
+    `block` is the scene or the sweep, complete; a chart needs none.
+    """
+    block = block or {}
+    if "picture" in block:
+        texts = CAPTIONS["kinds"].get(block["picture"])
+    elif "k" in block:
+        texts = CAPTIONS["sweeps"]["line" if len(block["k"]) == 1 else "plane"]
+    else:
+        texts = CAPTIONS["charts"].get(name)
+    texts = texts or {"title": "a picture without a caption", "shows": "", "see": ""}
+    number = name.removeprefix("fig")
+    shown_name = f"Figure {number}" if number.isdigit() and number != name else name
+    return Caption(shown_name, *(_filled(texts[part], block) for part in ("title", "shows", "see")))
+
+
+def _filled(template: str, block: dict[str, Any]) -> str:
+    """Return a text with the values of a block, on one line."""
+    text = _ENVIRONMENT.from_string(template).render(s=block)
+    return " ".join(text.split())
+
+
+def _with_commas(value: object) -> object:
+    return f"{value:,}" if type(value) is int else value
+
+
+_ENVIRONMENT = jinja2.Environment(finalize=_with_commas, undefined=jinja2.StrictUndefined)
