@@ -17,7 +17,7 @@ from slowly import slowly
 from pseudorigid.figures.canvas import fonts, style
 from pseudorigid.figures.canvas.render import pixels, render
 
-HOSTILE = """\
+HOSTILE_MATPLOTLIBRC = """\
 font.family: monospace
 font.size: 30
 axes.facecolor: red
@@ -37,19 +37,18 @@ text.usetex: True
 
 
 def hostile(folder):
-    """An environment with other settings, other fonts under our fonts' names, another locale."""
+    """Return an environment with other settings, a false font for each of ours, another locale."""
     from fontTools.ttLib import TTFont
     from matplotlib import get_data_path
 
-    fonts = folder / ".fonts"
-    fonts.mkdir()
+    (folder / ".fonts").mkdir()
     for number, family in enumerate(("DejaVu Sans", "STIXGeneral")):
         font = TTFont(Path(get_data_path()) / "fonts" / "ttf" / "cmss10.ttf")
         for record in font["name"].names:
             if record.nameID in (1, 16):
                 record.string = family
-        font.save(fonts / f"{number}.ttf")
-    (folder / "matplotlibrc").write_text(HOSTILE)
+        font.save(folder / ".fonts" / f"{number}.ttf")
+    (folder / "matplotlibrc").write_text(HOSTILE_MATPLOTLIBRC)
     return {
         "HOME": str(folder),
         "XDG_DATA_HOME": str(folder),
@@ -66,21 +65,24 @@ def hostile(folder):
     }
 
 
-@pytest.mark.parametrize("kinds", [["motion"], *slowly(KINDS)])
-def test_same_bytes_for_everyone(tmp_path, kinds):
-    here = samples.digests(kinds)
-    environment = os.environ | hostile(tmp_path)
-    environment["PYTHONPATH"] = os.pathsep.join(map(str, (ROOT / "tests", ROOT / "src")))
-    run = subprocess.run(
-        [sys.executable, "-c", f"import samples; print(samples.digests({kinds}))"],
-        env=environment,
-        cwd=tmp_path,
+def python(code, **environment):
+    """Run code in a new interpreter and return what it prints."""
+    folders = os.pathsep.join(map(str, (ROOT / "tests", ROOT / "src")))
+    result = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {"PYTHONPATH": folders} | environment,
         capture_output=True,
         text=True,
         check=False,
     )
-    assert run.returncode == 0, run.stderr
-    assert run.stdout.strip() == str(here)
+    assert result.returncode == 0, result.stderr
+    return result.stdout.strip()
+
+
+@pytest.mark.parametrize("kinds", [["motion"], *slowly(KINDS)])
+def test_same_bytes_for_everyone(tmp_path, kinds):
+    code = f"import samples; print(samples.digests({kinds}))"
+    assert python(code, **hostile(tmp_path)) == str(samples.digests(kinds))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -124,7 +126,7 @@ def test_fonts_of_the_system_are_not_used(tmp_path):
             assert font_manager.findfont("DejaVu Serif") == own
     finally:
         del manager.ttflist[0]
-        manager.addfont(own)  # clears what is remembered of the copy
+        manager.addfont(own)  # clears the cached path of the copy
         manager.ttflist.pop()
 
 
@@ -132,15 +134,15 @@ def test_drawing_leaves_matplotlib_as_it_was():
     import matplotlib
     from matplotlib import font_manager
 
-    fonts = font_manager.fontManager.ttflist
+    all_fonts = font_manager.fontManager.ttflist
     with matplotlib.rc_context({"font.size": 31, "path.simplify": True}):
         before = dict(matplotlib.rcParams)
         pixels(draw("motion"))
         assert dict(matplotlib.rcParams) == before
-    assert font_manager.fontManager.ttflist is fonts
+    assert font_manager.fontManager.ttflist is all_fonts
 
 
-def test_a_job_imports_only_what_it_uses():
+def test_a_drawing_imports_only_what_it_uses():
     names = "pyplot", "xarray", "pandas", "numba", "scipy", "netCDF4", "backend_pdf"
     code = (
         "import sys\n"
@@ -148,16 +150,9 @@ def test_a_job_imports_only_what_it_uses():
         "from pseudorigid.figures.canvas import render\n"
         f"print([m for m in sys.modules for name in {names} if name in m.split('.')])"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.stdout.strip() == "[]", run.stderr
+    assert python(code) == "[]"
 
 
-def test_refuses_other_formats():
+def test_other_formats_are_refused():
     with pytest.raises(ValueError, match="png, svg, pdf"):
         render(draw("motion"), "jpg")
