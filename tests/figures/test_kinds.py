@@ -1,4 +1,4 @@
-"""What the kinds of picture show: all of the data, in the right order, and nothing else."""
+"""The paper's kinds of picture show all of the data, in the right order, and nothing else."""
 
 import numpy as np
 import pytest
@@ -26,17 +26,17 @@ from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels
 
 
-def test_refuses_what_the_data_do_not_have():
-    from pseudorigid.figures.kinds import portrait, tangle
-
-    with pytest.raises(ValueError, match=r"sea \[7\]"):
-        portrait.draw(SCENES["portrait"] | {"sea": [7]}, orbits())
-    with pytest.raises(ValueError, match="no inverse hyperbolic orbit"):
-        tangle.draw(SCENES["tangle"] | {"type": "inverse hyperbolic"}, *DATA["tangle"]())
-    with pytest.raises(ValueError, match="elevation 90"):
-        portrait.draw(SCENES["portrait"] | {"view": {"elevation": 90, "azimuth": 0}}, orbits())
-    with pytest.raises(KeyError, match="udot"):
-        portrait.draw(SCENES["portrait"], orbits().drop_vars("udot"))
+@pytest.mark.parametrize(
+    ("kind", "change", "message"),
+    [
+        ("portrait", {"sea": [7]}, r"sea \[7\]"),
+        ("tangle", {"type": "inverse hyperbolic"}, "no inverse hyperbolic orbit"),
+        ("portrait", {"view": {"elevation": 90, "azimuth": 0}}, "elevation 90"),
+    ],
+)
+def test_what_the_data_do_not_have_is_refused(kind, change, message):
+    with pytest.raises(ValueError, match=message):
+        module(kind).draw(SCENES[kind] | change, *DATA[kind]())
 
 
 def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
@@ -44,16 +44,16 @@ def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
     (t, mass), (other_t, strain) = curves
     vertices = [set(zip(*(axis.tolist() for axis in curve), strict=True)) for curve in curves]
     assert len(vertices[0] & vertices[1]) == motion().sizes["impact"]
-    seen = 1 / 32 / style.DPI  # two lines, each within 1/64 of a pixel of its samples
-    assert (mass >= np.interp(t, other_t, strain) - seen).all()
-    assert (np.interp(other_t, t, mass) >= strain - seen).all()
+    slack = 1 / 32 / style.DPI  # two lines, each within 1/64 of a pixel of its samples
+    assert (mass >= np.interp(t, other_t, strain) - slack).all()
+    assert (np.interp(other_t, t, mass) >= strain - slack).all()
 
 
-def test_what_the_surface_does_not_hide_is_drawn_and_the_sea_comes_first():
+def test_all_visible_points_are_drawn_and_the_sea_comes_first():
     data = orbits()
     seen = box.Box(SCENES["portrait"]).seen(*(data[name].values for name in style.NAMES))
     dots = [line for line in drawn("portrait").artists if line.get_marker() == "o"]
-    dots = dots[-len(data["row_size"]) :]  # before them the key's
+    dots = dots[-len(data["row_size"]) :]  # the key's come before
     sizes = [np.sum(seen[span]) for span in rows(data)]
     assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
     assert [line.get_color() for line in dots] == [style.SEA, style.HUES[0], style.HUES[1]]
@@ -61,15 +61,12 @@ def test_what_the_surface_does_not_hide_is_drawn_and_the_sea_comes_first():
 
 
 def test_projection_is_orthographic_and_fits():
-    limits = [span["limits"] for span in SPACE.values()]
-    view = projection.Projection(limits, VIEW)
+    view = projection.Projection([span["limits"] for span in SPACE.values()], VIEW)
     frame = np.array([view.right, view.up, view.eye])
     assert np.allclose(frame @ frame.T, np.eye(3), atol=1e-15)
     across, up = view.place(10, 20, 300, 400)(*view.corners().T)
-    assert across.min() >= 10 - 1e-9
-    assert across.max() <= 310 + 1e-9
-    assert up.min() >= 20 - 1e-9
-    assert up.max() <= 420 + 1e-9
+    assert across.min() >= 10 - 1e-9 and across.max() <= 310 + 1e-9
+    assert up.min() >= 20 - 1e-9 and up.max() <= 420 + 1e-9
 
 
 @pytest.mark.parametrize("degrees", [0, 30, 40, 90, 115, 180, 270, -65, 1e-3, 359.999, 12345.678])
@@ -81,12 +78,12 @@ def test_sine_and_cosine_of_the_view_are_correctly_rounded(degrees):
     assert projection.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
 
 
-def test_settled_pixels_keep_their_distance_from_every_threshold():
-    pixels = sheet.snap_to_pixels(np.random.default_rng(6).uniform(0, 1500, 10000))
+def test_snapped_pixels_keep_their_distance_from_every_threshold():
+    snapped = sheet.snap_to_pixels(np.random.default_rng(6).uniform(0, 1500, 10000))
     for step in (1 / 256, 1 / 2, 1):
-        part = pixels / step % 1
+        part = snapped / step % 1
         assert np.minimum(part, 1 - part).min() * step >= 0.2 / 256
-    points = pixels * 72 / style.DPI * 1e6
+    points = snapped * 72 / style.DPI * 1e6
     assert np.abs(points % 1 - 0.5).min() > 0.1
 
 
@@ -103,38 +100,34 @@ def test_what_lies_outside_the_box_is_not_drawn():
 
 @pytest.mark.parametrize("azimuth", [115, 205, *slowly(25, 295)])
 def test_the_surface_hides_what_a_dense_cloud_of_it_covers(azimuth):
-    """Against a surface of many points: one is hidden if others before it fall on its pixels."""
+    """A point is hidden if points of the cloud before it fall on its square of pixels."""
     scene = SCENES["portrait"] | {"view": {"elevation": 40, "azimuth": azimuth}}
     picture = box.Box(scene)
     cloud = np.array([*states(400_000, 7).values()])
     some = cloud[:, :2000]
     towards = np.array(picture.view.eye)
-    places = np.floor(np.array(picture.view(*cloud)) / 8).astype(int)
+    squares = [*map(tuple, np.floor(np.array(picture.view(*cloud)) / 8).astype(int).T)]
     front = {}
-    for pixel, depth in zip(map(tuple, places.T), towards @ cloud, strict=True):
-        front[pixel] = max(front.get(pixel, -1.0), depth)
-    before = np.array([front[pixel] for pixel in map(tuple, places[:, :2000].T)]) - towards @ some
+    for square, depth in zip(squares, towards @ cloud, strict=True):
+        front[square] = max(front.get(square, -1.0), depth)
+    before = np.array([front[square] for square in squares[:2000]]) - towards @ some
     seen = picture.seen(*some)
-    assert before[seen].max() < 0.1  # as far as the surface rises within a square of pixels
-    assert np.mean(before[~seen] > 0.0) > 0.99  # but for squares across the outline
+    assert before[seen].max() < 0.1  # as far as the surface rises within a square
+    assert np.mean(before[~seen] > 0.0) > 0.99  # except for squares across the outline
     assert np.sum(before[~seen] > 0.1) > 5
 
 
 def test_no_pane_or_axis_shines_through_the_surface():
-    """No line of the box falls on the pixels of what is seen of the main island."""
-    scene = SCENES["portrait"]
-    picture = box.Box(scene)
-    state = states(200_000, 8)
-    x, y, z = state.values()
-    inner = (abs(x) < 0.1) & (abs(y - 0.2 * z) < 0.05)  # around the fixed point
+    picture = box.Box(SCENES["portrait"])
+    x, y, z = states(200_000, 8).values()
+    inner = (abs(x) < 0.1) & (abs(y - 0.2 * z) < 0.05)  # the main island, all of it visible
     island = set(zip(*np.floor(np.array(picture.view(x, y, z))[:, inner]).astype(int), strict=True))
-    image = pixels(picture.figure)
-    high = image.shape[0]
-    assert all((image[high - 1 - up, across] == 255).all() for across, up in island)
+    image = pixels(picture.figure)[::-1]
+    assert all((image[up, across] == 255).all() for across, up in island)
     assert len(island) > 10_000
 
 
-def test_the_rim_is_where_impacts_graze_and_ends_the_outline():
+def test_impacts_graze_on_the_rim_which_ends_the_outline():
     picture = box.Box(SCENES["portrait"])
     x, y, z = picture.surface.rim()
     assert np.array_equal(y, -z)
@@ -148,69 +141,42 @@ def test_the_rim_is_where_impacts_graze_and_ends_the_outline():
     assert 0 < x.size < around.shape[1]
 
 
-def test_lines_end_in_open_dots():
-    data = manifolds()
-    dots = [
-        a
-        for a in drawn("tangle").artists
-        if a.get_markerfacecolor() == "white" and a.get_markeredgewidth()
-    ]
+def test_ends_have_open_dots_and_jumps_squares():
+    figure, data = drawn("tangle"), manifolds()
     picture = box.Box(SCENES["tangle"])
-    ends = 0
-    for span in rows(data):
-        line = [data[name].values[span] for name in style.NAMES]
-        gap = np.isnan(line[0])
-        edge = np.flatnonzero(np.diff(np.concatenate([[1], gap, [1]])))
-        last = [at - 1 for at in edge[1::2]] + [at for at in edge[2::2]]
-        ends += int(np.sum(picture.seen(*(part[last] for part in line))))
-    assert sum(len(a.get_xdata()) for a in dots) == ends + 1  # and the key's
-
-
-def marks_of(figure, marker, face=None):
-    """The places of all marks of one shape, and one colour, in pixels, the key's among them."""
-    found = [
-        np.column_stack(a.get_data()) * figure.dpi
-        for a in figure.artists
-        if a.get_marker() == marker and face in (None, a.get_markerfacecolor())
-    ]
-    return np.concatenate(found) if found else np.empty((0, 2))
+    seen = picture.seen(*(data[name].values for name in style.NAMES))
+    ends, jumps = np.cumsum(data["row_size"].values) - 1, [99, 103]  # jumps: beside the gap
+    marks = {"o": 0, "s": 0}
+    for artist in figure.artists:
+        small = artist.get_markersize() < 3  # not the rings around saddles
+        if small and artist.get_markerfacecolor() == "white" and artist.get_markeredgewidth():
+            marks[artist.get_marker()] += len(artist.get_xdata())
+    in_key = sum(a.get_markersize() == 3.2 and a.get_markerfacecolor() == "white"
+                 and a.get_marker() == "s" for a in figure.artists)  # fmt: skip
+    assert marks == {"o": seen[ends].sum(), "s": seen[jumps].sum()}
+    assert in_key == bool(seen[jumps].any())
+    texts = [text.get_text() for text in figure.texts]
+    assert ("jump of the map" in texts) == bool(seen[jumps].any())
 
 
 def folded(turn_back):
-    """Branches of which the first goes out along a line in the surface and comes back beside it."""
+    """Return a branch that goes out along a line in the surface and may come back beside it."""
     data = manifolds().isel(vertex=slice(60))
     s = np.linspace(0.0, 1.0, 30)
     y = np.concatenate([s, 1.0 - s if turn_back else 1.0 + s]) * 0.05
     k, g, radius = 0.2, 0.04, np.sqrt(2 * 0.01 + 0.04**2 / 0.2)
     x = np.full(60, g / k) + np.where(turn_back, np.linspace(0, 2e-3, 60), 0.0)
     s = np.sqrt((radius**2 - k * (x - g / k) ** 2 - y**2 / (1 + k)) * (1 + k) / k)
-    states = {"x": x, "xdot": (y + k * s) / (1 + k), "udot": (s - y) / (1 + k)}
-    data = data.assign({name: ("vertex", value) for name, value in states.items()})
+    state = {"x": x, "xdot": (y + k * s) / (1 + k), "udot": (s - y) / (1 + k)}
+    data = data.assign({name: ("vertex", value) for name, value in state.items()})
     return data.isel(branch=[0]).assign(row_size=("branch", [60]))
 
 
-def test_a_sharp_fold_has_a_dot_of_its_own_and_a_straight_line_none():
-    key = 1
-    for turn_back in (True, False):
-        figure = module("tangle").draw(SCENES["tangle"], orbits(), folded(turn_back), periodic())
-        dots = [a for a in figure.artists if a.get_marker() == "o" and a.get_markersize() == 2.0]
-        assert sum(len(a.get_xdata()) for a in dots) == key + turn_back
-
-
-def test_a_jump_has_squares_and_an_end_a_dot():
-    figure = drawn("tangle")
-    picture, data = box.Box(SCENES["tangle"]), manifolds()
-    state = [data[name].values for name in style.NAMES]
-    seen = picture.seen(*state)
-    jumps = [99, 103]  # beside the gap
-    ends = np.cumsum(data["row_size"].values) - 1
-    squares = marks_of(figure, "s")
-    assert len(squares) == seen[jumps].sum() + seen[jumps].any()  # with the key's
-    hollow = [a for a in figure.artists if a.get_marker() == "o"]
-    hollow = [a for a in hollow if a.get_markerfacecolor() == "white" and a.get_markersize() < 3]
-    assert sum(len(a.get_xdata()) for a in hollow) == seen[ends].sum()
-    texts = [text.get_text() for text in figure.texts]
-    assert ("jump of the map" in texts) == bool(seen[jumps].any())
+@pytest.mark.parametrize("turn_back", [True, False])
+def test_a_sharp_fold_has_a_dot_and_a_straight_line_none(turn_back):
+    figure = module("tangle").draw(SCENES["tangle"], orbits(), folded(turn_back), periodic())
+    dots = [a for a in figure.artists if a.get_marker() == "o" and a.get_markersize() == 2.0]
+    assert sum(len(a.get_xdata()) for a in dots) == 1 + turn_back  # one is the key's
 
 
 def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
