@@ -174,8 +174,8 @@ def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
     with open(tree.path / "results" / "paper" / "lyapunov_fig7.nc", "r+b") as file:
         file.truncate(1000)
     text = rendered(tree, {"paper": {"fig6": "no hyperbolic orbit"}}.items())
-    assert "There is no <code>CLAIMS.md</code> that can be read" in text
-    assert "this tree made: lower" in text and '<h2 id="variants"' not in text
+    assert "no readable <code>CLAIMS.md</code>" in text
+    assert "did not make: lower" in text and '<h2 id="variants"' not in text
     damaged = r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc"
     assert re.search(damaged, text) and "<td>approximately 0.235" not in text
     assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
@@ -221,7 +221,7 @@ def test_whole_numbers_have_commas(reported):
     assert "up to 200,000, at" in captions.caption_of("f", exponents).shows
     markup = '<style>.*?</style>|base64,[^"]*|<[^>]*>'
     text = re.sub(markup, " ", rendered(reported), flags=re.DOTALL)
-    text = text.partition("What made each result")[0]
+    text = text.partition("what made each result")[0]
     assert not re.findall(r"(?<![\d.,])\d{5,}(?![\d.,])", text)
 
 

@@ -1,4 +1,4 @@
-"""Text in pictures: nothing clipped, nothing on top of something else, large enough to read."""
+"""Text in pictures is not clipped, does not cover other text, and is large enough to read."""
 
 import pytest
 from legible import assert_text_is_whole_and_apart
@@ -17,14 +17,14 @@ def test_text_is_whole_apart_and_legible_at_a_columns_width(kind):
     assert min(text.get_size() for text in figure.texts) * shrink >= 7
 
 
-def lengths_scaled(data, scale):
-    """The data with every length multiplied, times and exponents as they are."""
+def with_scaled_lengths(data, scale):
+    """Return the data in another unit of length; times and exponents stay."""
     names = {"x", "xdot", "udot", "position", "strain", "impact_position"} & set(data.variables)
-    edges = {"window_x": [0.2101, 0.2116], "window_xdot": [0.0925, 0.0932]}
-    edges = {name: [scale * edge for edge in ends] for name, ends in edges.items()}
-    points = {name: scale * data.attrs[name] for name in data.attrs if name.startswith("point_")}
-    changed = data.assign({name: scale * data[name] for name in names})
-    return changed.assign_attrs(edges | points | {"g": scale * data.attrs["g"]})
+    attributes = {name: scale * data.attrs[name] for name in data.attrs if name.startswith("point")}
+    attributes |= {"g": scale * data.attrs["g"]}
+    attributes |= {"window_x": [scale * 0.2101, scale * 0.2116]}
+    attributes |= {"window_xdot": [scale * 0.0925, scale * 0.0932]}
+    return data.assign({name: scale * data[name] for name in names}).assign_attrs(attributes)
 
 
 @pytest.mark.parametrize("scale", [0.37, 5000.0, *slowly(1.0, 2.0, 0.1)])
@@ -33,15 +33,14 @@ def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
     scene = {key: value for key, value in SCENES[kind].items() if key != "axes"}
     scene |= {"duration": 15.5, "impacts": 200_000}
     scene |= {"ball": {"k": 0.2, "g": scale * 0.04}, "energy": scale * scale * 0.01}
-    data = [lengths_scaled(part, scale) for part in DATA[kind]()]
-    figure = module(kind).draw(scene, *data)
-    assert_text_is_whole_and_apart(figure)
+    data = [with_scaled_lengths(part, scale) for part in DATA[kind]()]
+    assert_text_is_whole_and_apart(module(kind).draw(scene, *data))
 
 
 def test_an_axis_that_a_scene_gives_is_kept():
-    given = {"limits": [0, 8], "ticks": [0, 8]}
-    scene = limits.complete({"axes": {"t": given}}, t=lambda: 1 / 0, x=lambda: "made")
-    assert scene == {"axes": {"t": given, "x": "made"}}
+    own = {"limits": [0, 8], "ticks": [0, 8]}
+    scene = limits.complete({"axes": {"t": own}}, t=lambda: 1 / 0, x=lambda: "made")
+    assert scene == {"axes": {"t": own, "x": "made"}}
 
 
 def test_names_of_exponents_that_coincide_are_moved_apart():
