@@ -165,7 +165,7 @@ def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     shutil.rmtree(tree.path / "results" / "lower")
     text = rendered(tree)
     Outline(text)
-    assert "There is no <code>CLAIMS.json</code> that can be read" in text
+    assert "There is no readable <code>CLAIMS.json</code>" in text
     assert "this tree made: lower" in text and '<h2 id="variants"' not in text
 
 
