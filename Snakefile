@@ -1,7 +1,7 @@
-# The paper's figures. ./reproduce runs this with the options of profiles/default, as a bare snakemake
-# does; what is drawn is in config.yaml, one scene a figure. Data go to
-# results/<variant>/<stage>_<scene>.nc and figures to results/<variant>/figures/; ./reproduce
-# publishes finished ones.
+# The workflow of the paper's figures. ./reproduce runs it with the options of profiles/default, and
+# so does a plain snakemake. config.yaml has one scene for each figure. Data go to
+# results/<variant>/<stage>_<scene>.nc and drawings to results/<variant>/figures/; ./reproduce
+# publishes the drawings.
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -23,4 +23,4 @@ include: "workflow/rules/results.smk"
 rule all:
     default_target: True
     input:
-        [behind[-1] for _, behind in paths.figures(VARIANTS).values()],
+        [upstream[-1] for _, upstream in paths.figures(VARIANTS).values()],

@@ -1,4 +1,4 @@
-"""What turns config.yaml into files, and says whether they are right."""
+"""The workflow: it turns config.yaml into files and checks them."""
 
 import pseudorigid
 

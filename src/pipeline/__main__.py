@@ -1,24 +1,24 @@
-"""`python -m pipeline`, which ./reproduce hands over to."""
+"""Entry point of `python -m pipeline`, which ./reproduce runs."""
 
 import signal
 import sys
 
 if __name__ == "__main__":
-    # Until something is there to tidy up, Ctrl-C ends the process without a traceback.
+    # As long as there is nothing to clean up, Ctrl-C ends the process without a traceback.
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-    from .cli.packages import told_damage
+    from .cli.packages import report_damage
 
     try:
         from .cli.main import main
 
         status = main(sys.argv[1:])
     except Exception:
-        if not told_damage():
+        if not report_damage():
             raise
         status = 1
     else:
         if status not in (0, 130):
-            told_damage()
+            report_damage()
     sys.exit(status)

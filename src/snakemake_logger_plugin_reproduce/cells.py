@@ -1,23 +1,21 @@
-"""How far the sweeps of a run are, by the cells of the blocks that are done."""
+"""Progress of the sweeps of a run, in cells."""
 
 import time
+from typing import Any
 
-PAUSE = 1.0  # seconds between two lines, at least
+from pipeline.records.build_spec import BuildSpec
+
+PAUSE = 1.0  # least number of seconds between two lines
 
 
 class Cells:
-    """The cells of the sweeps of which a run makes blocks.
+    """Count the cells of the sweeps of which a run makes blocks.
 
-    Parameters
-    ----------
-    specs : dict
-        Result -> BuildSpec.
-    outdated : set of str
-        The results that the run makes.
+    `specs` maps results to build specifications, and `outdated` holds the results of the run.
     """
 
-    def __init__(self, specs, outdated):
-        blocks = {path: each for path, each in specs.items() if each.step.startswith("block")}
+    def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
+        blocks = {path: spec for path, spec in specs.items() if spec.step.startswith("block")}
         self.left = {
             path: (len(block.config["cells"]), _impacts(block.config))
             for path, block in blocks.items()
@@ -25,40 +23,34 @@ class Cells:
         }
         scenes = {blocks[path].scene for path in self.left}
         self.total = sum(len(b.config["cells"]) for b in blocks.values() if b.scene in scenes)
-        self.first = None  # the time of the first block, and the cells and impacts left then
-        self.told = -PAUSE
+        self.first: tuple[float, int, int] | None = None  # time, cells and impacts left
+        self.printed = -PAUSE
 
-    def done(self, path):
-        """Take a block as done; the line to print now, or None.
+    def done(self, path: str) -> str | None:
+        """Take a block as done, and return the line to print, if it is time for one.
 
-        The speed is measured from the first block on: before it, jobs may compile the map.
+        Speed is measured from the first block on: before it, jobs may compile the map.
         """
         self.left.pop(path, None)
         now = time.monotonic()
         cells, impacts = (sum(block[i] for block in self.left.values()) for i in range(2))
         since, self.first = self.first, self.first or (now, cells, impacts)
-        if cells and now < self.told + PAUSE:
+        if cells and now < self.printed + PAUSE:
             return None
-        self.told = now
+        self.printed = now
         return line(self.total, (cells, impacts), now, since)
 
 
-def line(total, left, now, first=None):
-    """How far sweeps of `total` cells are.
+def line(
+    total: int,
+    left: tuple[int, int],
+    now: float,
+    first: tuple[float, int, int] | None = None,
+) -> str:
+    """Describe the progress of sweeps of `total` cells.
 
-    Parameters
-    ----------
-    total : int
-    left : (int, int)
-        Cells and impacts that are still to be done.
-    now : float
-        The time in seconds.
-    first : (float, int, int), optional
-        An earlier time, and what was left then.
-
-    Returns
-    -------
-    str
+    `left` counts cells and impacts still to be done, and `first` is an earlier time in seconds with
+    the cells and impacts that were left then.
     """
     text = f"sweep: {total - left[0]:,} of {total:,} cells"
     if first is None:
@@ -72,5 +64,5 @@ def line(total, left, now, first=None):
     return f"{text}, {f'{hours} h {minutes} min' if hours else f'{minutes} min {rest} s'} to go"
 
 
-def _impacts(block):
-    return len(block["cells"]) * block["starts"] * block["impacts"]
+def _impacts(block: dict[str, Any]) -> int:
+    return int(len(block["cells"]) * block["starts"] * block["impacts"])

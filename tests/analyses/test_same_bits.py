@@ -5,13 +5,14 @@ import subprocess
 import sys
 
 import pytest
+from content import content_hash
+from project import ROOT
 
-from pipeline.records.artifacts import content_hash
 from pseudorigid import Ball
 from pseudorigid.analyses.clusters import clusters
 
 SMALL = """
-from pipeline.records.artifacts import content_hash
+from content import content_hash
 from pseudorigid import Ball
 from pseudorigid.analyses import clusters, flux, jumps, last_curve, rotation, spread
 from pseudorigid.sweep import blocks
@@ -32,7 +33,8 @@ for dataset in (
 def hashes(**environment):
     process = subprocess.run(
         [sys.executable, "-c", SMALL],
-        env=os.environ | environment, capture_output=True, text=True, check=True,
+        env=os.environ | {"PYTHONPATH": f"{ROOT}/src:{ROOT}/tests"} | environment,
+        capture_output=True, text=True, check=True,
     )  # fmt: skip
     return process.stdout.split()
 

@@ -8,10 +8,11 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
+from content import content_hash
 from project import ROOT
 
 from pipeline.records import artifacts
-from pipeline.records.artifacts import ArtifactError, content_hash, load, save
+from pipeline.records.artifacts import ArtifactError, load, save
 from pipeline.records.files import FileError
 
 CONFIG = {"starts": [0.5], "ball": {"k": 0.2, "g": 0.04}}

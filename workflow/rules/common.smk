@@ -1,4 +1,4 @@
-# What a run makes, from the checked config, and what the rules ask of it.
+# The plan of a run, and the functions that the rules use.
 import sys
 from pathlib import Path
 
@@ -26,9 +26,9 @@ ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.ite
 
 
 def inputs(result):
-    """Input function: what a result is made from, in this order.
+    """Return an input function for the inputs of a result, in the order of its specification.
 
-    Records say what is current, not times: what need not be made again counts as ancient.
+    Records decide what is outdated, not times: an input that is current counts as ancient.
     """
 
     def files(wildcards):
@@ -42,10 +42,10 @@ def inputs(result):
 
 
 def priority(result):
-    """Priority function: the seconds that a long job takes, or one that needs this result."""
+    """Return a priority function: the seconds of a long job, or of a long job that needs it."""
     return lambda wildcards: PRIORITIES.get(result.format(**wildcards), 0)
 
 
 def any_of(names):
-    """A pattern for these names; it matches nothing where there is none."""
+    """Return a pattern for these names, which matches nothing if there are none."""
     return "|".join(names) or "(?!)"

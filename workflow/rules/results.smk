@@ -1,15 +1,15 @@
-# What makes the results, a rule each: the stages, the kinds of picture, the parts of the study
-# (`./reproduce study`) and those of the sweeps (`./reproduce sweep` and `atlas`).
+# One rule for each stage, each kind of picture, and each part of the study (`./reproduce study`) and
+# of the sweeps (`./reproduce sweep` and `atlas`).
 
 
-# On a cluster only the blocks are worth a job of their own.
+# On a cluster, only the blocks run as jobs of their own.
 localrules:
     sweep_join,
     atlas_draw,
 
 
-# Seconds on one core. The longest jobs begin first, or the last of them would keep one core busy
-# while the others have nothing to do.
+# Seconds on one core. The longest jobs begin first, so that none of them is left over at the end,
+# when the other cores are idle.
 SECONDS = {
     "results/claims/spread_spread.nc": 55,
     "results/claims/rotation_rotation.nc": 10,
@@ -21,14 +21,14 @@ SECONDS = {
     "results/study/orbits.nc": 35,
     "results/study/edges_all.nc": 20,
 }
-# result -> its own seconds, or those of what is made from it.
+# Result -> its seconds, or those of the longest job that needs it.
 PRIORITIES = {
-    needed: seconds
+    dependency: seconds
     for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
     if path in PLAN.specs
-    for needed in build_specs.with_dependencies(PLAN.specs, [path])
+    for dependency in build_specs.with_dependencies(PLAN.specs, [path])
 }
-# rule -> (its result, its scenes)
+# Rule -> (its result, its scenes)
 STUDY = "results/study/{scene}.nc"
 RULES = {
     "study_data": (STUDY, parts.SIDE_BY_SIDE),
@@ -54,7 +54,7 @@ for name, (result, scenes) in RULES.items():
         input:
             inputs(result),
         output:
-            result=update(result),  # kept where the job finds that it is current after all
+            result=update(result),  # not deleted first: the job may find that it is current
             record=update(record_path(result)),
         log:
             log_path(result),

@@ -1,8 +1,8 @@
-"""Have a result made: by the server of jobs if a run has one, else in a Python of its own.
+"""Make a result: ask the job server of the run, or without one, start a new Python.
 
     python -S make.py RESULT
 
-A job begins with this: it imports as little as it can.
+Every job starts with this script, so it imports as little as possible.
 """
 
 import os

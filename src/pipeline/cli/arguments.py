@@ -1,225 +1,247 @@
-"""The words of ./reproduce and their arguments: what --help prints, and what is refused.
+"""The commands of ./reproduce: their arguments, their help, and refusals of mistakes.
 
-It needs nothing but Python 3.6 or newer: before anything is installed `reproduce` asks it too.
+`reproduce` also runs this module before anything is installed, so it needs nothing but Python 3.6,
+and its annotations are strings.
 """
 
 import argparse
-import difflib
 import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any, NoReturn
+
+from ..records.names import suggestion
 
 ROOT = Path(__file__).resolve().parents[3]
-VALID_SO_FAR = 75  # the exit status of `main` where the words are well as far as can be said
+VALID_SO_FAR = 75  # exit status of `main` if no mistake was found without the packages
 USAGE_STATUS = 2
-OTHERS = ("paper", "all")  # names that are not in config.yaml
+NAMES_NOT_IN_CONFIG = ("paper", "all")
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
-
-FIGURES = "figures to draw, by the names in config.yaml; all without a name"
-DATA = "a dataset to judge it by, in the place of that name (as in fig2/orbits)"
-AGAINST = "an archive, or a folder with one unpacked or another tree: compare file by file with it"
 
 
 class Command:
-    """A word: its line in the list, its arguments, and the module in `words` behind it.
+    """A command: its line in the list of commands, its arguments and its module in `commands`.
 
-    `arguments` are (name, arguments of argparse's add_argument) each.
+    Each argument is a name with the keyword arguments of argparse's add_argument.
     """
 
-    passes = False
+    runs_snakemake = False
 
-    def __init__(self, line, *arguments, module=None, more=""):
-        self.line, self.arguments, self.module, self.more = line, arguments, module, more
+    def __init__(
+        self,
+        line: "str",
+        *arguments: "tuple[str, dict[str, Any]]",
+        module: "str | None" = None,
+        details: "str" = "",
+    ) -> None:
+        self.line, self.arguments, self.module = line, arguments, module
+        self.details = details
 
 
 class SnakemakeCommand(Command):
-    """One that runs snakemake: options that it does not know go there, after its names."""
+    """A command that runs snakemake, which gets the options that the command does not know."""
 
-    passes = True
+    runs_snakemake = True
 
 
-def _any(name, text):
+def _names(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":
     return name, {"nargs": "*", "help": text}
 
 
-def _one(name, text, metavar=None):
+def _name(name: "str", text: "str", metavar: "str | None" = None) -> "tuple[str, dict[str, Any]]":
     return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
 
 
-# Arguments that must be given. argparse would only say that one is missing: the word itself
-# refuses, and says which names there are.
-REQUIRED = ("variant", "a", "b")
-
-
-def _switch(name, text):
+def _switch(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":
     return name, {"action": "store_true", "help": text}
 
 
-_SWEPT = (
-    _any("sweep", "sweeps of config.yaml; all without a name"),
-    _switch("--slurm", "hand blocks of cells to Slurm, as profiles/slurm says"),
+# Required arguments that argparse treats as optional: without one, the command itself lists the
+# possible names.
+REQUIRED = ("variant", "a", "b")
+_FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
+_SWEEPS = (
+    _names("sweep", "sweeps of config.yaml; without a name, all"),
+    _switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
 )
 COMMANDS = {
-    "list": Command("every figure, chart and dataset that there can be, and the state of its file"),
+    "list": Command("every figure, chart and dataset that can be made, and the state of its file"),
     "variant": SnakemakeCommand(
-        "the figures of a variant of config.yaml, into results/NAME/figures/",
-        _one("variant", "a variant of config.yaml", "NAME"),
-        _any("figure", FIGURES),
+        "make the figures of a variant of config.yaml, in results/NAME/figures/",
+        _name("variant", "a variant of config.yaml", "NAME"),
+        _names("figure", _FIGURES),
     ),
     "compare": SnakemakeCommand(
-        "what differs between two variants, figure by figure",
-        _one("a", "a variant of config.yaml, or paper"),
-        _one("b", "another one"),
-        _any("figure", "figures to compare, by the names in config.yaml; all without a name"),
-        _switch("--all", "a line for each variable and each orbit that differs"),
+        "show what differs between two variants, figure by figure",
+        _name("a", "a variant of config.yaml, or paper"),
+        _name("b", "another one"),
+        _names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
+        _switch("--all", "print a line for each variable and each orbit that differs"),
     ),
-    "sweep": SnakemakeCommand("grids over k and E/g^2, into results/sweep/", *_SWEPT),
-    "atlas": SnakemakeCommand("their pictures, into more_figures/atlas/", *_SWEPT, module="sweep"),
+    "sweep": SnakemakeCommand("compute grids over k and E/g^2, in results/sweep/", *_SWEEPS),
+    "atlas": SnakemakeCommand("draw these grids, in more_figures/atlas/", *_SWEEPS, module="sweep"),
     "study": SnakemakeCommand(
-        "speed and accuracy against other methods, into more_figures/study/",
-        more=" Installs the packages of its rivals first (once).",
+        "compare speed and accuracy with other methods, in more_figures/study/",
+        details=" Installs the packages of the other methods first (once).",
     ),
     "claims": SnakemakeCommand(
-        "every statement of the paper, checked: CLAIMS.md, more_figures/claims/",
-        ("--check", {"type": int, "metavar": "ID", "help": "judge one claim alone"}),
-        ("--data", {"metavar": "[NAME=]FILE", "help": DATA}),
-        more=" What is missing is made first, the sweeps too.",
+        "check every statement of the paper: CLAIMS.md, more_figures/claims/",
+        ("--check", {"type": int, "metavar": "ID", "help": "judge one claim only"}),
+        (
+            "--data",
+            {
+                "metavar": "[NAME=]FILE",
+                "help": "judge it by this file instead of the dataset NAME (such as fig2/orbits)",
+            },
+        ),
+        details=" Makes missing results first, including the sweeps.",
     ),
     "prove": Command(
-        "the theorems, each checked from its certificate",
-        _any("theorem", "theorems; all without a name"),
-        _switch("--search", "make the certificates anew first"),
+        "check the theorems from their certificates",
+        _names("theorem", "theorems; without a name, all"),
+        _switch("--search", "search for new certificates first"),
         _switch("--impacts", "prove the impacts behind the figures instead"),
-        _switch("--pictures", "draw the pictures, into more_figures/proofs/"),
-        more=" Exit status 1 where one is not proved.",
+        _switch("--pictures", "draw the pictures, in more_figures/proofs/"),
+        details=" The exit status is 1 if one is not proved.",
     ),
     "report": SnakemakeCommand(
-        "one HTML page: figures, numbers beside the paper's, corrections, run times"
+        "write one HTML page: figures, numbers beside the paper's, corrections, run times"
     ),
     "archive": Command(
-        "one tar with figures, data and what they were made from",
+        "write one tar with the figures, the data and what they were made from",
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
-        more=" It is the same to the byte wherever its files are. Everything must be made.",
+        details=" The same results give the same bytes. All results must be current.",
     ),
     "verify": Command(
-        "whether everything here is as committed, and if not, what differs",
-        ("--against", {"metavar": "PLACE", "help": AGAINST}),
-        _switch("--strict", "exit 1 for notes too"),
-        more=" The layers are config, source, environment, data, drawing, file. Exit status 1 for "
-        "other bytes and for results that this tree did not make; other differences are notes.",
+        "check whether everything is as committed, and if not, show what differs",
+        (
+            "--against",
+            {
+                "metavar": "PLACE",
+                "help": "compare file by file with an archive, or with a folder that holds an "
+                "unpacked archive or another tree",
+            },
+        ),
+        _switch("--strict", "exit with status 1 for notes too"),
+        details=" The layers are config, source, environment, data, drawing and file. The exit "
+        "status is 1 for other bytes and for results that this tree did not make; other "
+        "differences are notes.",
     ),
     "accept": Command(
-        "makes the figures as they are now the committed ones",
-        more=" The study's charts too where they were made, and so on; it says what changed.",
+        "make the present figures the committed ones",
+        details=" Includes other published pictures that were made, and prints what changed.",
     ),
     "clean": Command(
-        "deletes results that were made; committed files stay",
-        _any("folder", "variants, or other folders of results/; all without a name"),
+        "delete generated results; committed files stay",
+        _names("folder", "variants, or other folders of results/; without a name, all"),
         _switch("--yes", "do not ask"),
     ),
     "benchmark": Command(
-        "one table of ratios of speed, measured now",
-        more=" Installs the packages of the study's rivals first (once).",
+        "measure speeds and print a table of their ratios",
+        details=" Installs the packages of the study first (once).",
     ),
     "test": Command(
-        "the test suite (arguments go to pytest)",
-        more=" Installs the packages of the tests first (once).",
+        "run the test suite (arguments go to pytest)",
+        details=" Installs the packages of the tests first (once).",
     ),
-    "help": Command("this list, or the arguments of a WORD", _one("word", "one of these words")),
+    "help": Command(
+        "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")
+    ),
 }
 DEFAULT_COMMAND = SnakemakeCommand(
-    "Draw the paper's figures from config.yaml, those that are not current, into paper_figures/.",
-    _any("figure", f"{FIGURES}; also files, such as results/paper/orbits_fig2.nc"),
+    "Draw the paper's figures from config.yaml into paper_figures/, unless they are current.",
+    _names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
     _switch("--version", "print the versions of this project and of snakemake"),
 )
-SETTINGS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
-OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
-SNAKEMAKE = "What follows from the first other option on goes to snakemake: --cores 2, -n, --dag."
+_CONFIG_OPTIONS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
+_OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
+_SNAKEMAKE = "Other options, and what follows them, go to snakemake: --cores 2, -n, --dag."
 
 
 class Arguments(argparse.Namespace):
-    """A command line: names and flags of its `word` (None where there is none), and `options`.
+    """A parsed command line: the names and flags of its `word`, None for the default command.
 
-    These are for snakemake or pytest.
+    `options` are the arguments for snakemake or pytest.
     """
 
     @property
-    def checked(self):
+    def checked(self) -> "dict[str, Any]":
         """The checked config.yaml."""
         if "config" not in self:
-            from ..config import load  # not before packages are there
+            from ..config import load  # needs packages
 
             self.config = load(ROOT / "config.yaml")
         return self.config
 
 
 class _Parser(argparse.ArgumentParser):
-    """One that refuses in one line."""
+    """A parser that reports a mistake in one line."""
 
-    def error(self, message):
-        message = explained(self, message)
-        refuse(message[0].lower() + message[1:], self.prog)
+    def error(self, message: "str") -> "NoReturn":
+        message = explain(self, message)
+        _refuse(message[0].lower() + message[1:], self.prog)
 
 
-def read(arguments):
-    """What a command line asks for; help and mistakes end in SystemExit."""
+def read(arguments: "list[str]") -> "Arguments":
+    """Parse a command line; raises SystemExit after help and after a mistake."""
     first, *rest = arguments or [""]
     word = first if first in COMMANDS else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
-    own, options = _split(COMMANDS.get(word, DEFAULT_COMMAND), rest if word else arguments)
+    own, options = _split(COMMANDS.get(word or "", DEFAULT_COMMAND), rest if word else arguments)
     if not word and {"-h", "--help"} & set(own):
         _refuse_unknown("figure", [name for name in own if not name.startswith("-")])
-    given = _parser(word).parse_args(own, Arguments())
+    args = _parser(word).parse_args(own, Arguments())
     if word == "help":
-        if given.word not in (None, *COMMANDS):
-            refuse(f"no word {given.word}{hint(given.word, COMMANDS)}")
-        return read(["--help"] if given.word is None else [given.word, "--help"])
-    if not word and given.version:
+        if args.word not in (None, *COMMANDS):
+            _refuse(f"no command {args.word}{hint(args.word, COMMANDS)}")
+        return read(["--help"] if args.word is None else [args.word, "--help"])
+    if not word and args.version:
         print(_versions())
         sys.exit(0)
-    if any(option.partition("=")[0] == "--offline" for option in options):
-        refuse("--offline DIR comes first: ./reproduce --offline DIR ...")
-    if any(option.partition("=")[0] in SETTINGS for option in options):
-        refuse("--config and --configfile are not used here: edit config.yaml")
-    given.word, given.options = word, options
-    return given
+    names = [option.partition("=")[0] for option in options]
+    if "--offline" in names:
+        _refuse("--offline DIR comes first: ./reproduce --offline DIR ...")
+    if set(names) & set(_CONFIG_OPTIONS):
+        _refuse("--config and --configfile are not used here: edit config.yaml")
+    args.word, args.options = word, options
+    return args
 
 
-def main(arguments):
-    """Answer what needs no packages; else the exit status GO_ON.
+def main(arguments: "list[str]") -> "int":
+    """Answer what needs no packages, otherwise return VALID_SO_FAR.
 
-    Names are looked for in the text of config.yaml: what is nowhere in it cannot be one. Theorems
-    are called as their certificates.
+    A name that occurs nowhere in the text of config.yaml is refused.
     """
-    given = read(arguments)
+    args = read(arguments)
     for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
-        names = getattr(given, argument, None) or []
-        _refuse_unknown(argument, [names] if isinstance(names, str) else names, given.word)
+        names = getattr(args, argument, None) or []
+        _refuse_unknown(argument, [names] if isinstance(names, str) else names, args.word)
     return VALID_SO_FAR
 
 
-def _refuse_unknown(argument, names, word=None):
-    """Refuse the first name that is nowhere in config.yaml's text and so cannot be meant."""
+def _refuse_unknown(argument: "str", names: "list[str]", word: "str | None" = None) -> "None":
+    """Refuse the first name that does not occur in config.yaml, or is no theorem for `prove`."""
     config = ROOT / "config.yaml"
-    if not config.is_file():  # reading a FIFO would wait for ever
+    if not config.is_file():  # reading a FIFO could wait for ever
         return
     try:
         text = config.read_text(encoding="utf-8", errors="replace")
-    except OSError:  # which is said when it is read in earnest
+    except OSError:  # reported when the config is loaded
         return
     words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    known, near = [*words, *OTHERS], keys if word else [*keys, *COMMANDS]
+    known, near = [*words, *NAMES_NOT_IN_CONFIG], keys if word else [*keys, *COMMANDS]
     if word == "prove":
         known = near = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
-    kinds = {"a": "variant", "b": "variant", "figure": "figure" if word else "word or figure"}
+    kinds = {"a": "variant", "b": "variant", "figure": "figure" if word else "command or figure"}
     for name in names:
         if "/" not in name and name not in known:
-            refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
+            _refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
 
 
-def explained(parser, message):
-    """What a parser finds wrong; of an unknown argument, which was meant."""
+def explain(parser: "argparse.ArgumentParser", message: "str") -> "str":
+    """Return a parser's message, with suggestions if it is about an unknown argument."""
     unknown = message.partition("unrecognized arguments: ")[2]
     if not unknown:
         return message
@@ -230,70 +252,63 @@ def explained(parser, message):
     return f"no argument {first}{hint(first, known)}"
 
 
-def hint(name, known):
-    """The end of a line about an unknown name: the nearest names, where some are near."""
-    near = difflib.get_close_matches(str(name), list(dict.fromkeys(known)), 20, 0.6)
-    if not near:
-        return ""
-
-    def ratio(other):
-        return difflib.SequenceMatcher(None, other, str(name)).ratio()
-
-    best = sorted(other for other in near if ratio(other) == ratio(near[0]))
-    return f": did you mean {' or '.join(filter(None, [', '.join(best[:-1]), best[-1]]))}?"
+def hint(name: "str", known: "Iterable[str]") -> "str":
+    """End of a message about an unknown name: the nearest known names, if there are any."""
+    question = suggestion(name, known)
+    return f": {question}" if question else ""
 
 
-def refuse(message, program="./reproduce"):
-    """End with one line about what was typed."""
+def _refuse(message: "str", program: "str" = "./reproduce") -> "NoReturn":
     print(f"{program.replace('./', '', 1)}: {message}", file=sys.stderr)
     sys.exit(USAGE_STATUS)
 
 
-def _split(word, arguments):
-    """(names and flags of its own, what goes on to snakemake)."""
-    if not word.passes:
+def _split(command: "Command", arguments: "list[str]") -> "tuple[list[str], list[str]]":
+    """Separate a command's own names and flags from the options for snakemake."""
+    if not command.runs_snakemake:
         return arguments, []
-    # Flag -> how many arguments it takes.
-    takes = {name: int("action" not in how) for name, how in word.arguments if name[0] == "-"}
-    takes.update({"-h": 0, "--help": 0, "--version": 0})
-    own, rest = [], list(arguments)
+    # Flag -> number of arguments that it takes.
+    sizes = {name: int("action" not in how) for name, how in command.arguments if name[0] == "-"}
+    sizes.update({"-h": 0, "--help": 0, "--version": 0})
+    own, options, rest = [], [], list(arguments)  # type: list[str], list[str], list[str]
     while rest and not rest[0].startswith("-"):
         own.append(rest.pop(0))
-    options = []
     while rest:
-        name, given, _ = rest[0].partition("=")
-        size = 1 if given else 1 + takes.get(name, 0)
-        (own if name in takes else options).extend(rest[:size])
+        name, equals, _ = rest[0].partition("=")
+        size = 1 if equals else 1 + sizes.get(name, 0)
+        (own if name in sizes else options).extend(rest[:size])
         del rest[:size]
     return own, options
 
 
-def _parser(name):
-    word = COMMANDS.get(name, DEFAULT_COMMAND)
+def _parser(name: "str | None") -> "_Parser":
+    command = COMMANDS.get(name or "", DEFAULT_COMMAND)
     if name:
-        line = f"{word.line[0].upper()}{word.line[1:]}.{word.more}"
+        line = f"{command.line[0].upper()}{command.line[1:]}.{command.details}"
         parser = _Parser(f"./reproduce {name}", description=line, allow_abbrev=False)
-        parser.epilog = SNAKEMAKE if word.passes else None
+        parser.epilog = _SNAKEMAKE if command.runs_snakemake else None
     else:
-        as_it_stands = argparse.RawDescriptionHelpFormatter
-        parser = _Parser("./reproduce", formatter_class=as_it_stands, allow_abbrev=False)
-        parser.description = word.line
+        unchanged = argparse.RawDescriptionHelpFormatter
+        parser = _Parser("./reproduce", formatter_class=unchanged, allow_abbrev=False)
+        parser.description = command.line
         width = max(map(len, COMMANDS))
         lines = [f"  {word:{width}}  {COMMANDS[word].line}" for word in COMMANDS]
-        more = "./reproduce WORD --help has a word's arguments."
-        parser.epilog = "\n".join(["words:", *lines, "", more, OFFLINE, SNAKEMAKE])
-    for key, how in word.arguments:
+        details = "./reproduce COMMAND --help shows a command's arguments."
+        parser.epilog = "\n".join(["commands:", *lines, "", details, _OFFLINE, _SNAKEMAKE])
+    for key, how in command.arguments:
         parser.add_argument(key, **how)
     usage = parser.format_usage().partition(": ")[2].strip()
-    for metavar in [how["metavar"] for key, how in word.arguments if key in REQUIRED]:
-        usage = usage.replace(f"[{metavar}]", metavar)
+    for metavar in [how["metavar"] for key, how in command.arguments if key in REQUIRED]:
+        usage = usage.replace(f"[{metavar}]", str(metavar))
     parser.usage = usage
     return parser
 
 
-def _versions():
-    def found(pattern, file):
-        return re.search(pattern, (ROOT / file).read_text(encoding="utf-8"), re.MULTILINE)[1]
+def _versions() -> "str":
+    def search(pattern: "str", file: "str") -> "str":
+        text = (ROOT / file).read_text(encoding="utf-8")
+        return str(re.findall(pattern, text, re.MULTILINE)[0])
 
-    ours = found(r'^version = "(.+)"', "pyproject.toml")
-    return f"pseudorigid {ours}, snakemake {found('^snakemake==([^ ;]+)', 'requirements/lock.txt')}"
+    ours = search(r'^version = "(.+)"', "pyproject.toml")
+    snakemake = search("^snakemake==([^ ;]+)", "requirements/lock.txt")
+    return f"pseudorigid {ours}, snakemake {snakemake}"

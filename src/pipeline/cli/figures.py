@@ -1,8 +1,10 @@
-"""The figures of the paper or of a variant: what is missing of them is made, then published."""
+"""Make the figures of a variant, publish them, and print what became of each."""
 
 import filecmp
 import shutil
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import PurePath
+from typing import Any
 
 from ..checks.checksums import unlisted_files
 from ..checks.freshness import MISSING, Freshness
@@ -17,10 +19,18 @@ from .progress import states
 from .session import CommandLineError
 
 
-def make(checked, variant, options, named=None, others=(), brief=False, before=None) -> int:
-    """Make the figures of a variant, or some of its files, and say what became of them.
+def make(
+    checked: dict[str, Any],
+    variant: str,
+    options: list[str],
+    files: list[str] | None = None,
+    others: Iterable[str] = (),
+    brief: bool = False,
+    before: dict[str, int | None] | None = None,
+) -> int:
+    """Make and publish figures, print a table of them, and return the exit status.
 
-    A figure whose periodic orbit does not exist is left out, and the rest is made.
+    A figure whose periodic orbit does not exist is left out, and the others are made.
 
     Parameters
     ----------
@@ -30,75 +40,75 @@ def make(checked, variant, options, named=None, others=(), brief=False, before=N
         A variant, or another set of scenes.
     options : list of str
         Options for snakemake.
-    named : list of str, optional
-        Those of its files, as published, that are meant.
-    others : list of str
+    files : list of str, optional
+        The published files to make, by default all of the variant.
+    others : iterable of str
         Further results to make.
     brief : bool
-        Whether files that were current already are left out of the table.
+        Whether the table leaves out files that were current already.
     before : dict, optional
-        Drawing -> its `identity` when the command began, where it may have been made since.
-
-    Returns
-    -------
-    int
-        The exit status.
+        The `identity` of each drawing when the command began; by default, now.
     """
     variants = checked["variants"]
     figures = paths.figures(variants, variant)
-    wanted = {path: figures[path] for path in (figures if named is None else named)}
+    # File -> (its scene, the results that it is made from, its drawing last).
+    wanted = {path: figures[path] for path in (figures if files is None else files)}
     wanted |= {path: ("", [path]) for path in others}
-    results = build_specs.of_variants(variants)
-    if set(others) - set(results):
-        results = build_specs.of_all(checked)
-    # File, as published -> its drawing.
-    made = {path: behind[-1] for path, (_, behind) in wanted.items()}
-    before = before or {drawing: identity(drawing) for drawing in made.values()}
-    freshness = Freshness(ROOT, results)
-    hidden = [*_hidden(variants[variant], [scene for scene, _ in wanted.values()])]
-    status = running.make(checked, freshness, made.values(), options)
+    specs = build_specs.of_variants(variants)
+    if set(others) - set(specs):
+        specs = build_specs.of_all(checked)
+    drawings = {path: upstream[-1] for path, (_, upstream) in wanted.items()}
+    before = before or {drawing: identity(drawing) for drawing in drawings.values()}
+    notes = [*_hidden(variants[variant], [scene for scene, _ in wanted.values()])]
+    status = running.make(checked, Freshness(ROOT, specs), drawings.values(), options)
     if running.is_dry_run(options) or status == running.INTERRUPTED:
-        print(*hidden, sep="\n", end="\n" * bool(hidden))
+        print(*notes, sep="\n", end="\n" * bool(notes))
         return status
-    freshness = Freshness(ROOT, results)
+    freshness = Freshness(ROOT, specs)
     outdated, absent = freshness.outdated(before), known_absent(freshness, variants, variant)
-    missing = {scene for path, (scene, _) in wanted.items() if made[path] in outdated}
+    missing = {scene for path, (scene, _) in wanted.items() if drawings[path] in outdated}
     if missing and missing <= set(absent):
         status = 0
     rows = {}
-    for path, (scene, behind) in wanted.items():
-        rows[path] = scene, "recomputed"
-        if made[path] in outdated:
-            why = next(filter(None, map(failure, behind)), None)
-            stale = outdated[made[path]]  # what was made may be stale by now: its source was edited
-            failed = "not made" if stale == MISSING else f"not current: {stale}"
-            failed = f"not made: {why}" if why else failed
-            rows[path] = scene, f"cannot exist: {absent[scene]}" if scene in absent else failed
-        elif identity(made[path]) == before[made[path]]:
-            rows[path] = scene, "current"
-    for path, (scene, _) in wanted.items():
-        if scene in absent:  # an older one would be taken for it
-            for old in (made[path], record_path(made[path])):
+    for path, (scene, upstream) in wanted.items():
+        drawing, state = drawings[path], "recomputed"
+        if scene in absent:
+            state = f"cannot exist: {absent[scene]}"
+            for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
                 (ROOT / old).unlink(missing_ok=True)
-    good = {path: drawing for path, drawing in made.items() if drawing not in outdated}
-    for path, why in publish(good).items():
-        rows[path], status = (rows[path][0], f"not published: {why}"), status or 1
-    more = [*hidden, *_missed_impacts(variants, variant, {wanted[path][0] for path in good})]
-    if variant in paths.PUBLISHED:
-        folder = paths.PUBLISHED[variant]
-        more += unlisted_files(ROOT, folder, [PurePath(path).name for path in figures])
+        elif drawing in outdated:
+            state = _failed(upstream, outdated[drawing])
+        elif identity(drawing) == before[drawing]:
+            state = "current"
+        rows[path] = scene, state
+    good = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
+    for path, reason in _publish(good).items():
+        rows[path], status = (rows[path][0], f"not published: {reason}"), status or 1
+    notes += _missed_impacts(variants, variant, {wanted[path][0] for path in good})
+    folder = paths.PUBLISHED.get(variant)
+    if folder:
+        notes += unlisted_files(ROOT, folder, [PurePath(path).name for path in figures])
     shown = {path: row for path, row in rows.items() if not (brief and row[1] == "current")}
     if shown:
-        table(paths.PUBLISHED.get(variant), shown, more)
-    if variant in paths.PUBLISHED and any(scene in absent for scene, _ in wanted.values()):
+        _print_table(folder, shown, notes)
+    if folder and any(scene in absent for scene, _ in wanted.values()):
         return status or 1
     return status
 
 
-def table(folder, rows, more=()) -> None:
-    """Print the files of a run, one a line, and how those published in `folder` are committed.
+def _failed(upstream: list[str], reason: str) -> str:
+    """State of a file whose drawing is outdated after the run, for instance by an edit."""
+    if failures := [*filter(None, map(failure, upstream))]:
+        return f"not made: {failures[0]}"
+    return "not made" if reason == MISSING else f"not current: {reason}"
 
-    `rows` is file -> (scene, what became of it); `more` are lines after them.
+
+def _print_table(
+    folder: str | None, rows: Mapping[str, tuple[str, str]], notes: Iterable[str] = ()
+) -> None:
+    """Print a line for each file of `rows`, which maps it to its scene and state, then notes.
+
+    Files that are published in `folder` are compared with the committed ones.
     """
     as_committed = states.committed(folder, rows) if folder else {}
     lines = [("figure", "file", "size", "state", "as committed" if as_committed else "")]
@@ -106,39 +116,38 @@ def table(folder, rows, more=()) -> None:
         made = state in ("current", "recomputed")
         size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
         lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
-    print("", *columns(lines), *more, sep="\n")
+    print("", *columns(lines), *notes, sep="\n")
 
 
-def made(folder, files, before) -> int:
-    """Publish drawings and print a line for each; 1 where one cannot be published.
+def publish_and_report(folder: str, files: dict[str, str], before: Mapping[str, int | None]) -> int:
+    """Publish drawings, print a table of them, and return 1 if one could not be published.
 
-    `files` is file, as published -> drawing; `before` is drawing -> its `identity` before the run.
+    `files` maps published files to drawings, and `before` maps drawings to their `identity` before
+    the run.
     """
-    problems = publish(files)
-    rows = {
-        path: (PurePath(path).stem, "current" if identity(file) == before[file] else "recomputed")
-        for path, file in files.items()
-    }
-    rows |= {path: (rows[path][0], f"not published: {why}") for path, why in problems.items()}
-    table(folder, rows)
+    problems = _publish(files)
+    rows = {}
+    for path, file in files.items():
+        state = "current" if identity(file) == before[file] else "recomputed"
+        if path in problems:
+            state = f"not published: {problems[path]}"
+        rows[path] = PurePath(path).stem, state
+    _print_table(folder, rows)
     return int(bool(problems))
 
 
-def of_scenes(checked, variant, names) -> list[str] | None:
-    """The files of these scenes of a variant, as published; None for all where none is named."""
+def of_scenes(checked: dict[str, Any], variant: str, names: list[str]) -> list[str] | None:
+    """Return the published files of these scenes of a variant, None (for all) without names."""
     scenes = checked["variants"][variant]
     for name in names:
         if name not in scenes:
             raise CommandLineError(unknown("figure", name, list(scenes)))
-    found = paths.figures(checked["variants"], variant)
-    return [path for path, (scene, _) in found.items() if scene in names] if names else None
+    figures = paths.figures(checked["variants"], variant)
+    return [path for path, (scene, _) in figures.items() if scene in names] if names else None
 
 
-def publish(drawings) -> dict[str, str]:
-    """Copy each finished drawing to where users look for it, in one step, where it is another.
-
-    Returns published file -> why it could not be, for each that could not.
-    """
+def _publish(drawings: dict[str, str]) -> dict[str, str]:
+    """Copy drawings to their published files where these differ; return the files that failed."""
     problems = {}
     for path, drawing in drawings.items():
         published = ROOT / path
@@ -153,36 +162,36 @@ def publish(drawings) -> dict[str, str]:
     return problems
 
 
-def known_absent(freshness, variants, variant) -> dict[str, str]:
-    """Scene -> why its figure cannot exist, as far as the jobs of a variant have found."""
-    found = {
-        scene: freshness.refusal(behind[-1])
-        for scene, behind in paths.figures(variants, variant).values()
+def known_absent(freshness: Freshness, variants: dict[str, Any], variant: str) -> dict[str, str]:
+    """Map scenes whose figures cannot exist, as far as jobs found out, to the reasons."""
+    reasons = {
+        scene: freshness.refusal(upstream[-1])
+        for scene, upstream in paths.figures(variants, variant).values()
     }
-    return {scene: why for scene, why in found.items() if why}
+    return {scene: reason for scene, reason in reasons.items() if reason}
 
 
-def _hidden(blocks, scenes):
-    """A line for each field of these scenes that asks for more than its axes show."""
+def _hidden(blocks: dict[str, Any], scenes: list[str]) -> Iterator[str]:
+    """Yield a line for each field of these scenes that asks for more than the axes show."""
     for scene in dict.fromkeys(filter(None, scenes)):
         kind = KINDS[blocks[scene]["picture"]]
         yield from (f"{scene}: {line}" for line in kind.hidden(blocks[scene]))
 
 
-def _missed_impacts(variants, variant, scenes):
-    """Of each of these scenes with a `method`: what it did, one line a scene."""
+def _missed_impacts(variants: dict[str, Any], variant: str, scenes: set[str]) -> Iterator[str]:
+    """Yield a line for each of these scenes with a `method`: what it computed or missed."""
     artifact_paths = paths.artifact_paths(variants)
     for scene, block in variants[variant].items():
         method, stages = block.get("method", {}), paths.stages(block)
         if scene in scenes and "exact" in method:
             exact = "orbits of their exact starts"
-            how = exact if "orbits" in stages else "no stage with an exact method"
-            yield f"{scene}: {how}; other stages as in doubles"
+            computed = exact if "orbits" in stages else "no stage with an exact method"
+            yield f"{scene}: {computed}; other stages as in doubles"
         elif scene in scenes and method:
-            from ..records.artifacts import load  # takes a while
+            from ..records.artifacts import load  # takes long to import
 
             names = [stage for stage in stages if "method" in stages[stage]]
-            found = [load(ROOT / artifact_paths[variant, scene, stage]).attrs for stage in names]
-            missed, impacts = (sum(a[n] for a in found) for n in ("impacts_missed", "impacts"))
-            how = ", ".join(f"{key} {value:g}" for key, value in method.items())
-            yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({how})"
+            counts = [load(ROOT / artifact_paths[variant, scene, stage]).attrs for stage in names]
+            missed, impacts = (sum(c[n] for c in counts) for n in ("impacts_missed", "impacts"))
+            values = ", ".join(f"{key} {value:g}" for key, value in method.items())
+            yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({values})"

@@ -1,4 +1,4 @@
-"""The command line: a word and its arguments, or the names of figures."""
+"""Run a command of ./reproduce."""
 
 import importlib
 import os
@@ -9,9 +9,9 @@ from . import arguments
 
 
 def main(words: list[str]) -> int:
-    """Run one word, or make figures; the exit status."""
+    """Run the command that the words name, by default `figures`, and return the exit status."""
     args = arguments.read(words)
-    # What takes a while to import comes after what may be wrong with the words.
+    # These imports take long: mistakes in the words are reported first.
     from ..config import ConfigError
     from ..records.files import FileError
     from ..records.record import ChangedError
@@ -21,18 +21,17 @@ def main(words: list[str]) -> int:
     args.start = Path.cwd()
     os.chdir(ROOT)
     set_environment()
-    word = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
+    command = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
+    name = command.module or args.word or "figures"
     try:
-        module = importlib.import_module(
-            f".commands.{word.module or args.word or 'figures'}", __package__
-        )
-        return module.run(args)
+        module = importlib.import_module(f".commands.{name}", __package__)
+        return int(module.run(args))
     except ConfigError as error:
         print(error, file=sys.stderr)
     except (UsageError, FileError, ChangedError) as error:
         print_error(str(error))
         return getattr(error, "status", 1)
-    except BrokenPipeError:  # of a reader that has seen enough, as `| head` does
+    except BrokenPipeError:  # the reader has ended, for instance `| head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
         return 130

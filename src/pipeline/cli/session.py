@@ -1,10 +1,12 @@
-"""This folder: one run at a time, what Ctrl-C does, and how lines reach the user."""
+"""The lock of this folder, interrupts, error messages and environment of a run."""
 
 import fcntl
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from types import FrameType
 
 from ..jobs.server import ADDRESS
 from ..records.record import require_loaded_unchanged
@@ -12,34 +14,35 @@ from ..records.sources import ROOT
 
 
 class UsageError(Exception):
-    """One line for the user, and the end of the run with this exit status."""
+    """One line for the user, which ends the run with the exit status `status`."""
 
     status = 1
 
 
 class CommandLineError(UsageError):
-    """The same about what was typed."""
+    """One line about a mistake in the command line."""
 
     status = 2
 
 
 @contextmanager
-def one_line(about="", kind=ValueError):
-    """An error that is written for the user as the end of the run; `about` stands before."""
+def one_line(prefix: str = "", kind: type[Exception] = ValueError) -> Iterator[None]:
+    """Turn an error of this kind, whose message is for users, into a UsageError."""
     try:
         yield
     except kind as error:
-        raise UsageError(about + str(error).replace(f"{ROOT}/", "")) from None
+        raise UsageError(prefix + str(error).replace(f"{ROOT}/", "")) from None
 
 
 @contextmanager
-def locked():
-    """Hold the lock of this folder; UsageError where another run has it. Death releases it.
+def locked() -> Iterator[None]:
+    """Hold the lock of this folder, which the system releases if the process dies.
 
-    ChangedError at the end where config.yaml or a module that was loaded has changed.
+    Raises UsageError if another run holds it, and ChangedError at the end if config.yaml or a
+    loaded module has changed.
     """
     try:
-        # Nothing is written into it: a FIFO or a link to another file does no harm.
+        # Nothing is written to the lock: a FIFO or a link to another file does no harm.
         lock = os.fdopen(
             os.open(ROOT / ".lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
         )
@@ -55,8 +58,8 @@ def locked():
         require_loaded_unchanged()
 
 
-def end_jobs() -> None:
-    """Kill every process that this one started: results appear whole or not at all."""
+def _end_jobs() -> None:
+    """Kill every process that this one started; results are written whole or not at all."""
     import psutil
 
     for process in psutil.Process().children(recursive=True):
@@ -65,22 +68,22 @@ def end_jobs() -> None:
 
 
 @contextmanager
-def interruptible(end=True):
-    """Ctrl-C, SIGTERM or SIGHUP raises KeyboardInterrupt in here and ends the jobs.
+def interruptible(end: bool = True) -> Iterator[list[int]]:
+    """Raise KeyboardInterrupt in the body on Ctrl-C, SIGTERM or SIGHUP, and end the jobs.
 
-    They end at once, or without `end` when the body has ended. Yields a list that then holds the
-    signal's number.
+    Jobs end at once, or without `end` after the body. Yields a list that gets the signal's number.
     """
-    caught, numbers = [], [signal.SIGINT, signal.SIGTERM]
-    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup
+    caught: list[int] = []
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # which nohup sets
         numbers.append(signal.SIGHUP)
 
-    def stop(number, frame):
+    def stop(number: int, frame: FrameType | None) -> None:
         caught.append(number)
         for each in numbers:
-            signal.signal(each, signal.SIG_IGN)  # once is enough
+            signal.signal(each, signal.SIG_IGN)
         if end:
-            end_jobs()
+            _end_jobs()
         raise KeyboardInterrupt
 
     before = {number: signal.signal(number, stop) for number in numbers}
@@ -88,32 +91,31 @@ def interruptible(end=True):
         yield caught
     finally:
         if caught:
-            end_jobs()  # those that began meanwhile
+            _end_jobs()  # also jobs that have started since
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 def print_error(*lines: str) -> None:
-    """Lines for the user, on stderr."""
-    sys.stdout.flush()  # what was printed before stands before, also in a pipe
+    """Print lines for the user to stderr."""
+    sys.stdout.flush()  # keeps the order of lines if both streams go to one pipe
     for line in lines:
         print(f"reproduce: {line}", file=sys.stderr, flush=True)
 
 
-NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
+_NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
 
 
 def set_environment() -> None:
-    """Set the tree's own packages, wherever the folder was moved, and caches beside them.
+    """Select this tree's packages and caches, and drop settings of snakemake and numba.
 
-    Settings of snakemake and numba that a user's shell may have do not reach a run, apart from
-    those that say for which processor numba compiles, whether it does, and where it keeps that.
+    Settings stay that say whether numba compiles, for which processor, and where it keeps the code.
     """
     caches = ROOT / ".venv" / "cache"
     for name in [name for name in os.environ if name.startswith(("SNAKEMAKE_", "NUMBA_"))]:
-        if name not in NUMBA_SETTINGS:
+        if name not in _NUMBA_SETTINGS:
             del os.environ[name]
     os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
-    for name in ("MPLBACKEND", ADDRESS):  # nothing here opens a window; each run has its server
+    for name in ("MPLBACKEND", ADDRESS):  # no window is opened, and each run has its own server
         os.environ.pop(name, None)

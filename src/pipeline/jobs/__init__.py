@@ -1,1 +1,1 @@
-"""The jobs of a run: each makes one result, as its build specification says."""
+"""Jobs: each makes one result, as its build specification says."""

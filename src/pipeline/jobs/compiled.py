@@ -1,9 +1,9 @@
-"""What the server imports besides where something is to be computed, not only drawn."""
+"""Modules with compiled functions, imported by the server only if a run computes a dataset."""
 
 from contextlib import suppress
 from importlib import import_module
 
 with suppress(Exception):
     import_module("pseudorigid.dynamics.ensemble")
-    # What numba loads at the first call of anything.
+    # The first call of any compiled function initialises numba.
     import_module("numba").njit(lambda: 0)()

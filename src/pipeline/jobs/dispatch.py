@@ -1,33 +1,33 @@
-"""Make one result, with its record, or say in one line why it cannot be made."""
+"""Make one result and its record, or say in one line why it cannot be made."""
 
 import sys
 import traceback
 from contextlib import suppress
 from importlib import import_module
+from multiprocessing.connection import Connection
 from pathlib import Path
+from types import TracebackType
 
+from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
 from ..records.record import log_path, recorded, refusal_path
 
 
-def _uncaught(kind, error, trace):
+def _excepthook(
+    kind: type[BaseException], error: BaseException, trace: TracebackType | None
+) -> None:
+    """Print no traceback for Ctrl-C."""
     if not issubclass(kind, KeyboardInterrupt):
         sys.__excepthook__(kind, error, trace)
 
 
-def make(spec, answer):
-    """Make a result in this process, which ends afterwards.
+def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
+    """Make a result in this process, which ends afterwards; the current folder is the root.
 
-    An error becomes one line on stderr and the last one of the job's log, below its traceback.
-
-    Parameters
-    ----------
-    spec : BuildSpec
-        The current folder is the root.
-    answer : multiprocessing connection
-        Gets True once the result and its record are there.
+    `answer` gets True once the result and its record are written. An error becomes the last line
+    of the job's log, below its traceback.
     """
-    sys.excepthook = _uncaught  # Ctrl-C is no reason for a traceback
+    sys.excepthook = _excepthook
     log = log_path(spec.result)
     for file in (log, refusal_path(spec.result)):
         Path(file).unlink(missing_ok=True)
@@ -36,11 +36,11 @@ def make(spec, answer):
             import_module(f"pipeline.jobs.{spec.program}").make(spec)
     except Exception as error:
         message = " ".join(str(error).split())
-        if not isinstance(error, ValueError):  # ValueErrors are written for the user
+        if not isinstance(error, ValueError):  # the messages of ValueErrors are for users
             message = f"{type(error).__name__}: {message} (traceback in {log})"
-        said = f"pseudorigid: {spec.scene}: {message}"
+        last_line = f"pseudorigid: {spec.scene}: {message}"
         with suppress(OSError, ValueError):  # the disk may be full
-            write_whole(log, f"{traceback.format_exc()}\n{said}\n")
+            write_whole(log, f"{traceback.format_exc()}\n{last_line}\n")
         sys.exit(1)
-    with suppress(OSError):  # of a run that was killed
+    with suppress(OSError):  # the run may have been killed
         answer.send(True)

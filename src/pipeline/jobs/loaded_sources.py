@@ -1,4 +1,7 @@
-"""What the server of jobs imports beforehand; what fails here is for a job to say."""
+"""Modules that every job needs, imported by the server before it forks jobs.
+
+An import that fails here fails again in a job, which reports it.
+"""
 
 from contextlib import suppress
 from importlib import import_module

@@ -1,51 +1,73 @@
-"""Compute a part of the study: data that are the same everywhere, or measurements."""
+"""Compute a part of the study: data that are equal on every machine, or measured times."""
 
-from functools import partial
+from collections.abc import Callable
 from importlib import import_module
+from typing import Any
+
+import xarray as xr
 
 from pseudorigid.study import failures, figure_errors, states, work
 from pseudorigid.study.machine import machine
+from pseudorigid.study.methods.counted_methods import METHODS, OURS
 
 from ..records import artifacts
+from ..records.build_spec import BuildSpec
+
+# The settings of external solvers that are compared near grazing.
+_GRAZING_SOLVERS = (
+    "certified march",
+    "brentq 0.1, 1e-12",
+    "RK45, 1e-06",
+    "DOP853, 1e-09",
+    "DOP853, steps <= 0.1, 1e-12",
+    "LSODA, 1e-09",
+    "heyoka any, 1e-15",
+    "heyoka positive, 1e-15",
+)
 
 
-def _libraries():
-    """The rivals whose packages only the study has."""
-    names = ("scipy_events", "taylor")
-    return [m for n in names for m in import_module(f"pseudorigid.study.methods.{n}").METHODS]
+def _library_solvers() -> list[Any]:
+    """Return the solvers whose packages are installed for the study alone."""
+    modules = [import_module(f"pseudorigid.study.methods.{n}") for n in ("scipy_events", "taylor")]
+    return [solver for module in modules for solver in module.METHODS]
 
 
-def _edge_rivals():
-    """Of the libraries, the settings that are compared near grazing."""
-    names = ("certified march", "brentq 0.1, 1e-12", "RK45, 1e-06", "DOP853, 1e-09")
-    names += ("DOP853, steps <= 0.1, 1e-12", "LSODA, 1e-09")
-    names += ("heyoka any, 1e-15", "heyoka positive, 1e-15")
-    return [m for m in (failures.OURS, *_libraries()) if m.name in names]
+def _grazing_solvers() -> list[Any]:
+    return [m for m in (OURS, *_library_solvers()) if m.name in _GRAZING_SOLVERS]
 
 
-def _errors_of_figures(spec):
+def _errors_of_figures(spec: BuildSpec) -> xr.Dataset:
     """Compare the scenes of the block with the figures' own datasets."""
     loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in spec.given}
-    return figure_errors.figure_errors(spec.config["scenes"], spec.config["measures"], loaded)
+    scenes, measures = spec.config["scenes"], spec.config["measures"]
+    dataset: xr.Dataset = figure_errors.figure_errors(scenes, measures, loaded)
+    return dataset
 
 
-def make(spec):
-    """Compute the result of a BuildSpec; measurements say on which machine."""
+def _verdicts() -> xr.Dataset:
+    from pseudorigid.study.verdicts import verdicts  # takes long to import
+
+    dataset: xr.Dataset = verdicts()
+    return dataset
+
+
+def make(spec: BuildSpec) -> None:
+    """Compute the part that the block of config names; measured parts describe the machine."""
     part = spec.config["part"]
-    compute = {
+    parts: dict[str, Callable[[], xr.Dataset]] = {
         "work": work.counted,
         "edges": lambda: failures.edges(failures.EDGE_METHODS),
         "orbits": failures.orbits,
-        "needs": partial(_errors_of_figures, spec),
-        "verdicts": lambda: import_module("pseudorigid.study.verdicts").verdicts(),
-        "work_all": lambda: work.measured([*work.METHODS, *_libraries()]),
-        "edges_all": lambda: failures.edges(_edge_rivals(), 40),
-        "missed_all": lambda: failures.missed(_edge_rivals()),
-    }[part]
-    dataset = compute()
+        "needs": lambda: _errors_of_figures(spec),
+        "verdicts": _verdicts,
+        "work_all": lambda: work.measured([*METHODS, *_library_solvers()]),
+        "edges_all": lambda: failures.edges(_grazing_solvers(), 40),
+        "missed_all": lambda: failures.missed(_grazing_solvers()),
+    }
+    dataset = parts[part]()
     if part.endswith("_all"):
         dataset.attrs |= machine()
-    ball = {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
-    about = {} if part == "verdicts" else ball  # verdicts are on cells of many
-    about |= {"stage": "study", "title": f"Methods compared: {part}"}
-    artifacts.save(dataset, spec.result, {"part": part}, **about)
+    attributes: dict[str, Any] = {"stage": "study", "title": f"Methods compared: {part}"}
+    if part != "verdicts":  # which are on cells with many values of k and energy
+        attributes |= {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
+    artifacts.save(dataset, spec.result, {"part": part}, **attributes)

@@ -3,12 +3,15 @@
 from pseudorigid.sweep import blocks
 
 from ..records import artifacts
+from ..records.build_spec import BuildSpec
 
 
-def make(spec):
-    """Compute the result of a BuildSpec."""
-    block = spec.config
-    parts = [artifacts.load(path) for path in spec.inputs]
-    dataset = blocks.join(block, parts) if parts else blocks.compute(block)
-    title = "Cells of a sweep" if parts else "Block of cells of a sweep"
-    artifacts.save(dataset, spec.result, block, title=title)
+def make(spec: BuildSpec) -> None:
+    """Join the blocks if the result has inputs, else compute a block."""
+    if spec.inputs:
+        title = "Cells of a sweep"
+        dataset = blocks.join(spec.config, [artifacts.load(path) for path in spec.inputs])
+    else:
+        title = "Block of cells of a sweep"
+        dataset = blocks.compute(spec.config)
+    artifacts.save(dataset, spec.result, spec.config, title=title)

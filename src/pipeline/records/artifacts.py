@@ -1,24 +1,27 @@
-"""The one door through which data is saved and read: uncompressed netCDF-4 with CF attributes.
+"""Save and load datasets as uncompressed netCDF-4 files with CF attributes.
 
-The same dataset always gives the same bytes: variables and attributes go in a fixed order, nothing
-is compressed (compressed bytes depend on the system's zlib), and no date is written. Ragged
-arrays are contiguous: `row_size` counts the samples of each row, one row after the other.
+The same dataset always gives the same bytes: variables and attributes are written in a fixed order
+and without a date, and nothing is compressed, because compressed bytes depend on the system's
+zlib. Ragged arrays are contiguous: `row_size` counts the samples of each row.
 """
 
-import hashlib
 import json
 import math
+import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
+import numpy.typing as npt
 import xarray as xr
 
 from .files import obstacle, replacing
 
 
 class ArtifactError(ValueError):
-    """A dataset that cannot be saved, or a file that is no artifact; the message names it."""
+    """A dataset that cannot be saved, or a file that `save` did not write; the message names it."""
 
 
 # Global attributes of every file, beside its title.
@@ -31,69 +34,47 @@ ABOUT = {
 }
 
 
-def title_of(function):
-    """The title of the datasets that a function returns: its name, in words.
+def title_of(function: Callable[..., xr.Dataset]) -> str:
+    """Title of the datasets that a function returns: the function's name, in words.
 
-    Docstrings do not count as sources of a result, and so decide no byte of it.
-
-    Parameters
-    ----------
-    function : callable
-
-    Returns
-    -------
-    str
+    The title is not taken from the docstring, which must not change any byte of a result.
     """
     return function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
 
 
-def save(dataset, path, config, **attributes):
+def save(
+    dataset: xr.Dataset, path: str | os.PathLike[str], config: dict[str, Any], **attributes: Any
+) -> None:
     """Save a dataset as netCDF-4, whole or not at all.
 
-    NaN is stored as it is: no variable has a fill value.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Every variable needs `long_name` and, strings apart, units "1" and a scale.
-    path : path
-    config : dict
-        The block of configuration behind the data, stored as canonical JSON.
-    **attributes : str or number
-        Global ones beside the dataset's own and those of ABOUT.
+    Every variable needs `long_name` and, unless it holds text, units "1" and a scale. NaN is stored
+    as it is: no variable has a fill value. The global attributes are the dataset's own, ABOUT,
+    `attributes`, and `config` (the block of configuration behind the data) as canonical JSON.
 
     Raises
     ------
     ArtifactError
-        A dataset that is not of that form.
+        If the dataset does not have this form.
     FileError
-        A file that cannot be written.
+        If the file cannot be written.
     """
     attributes |= {"config": canonical_json(config)} | ABOUT
     dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
     _check(dataset, path)
-    for name, variable in dataset.variables.items():  # files made before scales can still be read
+    for name, variable in dataset.variables.items():  # older files without scales can be loaded
         if not _is_text(variable) and not variable.attrs.get("scale"):
             raise ArtifactError(f"{path}: variable {name} has no scale")
     with replacing(path) as part:
         _write(dataset, part)
 
 
-def load(path):
-    """An artifact in memory, its file closed.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    xarray.Dataset
+def load(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Load a dataset into memory and close its file.
 
     Raises
     ------
     ArtifactError
-        One line that names the file, if it is missing, damaged or not written by `save`.
+        If the file is missing, damaged or not written by `save`: one line that names it.
     """
     path = Path(path)
     if not path.is_file():
@@ -102,9 +83,9 @@ def load(path):
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
             file.set_auto_scale(False)
-            # Values are stored as they are: what says that it has more than the file is damaged.
+            # Nothing is compressed: a file that declares more values than it has bytes is damaged.
             if sum(math.prod(v.shape) for v in file.variables.values()) > path.stat().st_size:
-                raise ArtifactError(f"{path}: damaged: it has fewer values than it says")
+                raise ArtifactError(f"{path}: damaged: it has fewer values than it declares")
             variables = {
                 name: (variable.dimensions, variable[...], _attributes(variable))
                 for name, variable in file.variables.items()
@@ -112,7 +93,7 @@ def load(path):
             attrs = _attributes(file)
     except ArtifactError:
         raise
-    except Exception as error:  # of a damaged file, whatever netCDF4 makes of it
+    except Exception as error:  # netCDF4 raises many types for damaged files
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
         raise ArtifactError(f"{path}: damaged, or not netCDF ({reason})") from error
     if "config" not in attrs:
@@ -125,91 +106,38 @@ def load(path):
     return dataset
 
 
-def content_hash(dataset):
-    """Hash of names, dims, dtypes, values and attributes.
+def canonical_values(variable: xr.Variable) -> tuple[str, npt.NDArray[Any] | list[str]]:
+    """Return the dtype ("str" for text) and the flattened values, equal on every machine.
 
-    It says nothing about the container: not the library versions that netCDF embeds, not the
-    order of variables, not byte order. All NaN count as one value; 0.0 and -0.0 differ.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-
-    Returns
-    -------
-    str
-        sha256 in hex.
-    """
-    digest = hashlib.sha256()
-    _feed(digest, sorted(dataset.sizes.items()), plain_attributes(dataset))
-    for name in sorted(dataset.variables):
-        variable = dataset.variables[name]
-        kind, values = canonical_values(variable)
-        _feed(digest, name, variable.dims, variable.shape, kind, plain_attributes(variable))
-        if kind == "str":
-            _feed(digest, values)
-        else:
-            digest.update(values.tobytes())
-    return digest.hexdigest()
-
-
-def canonical_values(variable):
-    """The values of a variable in one row, the same on every machine.
-
-    Parameters
-    ----------
-    variable : xarray.Variable
-
-    Returns
-    -------
-    kind : str
-        The dtype, or "str".
-    values : ndarray or list of str
-        Little-endian numbers, with one NaN.
+    Numbers are little-endian, and all NaN have the same bits.
     """
     if _is_text(variable):
         return "str", [str(value) for value in variable.values.ravel()]
-    kind = variable.dtype.newbyteorder("<").str
-    values = np.ascontiguousarray(variable.values, dtype=kind).ravel()
+    dtype = variable.dtype.newbyteorder("<").str
+    values = np.ascontiguousarray(variable.values, dtype=dtype).ravel()
     if values.dtype.kind == "f":
-        values = np.where(np.isnan(values), np.array(np.nan, dtype=kind), values)
-    return kind, values
+        values = np.where(np.isnan(values), np.array(np.nan, dtype=dtype), values)
+    return dtype, values
 
 
-def plain_attributes(source):
-    """Attributes as plain numbers and text: netCDF keeps one number and a list of one alike.
+def plain_attributes(source: xr.Dataset | xr.Variable) -> dict[str, Any]:
+    """Attributes as plain numbers and text, sorted by name.
 
-    Parameters
-    ----------
-    source : xarray.Dataset or xarray.Variable
-
-    Returns
-    -------
-    dict
-        In the order of names.
+    A list of one number becomes the number, since netCDF does not distinguish them.
     """
-    arrays = {name: np.asarray(value) for name, value in sorted(source.attrs.items())}
+    arrays = {str(name): np.asarray(value) for name, value in sorted(source.attrs.items())}
     return {
         name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
     }
 
 
-def canonical_json(value):
-    """A value as JSON with sorted keys and no spaces: equal values, equal text.
-
-    Parameters
-    ----------
-    value : dict, list, str, number, bool or None
-
-    Returns
-    -------
-    str
-    """
+def canonical_json(value: Any) -> str:
+    """JSON with sorted keys and without spaces, so that equal values give equal text."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
-def _with_sample_dimension(dataset, path):
-    """Name in `row_size` the dimension that it counts, as CF's ragged arrays require."""
+def _with_sample_dimension(dataset: xr.Dataset, path: str | os.PathLike[str]) -> xr.Dataset:
+    """Add the attribute `sample_dimension` to `row_size`, as CF's ragged arrays require."""
     if "row_size" not in dataset:
         return dataset
     counts = dataset["row_size"]
@@ -226,7 +154,7 @@ def _with_sample_dimension(dataset, path):
     return dataset.assign(row_size=(counts.dims, counts.values, attrs))
 
 
-def _check(dataset, path):
+def _check(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
     for name, variable in dataset.variables.items():
         text, units = _is_text(variable), variable.attrs.get("units")
         if not text and variable.dtype.kind not in "iuf":
@@ -237,28 +165,25 @@ def _check(dataset, path):
             raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
 
 
-def _write(dataset, path):
+def _write(dataset: xr.Dataset, path: Path) -> None:
     with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
         file.setncatts({name: dataset.attrs[name] for name in sorted(dataset.attrs)})
-        for dim in sorted(dataset.sizes):
+        for dim in sorted(map(str, dataset.sizes)):
             file.createDimension(dim, dataset.sizes[dim])
-        for name in sorted(dataset.variables):
+        for name in sorted(map(str, dataset.variables)):
             variable = dataset.variables[name]
             text = _is_text(variable)
-            kind = str if text else variable.dtype.newbyteorder("=")
-            target = file.createVariable(name, kind, variable.dims, fill_value=False)
+            dtype: Any = str if text else variable.dtype.newbyteorder("=")
+            dims = tuple(map(str, variable.dims))
+            target = file.createVariable(name, dtype, dims, fill_value=False)
             target.set_auto_mask(False)
             target.setncatts({key: variable.attrs[key] for key in sorted(variable.attrs)})
-            target[...] = np.asarray(variable.values, dtype=object if text else kind)
+            target[...] = np.asarray(variable.values, dtype=object if text else dtype)
 
 
-def _attributes(source):
+def _attributes(source: Any) -> dict[str, Any]:
     return {name: source.getncattr(name) for name in source.ncattrs()}
 
 
-def _is_text(variable):
+def _is_text(variable: xr.Variable) -> bool:
     return variable.dtype.kind in "UOT"
-
-
-def _feed(digest, *items):
-    digest.update((json.dumps(items) + "\n").encode())

@@ -1,26 +1,26 @@
-"""What a result is made from and by: the one description that runs, jobs and checks share."""
+"""Build specifications: how each result is to be made."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 
 class BuildSpec(NamedTuple):
-    """A result and what makes it.
+    """A result and how it is made; paths are relative to the project's root.
 
     Parameters
     ----------
     result : str
-        Its file, from the root.
+        The result's file.
     scene, step : str
-        How it is called in messages, as in "fig2" and "orbits".
+        Its names in messages, such as "fig2" and "orbits".
     config : dict
-        Its block of the config.
+        The block of the config that it depends on.
     program : str
         The module of `pipeline.jobs` that makes it.
     given : object
-        What the program needs besides: of a stage the module and function that compute it, of a
-        picture the module that draws it.
+        A further argument of the program: for a stage, the module and the function that compute
+        it; for a picture, the module that draws it.
     sources : list of str
-        The project's files that decide its bytes, from the root.
+        The project's files that decide its bytes.
     inputs : list of str
         The results that it is made from.
     """
@@ -28,8 +28,8 @@ class BuildSpec(NamedTuple):
     result: str
     scene: str
     step: str
-    config: dict
+    config: dict[str, Any]
     program: str
-    given: object
+    given: Any
     sources: list[str]
     inputs: list[str]

@@ -1,23 +1,20 @@
-"""What differs between two blocks of config, two sets of files or of packages, in words."""
+"""Describe in words how two config blocks, sets of files or sets of packages differ."""
 
 import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 
-def differing_keys(before, after, place=""):
-    """Compare two blocks of config key by key.
+def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Compare two blocks of config, which may be nested, key by key.
 
-    Of a list that differs, the first differing entry is told, and both lengths if they differ.
-
-    Parameters
-    ----------
-    before, after : dict, list, str, number, bool or None
-    place : str
-        Dotted key of the blocks.
+    Of a list, only the first differing entry is reported, and both lengths if they differ.
 
     Yields
     ------
     str, object, object
-        Dotted key, as `starts[2].x`, value before, value after; 1 and 1.0 differ, and true and 1.
+        The dotted key below `place`, such as `starts[2].x`, and its two values. Values differ if
+        their JSON does: 1 differs from 1.0 and from true.
     """
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
@@ -33,63 +30,41 @@ def differing_keys(before, after, place=""):
                 break
         if len(before) != len(after):
             yield f"{place}: number of entries", len(before), len(after)
-    # 1 and 1.0 differ as text and as data, true and 1 too.
     elif json.dumps(before) != json.dumps(after):
         yield place, before, after
 
 
-def differing_block(before, after, was="then", now="now"):
-    """Describe every key that differs between two blocks of config.
+def differing_block(
+    before: dict[str, Any], after: dict[str, Any], was: str = "then", now: str = "now"
+) -> str | None:
+    """Describe every key that differs between two blocks of config, or return None.
 
-    Parameters
-    ----------
-    before, after : dict
-    was, now : str
-        What the two are called.
-
-    Returns
-    -------
-    str or None
+    `was` and `now` are the words that follow the old and the new value.
     """
     different = differing_keys(before, after)
     words = [f"{key}: {brief(old)} {was}, {brief(new)} {now}" for key, old, new in different]
     return "; ".join(words) or None
 
 
-def differing_files(before, after):
-    """Words about the first file whose hash differs.
-
-    Parameters
-    ----------
-    before, after : dict
-        File -> hash, or None where it is gone.
-
-    Returns
-    -------
-    str or None
-    """
+def differing_files(
+    before: Mapping[str, str | None], after: Mapping[str, str | None]
+) -> str | None:
+    """Name the first file whose hash differs, or return None; a file without a hash is gone."""
     different = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if not different:
         return None
     path = different[0]
     verb = "is new" if path not in before else "is gone" if after.get(path) is None else "differs"
-    more = f" (and {len(different) - 1} more)" if len(different) > 1 else ""
-    return f"{path} {verb}{more}"
+    others = f" (and {len(different) - 1} more)" if len(different) > 1 else ""
+    return f"{path} {verb}{others}"
 
 
-def differing_package(before, after, was="then"):
-    """Describe every package whose version differs.
+def differing_package(
+    before: Mapping[str, str | None], after: Mapping[str, str | None], was: str = "then"
+) -> str | None:
+    """Describe every package whose version differs, or return None.
 
-    Parameters
-    ----------
-    before, after : dict
-        Package -> version, or None where it is not installed.
-    was : str
-        What the first is called.
-
-    Returns
-    -------
-    str or None
+    A package with the version None is not installed.
     """
     words = []
     for name in sorted({*before, *after}):
@@ -99,24 +74,15 @@ def differing_package(before, after, was="then"):
     return "; ".join(words) or None
 
 
-def brief(value):
-    """Shorten a value to a part of a line: text as it is, all else as JSON."""
+def brief(value: Any) -> str:
+    """Text of a value for a part of a line, cut to 40 characters."""
     text = value if isinstance(value, str) else json.dumps(value)
     return text if len(text) <= 40 else text[:37] + "..."
 
 
-def columns(rows):
-    """Rows of texts as lines with aligned columns.
-
-    Parameters
-    ----------
-    rows : list of sequence of str
-        All of one length.
-
-    Returns
-    -------
-    list of str
-    """
+def columns(rows: Iterable[Sequence[str]]) -> list[str]:
+    """Format rows of texts, all of one length, as lines with aligned columns."""
+    rows = list(rows)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = [[f"{text:{w}}" for text, w in zip(row, widths, strict=True)] for row in rows]
     return ["  ".join(row).rstrip() for row in padded]

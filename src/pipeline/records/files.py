@@ -1,14 +1,17 @@
-"""Reading and writing files: only regular files are read, and files are written whole."""
+"""Read regular files only, and write each file whole or not at all."""
 
 import errno
 import hashlib
 import os
 import shutil
 import stat
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from io import BufferedReader
 from pathlib import Path
 
-_FULL = 1.0  # MB; a disk with less space left counts as full
+_Path = str | os.PathLike[str]
+_FULL_MB = 1.0  # a disk with less free space counts as full
 _KINDS = {
     stat.S_IFDIR: "a folder",
     stat.S_IFIFO: "a FIFO",
@@ -19,21 +22,11 @@ _KINDS = {
 
 
 class FileError(ValueError):
-    """One line about a file that cannot be read or written; it names the file."""
+    """A file that cannot be read or written: one line that names it."""
 
 
-def obstacle(path):
-    """What stands in the place of a file, in words.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    str or None
-        None where there is a regular file or nothing at all.
-    """
+def obstacle(path: _Path) -> str | None:
+    """Describe what stands in a file's place; None for a regular file or nothing."""
     try:
         kind = stat.S_IFMT(os.stat(path).st_mode)
     except (FileNotFoundError, NotADirectoryError):
@@ -45,25 +38,17 @@ def obstacle(path):
     return f"{_KINDS.get(kind, 'no file')} stands in its place, move it away"
 
 
-def open_regular(path):
+def open_regular(path: _Path) -> BufferedReader:
     """Open a regular file to read its bytes.
 
-    Reading a FIFO would wait for ever, and a device may have no end: neither is opened.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    binary file
+    Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end.
 
     Raises
     ------
     FileNotFoundError, NotADirectoryError
-        Where there is no file.
+        If there is no file.
     FileError
-        What is no regular file or cannot be read.
+        If it is no regular file or cannot be read.
     """
     if words := obstacle(path):
         raise FileError(f"{path}: {words}")
@@ -76,46 +61,38 @@ def open_regular(path):
         raise FileError(f"{path}: cannot be read: {reason}") from None
 
 
-def read_bytes(path):
-    """Content of a regular file; raises as `open_regular` does."""
+def read_bytes(path: _Path) -> bytes:
+    """Content of a regular file; raises the errors of `open_regular`."""
     with open_regular(path) as file:
         return file.read()
 
 
-def read_text(path):
-    """Content of a regular file of UTF-8; raises also UnicodeDecodeError."""
+def read_text(path: _Path) -> str:
+    """Text of a regular UTF-8 file; raises the errors of `open_regular` and UnicodeDecodeError."""
     return read_bytes(path).decode("utf-8")
 
 
-def disk_is_full(path):
-    """Whether the disk of `path` is full, in words that say what is left, or None."""
+def disk_is_full(path: _Path) -> str | None:
+    """Say how little space is left if the disk of `path` is full, else return None."""
     path = Path(path).absolute()
-    there = next(folder for folder in (path, *path.parents) if folder.is_dir())
-    usage = shutil.disk_usage(there)
+    folder = next(folder for folder in (path, *path.parents) if folder.is_dir())
+    usage = shutil.disk_usage(folder)
     free = usage.free / 1e6
     # Some file systems, /proc among them, have no size.
-    return f"the disk is full, {free:.1f} MB are left" if usage.total and free < _FULL else None
+    return f"the disk is full, {free:.1f} MB are left" if usage.total and free < _FULL_MB else None
 
 
 @contextmanager
-def replacing(path):
-    """Yield a temporary path beside `path`; on success it replaces `path`, on error it goes.
+def replacing(path: _Path) -> Iterator[Path]:
+    """Yield a temporary path that replaces `path` if the body succeeds, and is removed otherwise.
 
-    A reader sees the old file or the new one, never a part, also when the process is killed
-    (which can leave the temporary file, whose name begins with a dot).
-
-    Parameters
-    ----------
-    path : path
-
-    Yields
-    ------
-    pathlib.Path
+    A reader sees the old file or the new one, never a part. A killed process can leave the
+    temporary file, whose name begins with a dot and ends in .part.
 
     Raises
     ------
     FileError
-        Where the system or the netCDF library cannot write, with the space that is left.
+        If the system or the netCDF library cannot write.
     """
     path = Path(path)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -123,9 +100,9 @@ def replacing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         yield part
         os.replace(part, path)
-    except (OSError, RuntimeError) as error:  # the second is what netCDF4 raises
+    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
-        # Where the disk is full, the netCDF library speaks of permissions, or gives no number.
+        # On a full disk, the netCDF library reports a lack of permission, or no error number.
         if getattr(error, "errno", None) in (None, errno.EACCES, errno.ENOSPC):
             reason = disk_is_full(path) or reason
         raise FileError(f"{path}: cannot be written: {reason}") from error
@@ -134,39 +111,16 @@ def replacing(path):
             part.unlink()
 
 
-def write_whole(path, data):
-    """Write a file, whole or not at all.
-
-    Parameters
-    ----------
-    path : path
-    data : str or bytes
-
-    Raises
-    ------
-    FileError
-        Where it cannot be written.
-    """
+def write_whole(path: _Path, data: str | bytes) -> None:
+    """Write a file, whole or not at all; raises FileError if it cannot be written."""
     with replacing(path) as part:
         part.write_bytes(data.encode() if isinstance(data, str) else data)
 
 
-def file_hash(path):
-    """Hash of a file's bytes.
+def file_hash(path: _Path) -> str | None:
+    """SHA-256 of a file's bytes in hex, None if there is no regular file.
 
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    str or None
-        sha256 in hex, None where there is no regular file.
-
-    Raises
-    ------
-    FileError
-        A regular file that cannot be read.
+    Raises FileError if a regular file cannot be read.
     """
     if obstacle(path):
         return None
@@ -179,18 +133,8 @@ def file_hash(path):
         raise FileError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def identity(path):
-    """What changes whenever a file is written anew, and not when it is only touched.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    int or None
-        None where there is no file.
-    """
+def identity(path: _Path) -> int | None:
+    """Inode of a file, None if there is none. It changes when a file is replaced, not touched."""
     try:
         return Path(path).stat().st_ino
     except OSError:

@@ -1,59 +1,36 @@
-"""What a finished figure shows, apart from how it is encoded: pixels, or the elements of an SVG."""
+"""Compare what finished figures show: pixels of a PNG, or elements of an SVG."""
 
 import hashlib
+import os
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
+import numpy.typing as npt
 
 from .files import open_regular, write_whole
+
+_Path = str | os.PathLike[str]
 
 
 class PictureError(ValueError):
     """A file that is no picture; the message names it."""
 
 
-def pixels(path):
-    """A PNG's pixels.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    ndarray of uint8, shape (height, width, 3)
-
-    Raises
-    ------
-    PictureError
-        A file that is no picture.
-    """
+def pixels(path: _Path) -> npt.NDArray[np.uint8]:
+    """Pixels of a PNG, shape (height, width, 3); raises PictureError for any other file."""
     from PIL import Image
 
     try:
         with open_regular(path) as file, Image.open(file) as image:
             return np.asarray(image.convert("RGB"))
-    except Exception as error:  # of many kinds, among them SyntaxError
+    except Exception as error:  # Pillow raises many types, among them SyntaxError
         raise PictureError(f"{path}: damaged, or not a picture") from error
 
 
-def elements(path):
-    """An SVG's tags and texts in order, attributes sorted.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    list of str
-
-    Raises
-    ------
-    PictureError
-        A file that is no SVG.
-    """
+def _elements(path: _Path) -> list[str]:
+    """Tags and texts of an SVG in order, with sorted attributes."""
     try:
         with open_regular(path) as file:
             text = ElementTree.canonicalize(from_file=file, strip_text=True)
@@ -62,71 +39,44 @@ def elements(path):
     return text.replace("<", "\n<").split("\n")
 
 
-def describe(path):
-    """What the manifest says of a drawing.
-
-    Parameters
-    ----------
-    path : path
-
-    Returns
-    -------
-    dict
-        Size and hash of its pixels or elements.
-
-    Raises
-    ------
-    PictureError
-        A file that is no picture.
-    """
+def describe(path: _Path) -> dict[str, Any]:
+    """Size and hash of a drawing's pixels or elements, for the manifest; raises PictureError."""
     if Path(path).suffix == ".png":
         image = pixels(path)
         size = {"height": image.shape[0], "width": image.shape[1]}
         return size | {"pixels": hashlib.sha256(image.tobytes()).hexdigest()}
-    text = elements(path)
+    text = _elements(path)
     digest = hashlib.sha256("\n".join(text).encode()).hexdigest()
     return {"elements": len(text), "text": digest}
 
 
-def difference(path, reference, image_path):
-    """How a drawing differs from the reference of its kind, in words and as an image.
+def difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, bool]:
+    """Describe how a drawing differs from its reference, and whether an image was saved.
 
-    Parameters
-    ----------
-    path, reference : path
-    image_path : path
-        Of PNGs of one size an image is saved there: the reference in pale grey, what differs in
-        red.
-
-    Returns
-    -------
-    words : str
-    saved : bool
-        Whether there is an image.
-
-    Raises
-    ------
-    PictureError
-        A file that is no picture.
+    For two PNGs of one size, `image_path` gets the reference in pale grey, with the differing
+    pixels in red. Raises PictureError if a file is no picture.
     """
     if Path(path).suffix != ".png":
-        ours, theirs = elements(path), elements(reference)
-        both = min(len(ours), len(theirs))
-        different = [i for i in range(both) if ours[i] != theirs[i]]
-        count = len(different) + abs(len(ours) - len(theirs))
-        first = ours[different[0]] if different else (ours + theirs)[both]
-        first = first if len(first) <= 60 else first[:57] + "..."
-        return f"{count:,} of {len(theirs):,} elements differ, the first: {first}", False
+        return _differing_elements(_elements(path), _elements(reference)), False
     ours, theirs = pixels(path), pixels(reference)
     if ours.shape != theirs.shape:
-        (high, wide, _), (old_high, old_wide, _) = ours.shape, theirs.shape
-        return f"{wide} x {high} pixels instead of {old_wide} x {old_high}", False
-    where = np.any(ours != theirs, axis=2)
+        (height, width, _), (old_height, old_width, _) = ours.shape, theirs.shape
+        return f"{width} x {height} pixels instead of {old_width} x {old_height}", False
+    differs = np.any(ours != theirs, axis=2)
     shown = np.repeat(170 + theirs.mean(axis=2, keepdims=True) / 3, 3, axis=2).astype(np.uint8)
-    shown[where] = (220, 0, 0)
+    shown[differs] = (220, 0, 0)
     from pseudorigid.figures.canvas.render import png
 
     write_whole(image_path, png(shown, 300))
-    count = int(where.sum())
+    count = int(differs.sum())
     verb = "differs" if count == 1 else "differ"
-    return f"{count:,} of {where.size:,} pixels {verb}", True
+    return f"{count:,} of {differs.size:,} pixels {verb}", True
+
+
+def _differing_elements(ours: list[str], theirs: list[str]) -> str:
+    shared = min(len(ours), len(theirs))
+    different = [i for i in range(shared) if ours[i] != theirs[i]]
+    count = len(different) + abs(len(ours) - len(theirs))
+    first = ours[different[0]] if different else (ours + theirs)[shared]
+    first = first if len(first) <= 60 else first[:57] + "..."
+    return f"{count:,} of {len(theirs):,} elements differ, the first: {first}"

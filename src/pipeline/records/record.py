@@ -1,8 +1,8 @@
-"""What made a result: a record beside each artifact and drawing.
+"""Records: what made each result.
 
-The record of results/paper/orbits_fig2.nc is results/paper/provenance/orbits_fig2.nc.json. It is
-written as the job's last act and is one of the job's outputs: a job that was killed before it is
-done again. Paths are relative to the project's root, so that a folder that moved still verifies.
+The record of results/paper/orbits_fig2.nc is results/paper/provenance/orbits_fig2.nc.json. A job
+writes it last and declares it as an output, so that a job that was killed before is run again. Its
+paths are relative to the project's root, so that the folder can be moved.
 """
 
 import json
@@ -10,88 +10,80 @@ import os
 import platform
 import subprocess
 import time
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import pseudorigid
 
+from .build_spec import BuildSpec
 from .files import file_hash, read_text, write_whole
 from .sources import ROOT, syntax_hash
 
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
-PACKAGES = ("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4", "numba", "numpy")
-PACKAGES += ("pyparsing", "python-flint", "xarray")
+PACKAGES = (
+    "deflate",
+    "fonttools",
+    "llvmlite",
+    "matplotlib",
+    "netCDF4",
+    "numba",
+    "numpy",
+    "pyparsing",
+    "python-flint",
+    "xarray",
+)
 
 
 class RecordError(ValueError):
-    """In words, why a record cannot be read."""
+    """A record that cannot be read; the message says why."""
 
 
 class ChangedError(ValueError):
-    """One line about a file that changed while something was made from it."""
+    """A file that changed while something was made from it: one line."""
 
 
-def record_path(result):
-    """Where the record of a result is: results/paper/provenance/<its file's name>.json.
-
-    Parameters
-    ----------
-    result : path
-        From the root.
-
-    Returns
-    -------
-    str
-    """
+def record_path(result: str | os.PathLike[str]) -> str:
+    """Path of a result's record; this path and the result's are relative to the root."""
     return _beside(result, "provenance", "json")
 
 
-def refusal_path(result):
-    """Where the record of why a result cannot be made is, as for `record_path`."""
+def refusal_path(result: str | os.PathLike[str]) -> str:
+    """Path of the record that says why a result cannot exist, relative to the root."""
     return _beside(result, "logs", "json")
 
 
-def log_path(result):
-    """Where the log of a job that failed to make a result is, as for `record_path`."""
+def log_path(result: str | os.PathLike[str]) -> str:
+    """Path of the log of a job that failed to make a result, relative to the root."""
     return _beside(result, "logs", "log")
 
 
-def failure(result):
-    """Why the last job that was to make a result failed, None where it did not or nobody knows."""
+def failure(result: str | os.PathLike[str]) -> str | None:
+    """Why the last job that should have made a result failed, None if that is not known."""
     try:
         return read_text(log_path(result)).splitlines()[-1].split(": ", 2)[2]
     except (OSError, ValueError, IndexError):
         return None
 
 
-def _beside(result, folder, suffix):
+def _beside(result: str | os.PathLike[str], folder: str, suffix: str) -> str:
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
-def read_record(root, path):
-    """Read the record of a result, or of why it cannot be made.
-
-    Parameters
-    ----------
-    root : pathlib.Path
-    path : str
-        Of the record, from the root.
-
-    Returns
-    -------
-    dict
-        With the keys of SHAPE.
+def read_record(root: Path, path: str) -> dict[str, Any]:
+    """Read a record of a result or of a refusal, with the keys of SHAPE.
 
     Raises
     ------
     RecordError
-        In words, where there is none to be read.
+        If there is none, or it cannot be read.
     """
     try:
-        record = json.loads(read_text(root / path))
+        record: dict[str, Any] = json.loads(read_text(root / path))
         for name, kind in SHAPE.items():
             if not isinstance(record[name], kind):
                 raise TypeError
@@ -104,62 +96,51 @@ def read_record(root, path):
 
 
 @contextmanager
-def recorded(spec):
-    """Write the record of a result, once the body has made it; the current folder is the root.
+def recorded(spec: BuildSpec) -> Iterator[None]:
+    """Write the record of a result once the body has made it; the current folder is the root.
 
-    An error with `lasting` says that the result cannot exist with what it is made from: this is
-    recorded in its place, so that it is not tried again before something of that changes.
-
-    Parameters
-    ----------
-    spec : BuildSpec
+    A ValueError with the attribute `lasting` says that the result cannot exist. It is recorded
+    instead, so that the job is not repeated before its config, sources or inputs change.
 
     Raises
     ------
     ChangedError
-        Where a source or an input changed from when it was loaded to now; no record is written.
+        If a source or an input changed since it was loaded; no record is written.
     """
-    texts = {path: file_hash(path) for path in sorted(spec.sources)}
+    source_hashes = {path: file_hash(path) for path in sorted(spec.sources)}
     commit, dirty = _commit()
-    record = {
+    record: dict[str, Any] = {
         "commit": commit,
         "dirty": dirty,
         "config": spec.config,
         "inputs": {path: file_hash(path) for path in sorted(spec.inputs)},
-        "sources": {path: syntax_hash(path) for path in texts},
+        "sources": {path: syntax_hash(path) for path in source_hashes},
         "environment": versions(),
         "python": platform.python_version(),
     }
-    require_unchanged(texts)
+    require_unchanged(source_hashes)
     start = time.monotonic()
     try:
         yield
     except ValueError as error:
         if getattr(error, "lasting", False):
-            require_unchanged(texts | record["inputs"])
+            require_unchanged(source_hashes | record["inputs"])
             _write(refusal_path(spec.result), record, {"sha256": None, "refused": str(error)})
         raise
     record["seconds"] = time.monotonic() - start
-    require_unchanged(texts | record["inputs"])
-    about = {"file": spec.result, "sha256": file_hash(spec.result)}
-    _write(record_path(spec.result), record, about)
+    require_unchanged(source_hashes | record["inputs"])
+    output = {"file": spec.result, "sha256": file_hash(spec.result)}
+    _write(record_path(spec.result), record, output)
 
 
-def _write(path, record, output):
+def _write(path: str, record: dict[str, Any], output: dict[str, str | None]) -> None:
     write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 
 
-def require_unchanged(hashes):
-    """Refuse to go on where a file is not, or was not when it was loaded, what it should be.
+def require_unchanged(hashes: Mapping[str, str | None]) -> None:
+    """Raise ChangedError if a file has, or had when it was loaded, another hash than the given one.
 
-    Parameters
-    ----------
-    hashes : dict
-        File -> its sha256, or None where there is none; the current folder is the root.
-
-    Raises
-    ------
-    ChangedError
+    `hashes` maps a path, relative to the current folder, to its SHA-256, or None for no file.
     """
     for path, digest in hashes.items():
         loaded = pseudorigid.LOADED.get(os.path.realpath(path), set())
@@ -167,48 +148,27 @@ def require_unchanged(hashes):
             raise ChangedError(f"{path} changed during the run; run ./reproduce again")
 
 
-def require_loaded_unchanged():
-    """Refuse to go on where a file of this tree is not what this process loaded from it.
-
-    Raises
-    ------
-    ChangedError
-    """
+def require_loaded_unchanged() -> None:
+    """Raise ChangedError if a file of this tree has changed since this process loaded it."""
     for path, digests in pseudorigid.LOADED.items():
         for digest in digests if Path(path).is_relative_to(ROOT) else ():
             require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
-def versions():
-    """The packages that decide bits.
-
-    Returns
-    -------
-    dict
-        Package -> installed version, None where it is not installed.
-    """
-    found = {}
-    for package in PACKAGES:
-        try:
-            found[package] = metadata.version(package)
-        except metadata.PackageNotFoundError:
-            found[package] = None
-    return found
+def versions() -> dict[str, str | None]:
+    """Installed version of each package that decides bits, None if it is not installed."""
+    return {package: _version(package) for package in PACKAGES}
 
 
-def git(*arguments, root="."):
-    """What git prints.
+def _version(package: str) -> str | None:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None
 
-    Parameters
-    ----------
-    *arguments : str
-    root : path
 
-    Returns
-    -------
-    bytes or None
-        None where it fails or is not there.
-    """
+def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
+    """Output of a git command, None if it fails or git is not installed."""
     try:
         result = subprocess.run(
             ["git", "-C", str(root), *arguments],
@@ -222,10 +182,10 @@ def git(*arguments, root="."):
     return result.stdout if result.returncode == 0 else None
 
 
-def _commit():
-    """(commit, whether tracked files other than the figures differ from it), None if unknown."""
+def _commit() -> tuple[str | None, bool | None]:
+    """Return the commit and whether tracked files other than figures differ; None if unknown."""
     commit = git("rev-parse", "HEAD")
-    # Another repository may lie around a copy of this folder.
+    # Another repository may contain this folder.
     if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
         return None, None
     changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!paper_figures")

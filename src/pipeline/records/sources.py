@@ -1,6 +1,7 @@
-"""Which of the project's files decide the bytes of a result, and what those files mean.
+"""Find the project's source files that decide the bytes of a result.
 
-Records and manifests name these, so that editing a module makes again what uses it.
+Records and manifests name these files, so that an edit of a module outdates the results that use
+it.
 """
 
 import os
@@ -11,8 +12,8 @@ from pseudorigid.kernel.compiled import syntax_hash as meanings
 
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
-# Every job loads these, and none reaches the bytes of a result: they write records and whole files,
-# hash, load modules, and say why a job failed. Tests plant a change in each.
+# Modules that every job loads and that do not affect the bytes of a result: they write records and
+# whole files, hash, load modules and report failures. Tests plant a change in each.
 BOOKKEEPING = (
     "pipeline",
     "pipeline.jobs",
@@ -27,32 +28,25 @@ BOOKKEEPING = (
     "pseudorigid.kernel.compiled.import_closure",
     "pseudorigid.kernel.compiled.syntax_hash",
 )
-# Module -> the files that it reads.
+# Module -> pattern of the data files that it reads.
 _READS = {
     "src/pseudorigid/proofs/theorems/statements.py": "src/pseudorigid/proofs/certificates/*.toml"
 }
 
 
 def source_files(*modules: str) -> list[str]:
-    """The project's files behind some modules, without BOOKKEEPING.
+    """Paths, from the root, of the project's files that some modules import, directly or not.
 
-    Parameters
-    ----------
-    *modules : str
-        Dotted names, as for pseudorigid.kernel.compiled.import_closure.
-
-    Returns
-    -------
-    list of str
-        From the root.
+    Modules are dotted names. BOOKKEEPING is left out; data files that modules read are included.
     """
-    found = imports.import_closure(SRC, *modules, leave_out=BOOKKEEPING)
-    files = [os.path.relpath(file, ROOT) for file in found]
+    closure = imports.import_closure(SRC, *modules, leave_out=BOOKKEEPING)
+    files = [os.path.relpath(file, ROOT) for file in closure]
     for module in set(files) & set(_READS):
         files += sorted(os.path.relpath(file, ROOT) for file in ROOT.glob(_READS[module]))
     return files
 
 
-def syntax_hash(path) -> str | None:
-    """Hash of what a file means, None where there is none; see pseudorigid.kernel.compiled."""
-    return meanings.syntax_hash(path)
+def syntax_hash(path: str | os.PathLike[str]) -> str | None:
+    """Hash of a source file's syntax, without comments and docstrings; None if there is no file."""
+    digest: str | None = meanings.syntax_hash(path)
+    return digest

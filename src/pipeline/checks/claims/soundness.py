@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 from pseudorigid.analyses.sea import section_points
 from pseudorigid.analyses.spread import in_sea
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.variables import states_of
 from pseudorigid.proofs.derivations import derivations
@@ -26,6 +25,7 @@ from pseudorigid.sweep.cell import cell
 
 from ...config.schema.stages import STAGES
 from ...records.artifacts import ABOUT
+from ...records.stage_call import compute_stage
 
 RELATIVE_TOLERANCE = 1e-9  # of a number that is computed twice
 ENERGY_TOLERANCE = 1e-11  # of a state
@@ -91,14 +91,10 @@ def _made(stage: str, ball: Ball, energy: float, config: str) -> xr.Dataset:
     if not isinstance(block, dict):
         raise ValueError("its config is no mapping")
     method = block.get("method", {}) if row.follows else {}
-    root_finder = ImpactMap((method["scan"], method["tolerance"]) if "scan" in method else None)
     inputs = [_made(name, ball, energy, config) for name in row.inputs]
     fields = {name: block[name] for name in row.fields if name in block}
-    make = getattr(import_module(row.module), row.function)
-    dataset = make(Ball(ball.k, ball.g, map=root_finder), energy, *inputs, **fields)
-    if "scan" in method:
-        dataset.attrs |= {"impacts": root_finder.impacts, "impacts_missed": root_finder.missed}
-    return dataset
+    function = getattr(import_module(row.module), row.function)
+    return compute_stage(function, ball, energy, inputs, fields, method)
 
 
 def _same(ours: Any, given: Any) -> np.ndarray:

@@ -1,5 +1,5 @@
-"""The words of ./reproduce: a module each, with `run(given)` -> exit status.
+"""The commands of ./reproduce: each module has `run(args)`, which returns the exit status.
 
-`given` is an arguments.Given with `start`, the folder in which the user stands; the current one is
-the project's.
+`args` is an `arguments.Arguments`; its `start` is the user's folder. The current folder is the
+project's root.
 """

@@ -1,14 +1,15 @@
-"""./reproduce archive: one file with figures, data and what they were made from."""
+"""./reproduce archive: write the figures and what they were made from into one file."""
 
 from ...checks import archive
 from ...records.sources import ROOT
+from ..arguments import Arguments
 from ..session import interruptible, locked, one_line
 
 FILE = "results/archive/pseudorigid.tar"
 
 
-def run(args) -> int:
-    """Write the archive of what is here, which must be complete and current."""
+def run(args: Arguments) -> int:
+    """Write the archive; all results must be present and current."""
     path = args.start / args.file if args.file else ROOT / FILE
     with locked(), interruptible(), one_line("archive: ", archive.ArchiveError):
         digest = archive.write(ROOT, args.checked, path)

@@ -1,4 +1,4 @@
-"""./reproduce benchmark: ratios of speed, measured now."""
+"""./reproduce benchmark: measure speeds and print their ratios."""
 
 import os
 import shutil
@@ -6,55 +6,60 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from ...records.sources import ROOT
+from ..arguments import Arguments
 from ..packages import add_packages
 from ..session import UsageError, interruptible
 
 REPETITIONS = 5
-# What a run needs of this folder.
+# The parts of the project that a run needs.
 PARTS = ("Snakefile", "config.yaml", "paper_figures", "profiles", "src", "workflow")
 
 
-def run(args) -> int:
-    """Print one table of ratios of speed, and one of whole runs."""
-    bench = [sys.executable, "-P", "-m", "pseudorigid.study.bench"]
+def run(args: Arguments) -> int:
+    """Print a table of the map's speed, and one of whole runs."""
     add_packages("study")
-    if status := subprocess.call(bench):
+    if status := subprocess.call([sys.executable, "-P", "-m", "pseudorigid.study.bench"]):
         return status
     with interruptible(), tempfile.TemporaryDirectory() as folder:
         print("", *_runs(Path(folder)), sep="\n")
     return 0
 
 
-def _runs(folder):
-    """Seconds of whole runs in a copy of this folder, in turn, as lines."""
+def _runs(folder: Path) -> Iterator[str]:
+    """Time whole runs in a copy of the project, interleaved, and yield the lines of a table."""
     from pseudorigid.study.timing import interleaved
 
     for part in PARTS:
-        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
-        copy(ROOT / part, folder / part)
-    how = {"env": os.environ | {"PYTHONPATH": str(folder / "src")}, "cwd": folder, "text": True}
-    ours, bare = ["pipeline"], ["snakemake", "--cores", "all"]
+        if (ROOT / part).is_dir():
+            shutil.copytree(ROOT / part, folder / part)
+        else:
+            shutil.copy2(ROOT / part, folder / part)
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
+    pipeline, snakemake = ["pipeline"], ["snakemake", "--cores", "all"]
 
-    def run(words, *gone):
-        for name in gone:
+    def run(words: list[str], *removed: str) -> None:
+        for name in removed:
             shutil.rmtree(folder / name, ignore_errors=True)
         command = [sys.executable, "-P", "-m", *words]
-        made = subprocess.run(command, **how, capture_output=True, check=False)
-        if made.returncode:
-            raise UsageError(f"a run of the benchmark failed: {made.stdout}{made.stderr}")
+        result = subprocess.run(
+            command, env=environment, cwd=folder, text=True, capture_output=True, check=False
+        )
+        if result.returncode:
+            raise UsageError(f"a run of the benchmark failed: {result.stdout}{result.stderr}")
 
     calls = {
-        "all figures, warm code": lambda: run(ours, "results", ".snakemake"),
-        "the same, a Python for each job": lambda: run(bare, "results", ".snakemake"),
-        "nothing to do": lambda: run(ours),
-        "nothing to do, snakemake alone": lambda: run(bare),
+        "all figures, warm code": lambda: run(pipeline, "results", ".snakemake"),
+        "the same, a Python for each job": lambda: run(snakemake, "results", ".snakemake"),
+        "nothing to do": lambda: run(pipeline),
+        "nothing to do, snakemake alone": lambda: run(snakemake),
     }
-    found = interleaved(calls, REPETITIONS, time.perf_counter)
-    usual = found["the same, a Python for each job"][0]
+    seconds = interleaved(calls, REPETITIONS, time.perf_counter)
+    reference = seconds["the same, a Python for each job"][0]
     yield f"{'whole runs':34}{'s':>24}  {'ratio':>9}"
-    for name, (middle, low, high) in found.items():
-        spread = f"{middle:.3g} ({low:.3g}-{high:.3g})"
-        yield f"{name:34}{spread:>24}  {middle / usual:9.2f}"
+    for name, (median, low, high) in seconds.items():
+        spread = f"{median:.3g} ({low:.3g}-{high:.3g})"
+        yield f"{name:34}{spread:>24}  {median / reference:9.2f}"

@@ -1,17 +1,19 @@
-"""./reproduce compare A B [FIGURE ...]: what differs between two variants."""
+"""./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
 
 from ... import config
 from ...checks.freshness import Freshness
 from ...config import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
+from ..arguments import Arguments
 from ..session import CommandLineError, interruptible, locked, one_line
 
 
-def run(args) -> int:
-    """Make what is missing of two variants, and say what differs between them."""
-    checked, more = args.checked, set(config.PUBLISHED) - {config.PAPER}
-    variants = {name: made for name, made in checked["variants"].items() if name not in more}
+def run(args: Arguments) -> int:
+    """Make the missing results of two variants and print what differs."""
+    checked = args.checked
+    hidden = set(config.PUBLISHED) - {config.PAPER}
+    variants = {name: block for name, block in checked["variants"].items() if name not in hidden}
     names = [name for name in (args.a, args.b) if name is not None]
     for name in names:
         if name not in variants:
@@ -19,14 +21,14 @@ def run(args) -> int:
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(variants)}")
 
-    def absent(name):
+    def absent(name: str) -> dict[str, str]:
         freshness = Freshness(ROOT, build_specs.of_variants(checked["variants"]))
         return figures.known_absent(freshness, checked["variants"], name)
 
     with locked():
         for name in names:
-            named = figures.of_scenes(checked, name, args.figure)
-            status = figures.make(checked, name, args.options, named, brief=not args.all)
+            files = figures.of_scenes(checked, name, args.figure)
+            status = figures.make(checked, name, args.options, files, brief=not args.all)
             if status and not (name in config.PUBLISHED and absent(name)):
                 return status
         if running.is_dry_run(args.options):

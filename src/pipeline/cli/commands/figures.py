@@ -1,4 +1,4 @@
-"""./reproduce, and ./reproduce FIGURE ...: figures, or some files, made by snakemake."""
+"""./reproduce [FIGURE ...]: make figures, or other files, with snakemake."""
 
 import os
 
@@ -6,53 +6,55 @@ from ... import config
 from ...config import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
-from ..arguments import COMMANDS, hint
+from ..arguments import COMMANDS, Arguments, hint
 from ..session import CommandLineError, locked
 
 
-def run(args) -> int:
-    """Make every figure of the paper, or those figures and files that are named."""
-    _meant(args, args.figure)  # a misspelt one, before what snakemake refuses
+def run(args: Arguments) -> int:
+    """Make every figure of the paper, or the named figures and files."""
+    _select(args, args.figure)  # reports misspelt names before errors in snakemake's options
     targets = running.options_of(args.options).targets
     options = [a for a in args.options if a not in targets]
-    sets, others = _meant(args, [*args.figure, *targets] or ["all"])
+    figure_sets, others = _select(args, [*args.figure, *targets] or ["all"])
     status = 0
     with locked():
-        for variant in sets or [config.PAPER]:
-            named = sets.get(variant, [])
-            status = figures.make(args.checked, variant, options, named, others) or status
+        for variant in figure_sets or [config.PAPER]:
+            files = figure_sets.get(variant, [])
+            status = figures.make(args.checked, variant, options, files, others) or status
             others = []
             if status == running.INTERRUPTED:
                 break
     return status
 
 
-def _meant(args, names):
-    """({set of scenes: its files that are meant}, other results); MisuseError for no such."""
+def _select(args: Arguments, names: list[str]) -> tuple[dict[str, list[str]], list[str]]:
+    """Return {set of scenes: its published files} and other results that the names select."""
     variants = args.checked["variants"]
     published = {variant: config.figures(variants, variant) for variant in config.PUBLISHED}
-    results, sets, others = {}, {}, []
+    figure_sets: dict[str, dict[str, None]] = {}
+    others: list[str] = []
     for name in names:
-        # As it stands, or from the folder in which the user is.
+        # A path is relative to the root or to the user's folder.
         files = {os.path.normpath(name), os.path.relpath(args.start / name, ROOT)}
-        found = [
+        selected = [
             (variant, path)
             for variant, known in published.items()
             for path, (scene, _) in known.items()
             if scene == name or path in files or (name, variant) == ("all", config.PAPER)
         ]
-        for variant, path in found:
-            sets.setdefault(variant, {})[path] = None
-        if found:
+        for variant, path in selected:
+            figure_sets.setdefault(variant, {})[path] = None
+        if selected:
             continue
-        results = results or build_specs.of_all(args.checked)
+        results = build_specs.of_all(args.checked)
         if not files & set(results):
+            if "/" in name:
+                known_files = [*results, *published[config.PAPER]]
+                raise CommandLineError(f"no such file is made: {name}{hint(name, known_files)}")
             scenes = [scene for variant in published for scene in variants[variant]]
-            known = (
-                [*scenes, *COMMANDS] if "/" not in name else [*results, *published[config.PAPER]]
+            meant = hint(name, [*scenes, *COMMANDS])
+            raise CommandLineError(
+                f"no command or figure {name}{meant or ': the figures are ' + ', '.join(scenes)}"
             )
-            what = "word or figure" if "/" not in name else "such file is made:"
-            there = "" if "/" in name else f": the figures are {', '.join(scenes)}"
-            raise CommandLineError(f"no {what} {name}{hint(name, known) or there}")
         others += sorted(files & set(results))
-    return sets, others
+    return {variant: list(paths) for variant, paths in figure_sets.items()}, others

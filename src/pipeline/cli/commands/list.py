@@ -1,5 +1,6 @@
-"""./reproduce list: what there can be, and the state of each file."""
+"""./reproduce list: show what can be made and the state of each file."""
 
+from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 
 from ...checks import published_sets
@@ -9,32 +10,34 @@ from ...config.schema import study as parts
 from ...records.differences import columns
 from ...records.sources import ROOT
 from .. import figures
+from ..arguments import Arguments
 from ..progress.plan import why
-from ..progress.states import states
+from ..progress.states import Row, states
 
 
-def run(args) -> int:
-    """Print every figure, chart and dataset under the command that makes it."""
+def run(args: Arguments) -> int:
+    """Print every figure, chart and dataset below the command that makes it."""
     variants, sweeps = args.checked["variants"], args.checked["sweeps"]
     freshness = Freshness(ROOT, build_specs.of_all(args.checked))
     for published_set in published_sets.committed_sets(args.checked):
         _print(published_set.command, states(published_set))
     measured = [parts.drawn(c) for c in parts.CHARTS if parts.CHARTS[c][0] in parts.MEASURED]
-    _print("./reproduce study, measured", _states(freshness, measured))
-    _print("./reproduce sweep", _states(freshness, map(paths.sweep_dataset, sweeps)))
+    _print("./reproduce study, measured", _states(freshness, measured, {}))
+    _print("./reproduce sweep", _states(freshness, map(paths.sweep_dataset, sweeps), {}))
     rows = []
     for name in (name for name in variants if name not in PUBLISHED):
-        drawn = [behind[-1] for _, behind in paths.figures(variants, name).values()]
-        found = _states(freshness, drawn, figures.known_absent(freshness, variants, name))
-        for kind in dict.fromkeys(state for *_, state in found):
-            files = [PurePath(path).name for _, path, state in found if state == kind]
-            rows.append((name, kind, " ".join(files)))
+        drawings = [upstream[-1] for _, upstream in paths.figures(variants, name).values()]
+        absent = figures.known_absent(freshness, variants, name)
+        rows_of_variant = _states(freshness, drawings, absent)
+        for state in dict.fromkeys(state for *_, state in rows_of_variant):
+            files = [PurePath(path).name for _, path, other in rows_of_variant if other == state]
+            rows.append((name, state, " ".join(files)))
     _print("./reproduce variant NAME", rows)
     return 0
 
 
-def _states(freshness, results, absent=()):
-    """(scene, file, state) of results that are not published."""
+def _states(freshness: Freshness, results: Iterable[str], absent: dict[str, str]) -> list[Row]:
+    """Return (scene, file, state) of results that are not published."""
     rows = []
     for path in results:
         scene, state = PurePath(path).stem, "current"
@@ -43,14 +46,12 @@ def _states(freshness, results, absent=()):
         elif not (ROOT / path).is_file():
             state = MISSING
         elif freshness.reason(path):
-            outdated = freshness.outdated(
-                build_specs.with_dependencies(freshness.build_specs, [path])
-            )
-            state = f"stale: {why(freshness, list(outdated))}"
+            upstream = build_specs.with_dependencies(freshness.build_specs, [path])
+            state = f"stale: {why(freshness, list(freshness.outdated(upstream)))}"
         rows.append((scene, path, state))
     return rows
 
 
-def _print(title, rows):
+def _print(title: str, rows: Sequence[Row]) -> None:
     if rows:
         print(title, *(f"  {line}" for line in columns(rows)), "", sep="\n")

@@ -1,18 +1,18 @@
-"""./reproduce prove: the theorems, each checked from its certificate."""
+"""./reproduce prove: check each theorem from its certificate."""
 
 import os
 
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures
-from ..arguments import CERTIFICATES, hint
+from ..arguments import CERTIFICATES, Arguments, hint
 from ..session import CommandLineError, interruptible, locked, one_line, print_error
 
 
-def run(args) -> int:
-    """Check the certificates, a line a theorem; 1 where one is not proved."""
+def run(args: Arguments) -> int:
+    """Print a line for each theorem; the status is 1 if one is not proved."""
     if args.search + args.impacts + args.pictures > 1:
-        raise CommandLineError("prove: --search, --impacts and --pictures are one at a time")
+        raise CommandLineError("prove: use one of --search, --impacts and --pictures")
     if args.theorem and (args.impacts or args.pictures):
         raise CommandLineError("prove: --impacts and --pictures take no theorems")
     if args.pictures:
@@ -22,17 +22,19 @@ def run(args) -> int:
         from ...checks.proved_impacts import impacts
 
         with locked(), interruptible(), one_line():
-            return impacts(args.checked)
+            return int(impacts(args.checked))
     from pseudorigid.proofs import THEOREMS, search_certificate
 
     for name in args.theorem:
         if name not in THEOREMS:
-            there = f"there are {', '.join(THEOREMS)}"
-            raise CommandLineError(f"no theorem {name}{hint(name, THEOREMS) or f': {there}'}")
+            list_of_theorems = f": there are {', '.join(THEOREMS)}"
+            raise CommandLineError(
+                f"no theorem {name}{hint(name, list(THEOREMS)) or list_of_theorems}"
+            )
     names = args.theorem or list(THEOREMS)
     if args.search:
         for name in names:
-            print_error(f"searching a certificate of {name}")
+            print_error(f"searching for a certificate of {name}")
             path = ROOT / CERTIFICATES / THEOREMS[name].certificate
             write_whole(path, search_certificate(name))
     status = 0

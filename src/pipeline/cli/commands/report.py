@@ -1,4 +1,4 @@
-"""./reproduce report: one HTML page with the figures, their numbers and what made them."""
+"""./reproduce report: write one HTML page with the figures and their numbers."""
 
 from ... import config
 from ...checks.freshness import Freshness
@@ -6,17 +6,17 @@ from ...config import build_specs
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures, running
+from ..arguments import Arguments
 from ..session import interruptible, locked, one_line
 
 PAGE = "results/report/report.html"
 
 
-def run(args) -> int:
-    """Make what is missing, with the options given, and then the page."""
-    checked = args.checked
+def run(args: Arguments) -> int:
+    """Make missing results, then the page."""
+    checked, variants = args.checked, args.checked["variants"]
     with locked():
         status = figures.make(checked, config.PAPER, args.options)
-        variants = checked["variants"]
         freshness = Freshness(ROOT, build_specs.of_variants(variants))
         absent = {name: figures.known_absent(freshness, variants, name) for name in variants}
         if running.is_dry_run(args.options) or (status and not absent[config.PAPER]):

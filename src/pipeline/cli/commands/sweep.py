@@ -1,20 +1,22 @@
-"""./reproduce sweep and atlas."""
+"""./reproduce sweep and ./reproduce atlas: make the datasets of sweeps, and their pictures."""
 
 import shutil
+from typing import Any
 
 from ...checks.freshness import Freshness
 from ...config import build_specs, paths, unknown
 from ...records.files import identity
 from ...records.sources import ROOT
 from .. import figures, running
+from ..arguments import Arguments
 from ..packages import add_packages
 from ..session import CommandLineError, UsageError, locked
 
 
-def run(args) -> int:
-    """The datasets of the sweeps, or of those named first; with `atlas` their pictures too."""
+def run(args: Arguments) -> int:
+    """Make the datasets of all sweeps or of the named ones; `atlas` makes pictures too."""
     sweeps = args.checked["sweeps"]
-    names, options = chosen(sweeps, args.sweep), args.options
+    names, options = selected(sweeps, args.sweep), args.options
     if args.slurm:
         if shutil.which("sbatch") is None:
             raise UsageError("--slurm: there is no sbatch on this machine")
@@ -31,12 +33,12 @@ def run(args) -> int:
         freshness = Freshness(ROOT, results)
         status = running.make(args.checked, freshness, targets, options)
         if status == 0 and not running.is_dry_run(options):
-            status = figures.made(paths.ATLAS, files, before)
+            status = figures.publish_and_report(paths.ATLAS, files, before)
     return status
 
 
-def chosen(sweeps, names) -> list[str]:
-    """The sweeps that are named, all where none is."""
+def selected(sweeps: dict[str, Any], names: list[str]) -> list[str]:
+    """Return the named sweeps, or all if there are no names."""
     for name in names:
         if name not in sweeps:
             raise CommandLineError(unknown("sweep", name, list(sweeps)))

@@ -1,12 +1,13 @@
-"""./reproduce test: the test suite."""
+"""./reproduce test: run the test suite."""
 
 import os
 import sys
 
+from ..arguments import Arguments
 from ..packages import add_packages
 
 
-def run(args) -> int:
-    """Install the packages of the tests and hand over to pytest; its exit status is ours."""
+def run(args: Arguments) -> int:
+    """Install the packages of the tests and replace this process by pytest."""
     add_packages("test")
     os.execv(sys.executable, [sys.executable, "-m", "pytest", *args.options])

@@ -1,6 +1,6 @@
 """Install the pinned packages of requirements/ into .venv, with uv or else with pip.
 
-`reproduce` calls `set_up` before any package is there: only the standard library is used here.
+`reproduce` calls `set_up` before any package is installed: only the standard library is used here.
 """
 
 import fcntl
@@ -13,54 +13,56 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 
+from ...records.files import FileError, write_whole
 from ...records.sources import ROOT
 from ..session import UsageError, interruptible, locked, print_error
 from . import activation, indexes
 
 VENV = ROOT / ".venv"
-LOG = VENV / "install.log"  # made first: a .venv with it is ours
-STAMP = VENV / "stamp"  # made last: a .venv without it is not complete
-CONTENTS = VENV / "contents"  # what lies in site-packages; `reproduce` looks whether it is there
-MADE = ROOT / ".venv.made"  # the inode of the .venv that was made here
+LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
+STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
+CONTENTS = VENV / "contents"  # what was installed in site-packages; `reproduce` checks it
+MADE = ROOT / ".venv.made"  # the inode of the .venv that ./reproduce made
 LINK = "made-by-reproduce"
-TEXT = "installing the locked packages into .venv (once)"
 
 
 def add_packages(name: str) -> None:
-    """Install requirements/NAME.txt on top of the lock if that is not done; UsageError if it fails.
+    """Install requirements/NAME.txt on top of the lock, once; UsageError if that fails.
 
     An environment that is not .venv is left as it is.
     """
-    wanted = (ROOT / "requirements" / f"{name}.txt").read_bytes()
-    stamp = VENV / f"{name}-stamp"  # goes with .venv when that is made anew
+    requirements = (ROOT / "requirements" / f"{name}.txt").read_bytes()
+    stamp = VENV / f"{name}-stamp"  # a new .venv has none
     if Path(sys.prefix).resolve() != VENV.resolve():
         return
-    if stamp.is_file() and stamp.read_bytes() == wanted:
+    if stamp.is_file() and stamp.read_bytes() == requirements:
         return
     with locked(), interruptible():
-        begun = stamp.is_file()  # by a run that was killed, or with other packages
+        again = stamp.is_file()  # left by a killed run or for other packages
         stamp.touch()
-        _install([name], f"installing requirements/{name}.txt into .venv (once)", begun)
-        stamp.write_bytes(wanted)
+        _install([name], f"installing requirements/{name}.txt into .venv (once)", again)
+        stamp.write_bytes(requirements)
 
 
-def told_damage() -> bool:
-    """Whether a file of a locked package is missing or cut; if so, say it, and have it mended.
+def report_damage() -> bool:
+    """Report whether a file of a locked package is missing or cut.
 
-    The next ./reproduce misses the file and installs the packages again.
+    The file is removed and listed in CONTENTS, so that the next ./reproduce installs the packages
+    again.
     """
     if Path(sys.prefix).resolve() != VENV.resolve() or not CONTENTS.is_file():
         return False
-    for package in _installed(_names()):
+    for package in _installed(_requirement_names()):
         for file in package.files or ():
-            place = _site() / file
-            size = place.stat().st_size if place.is_file() else None
+            path = _site_packages() / file
+            size = path.stat().st_size if path.is_file() else None
             if file.parts[0] != ".." and file.suffix != ".pyc" and size != (file.size or size):
-                place.unlink(missing_ok=True)
+                path.unlink(missing_ok=True)
                 with CONTENTS.open("a") as contents:
                     contents.write(f"{file}\n")
                 print_error(f".venv is damaged: {file}: run ./reproduce again to mend it")
@@ -68,33 +70,28 @@ def told_damage() -> bool:
     return False
 
 
-def set_up(wanted: str, arguments: list[str]) -> None:
-    """Make .venv, or mend it, and hand over to `python -m pipeline`.
+def set_up(stamp: str, arguments: list[str]) -> None:
+    """Make or mend .venv, then replace this process by `python -m pipeline` with the arguments.
 
-    Parameters
-    ----------
-    wanted : str
-        What .venv is to be made from and for: the text of its stamp.
-    arguments : list of str
-        Of ./reproduce.
+    `stamp` is the text of STAMP: what .venv is made from and for.
     """
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # nohup
+        if signal.getsignal(number) != signal.SIG_IGN:  # nohup ignores SIGHUP
             signal.signal(number, signal.default_int_handler)
     try:
-        with _only_one(arguments):
-            whole = CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == wanted
-            if whole and _starts():
+        with _exclusive(arguments):
+            complete = CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == stamp
+            if complete and _python_starts():
                 _mend()
+            elif complete:
+                _make("the Python of .venv does not start: making .venv again")
             else:
-                _make("the Python of .venv does not start: making .venv again" if whole else TEXT)
-            part = VENV / "stamp.part"
-            part.write_text(wanted)
-            part.rename(STAMP)
+                _make("installing the locked packages into .venv (once)")
+            write_whole(STAMP, stamp)
     except KeyboardInterrupt:
         print_error("interrupted: run it again to go on")
         sys.exit(130)
-    except UsageError as error:
+    except (UsageError, FileError) as error:
         print_error(str(error))
         sys.exit(1)
     except OSError as error:
@@ -105,10 +102,10 @@ def set_up(wanted: str, arguments: list[str]) -> None:
 
 
 @contextmanager
-def _only_one(arguments):
-    """Hold the lock of this folder; start over if another process had it.
+def _exclusive(arguments: list[str]) -> Iterator[None]:
+    """Hold the lock of this folder, and start again after waiting for another process.
 
-    The installers inherit the lock: one that a killed set-up left behind is waited for.
+    Installers inherit the lock, so that one that outlives a killed set-up is waited for.
     """
     try:
         lock = open(ROOT / ".lock", "a")  # noqa: SIM115  (closed below)
@@ -126,74 +123,75 @@ def _only_one(arguments):
         yield
 
 
-def _starts():
-    """Whether the interpreter of .venv starts."""
+def _python_starts() -> bool:
     try:
         return _run([VENV / "bin" / "python", "-I", "-S", "-c", ""])
     except OSError:
         return False
 
 
-def _make(text):
+def _make(message: str) -> None:
     """Make .venv from nothing."""
     _remove()
     VENV.mkdir()
     MADE.write_text(f"{VENV.stat().st_ino}\n")
     LOG.touch()
-    with _linked() as root:
+    with _plain_path() as root:
         _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", f"{root}/.venv"]))
         activation.adopt(VENV, f"{root}/.venv")
-    _install(["build", "lock"], text)
+    _install(["build", "lock"], message)
 
 
-def _mend():
-    """Install the packages again in a .venv that lacks some; what a user added stays."""
+def _mend() -> None:
+    """Install the packages again if some are missing; a user's own packages stay."""
     STAMP.unlink()
-    missing = [name for name in CONTENTS.read_text().splitlines() if not (_site() / name).exists()]
+    names = CONTENTS.read_text().splitlines()
+    missing = [name for name in names if not (_site_packages() / name).exists()]
     if missing:
-        _install(_names(), f".venv lacks {missing[0]}: installing its packages again", again=True)
+        message = f".venv lacks {missing[0]}: installing its packages again"
+        _install(_requirement_names(), message, again=True)
 
 
-def _remove():
-    """Remove what is left of a .venv; UsageError where it is somebody else's."""
+def _remove() -> None:
+    """Remove an incomplete .venv; UsageError if ./reproduce did not make it."""
     removing = VENV.with_name(".venv.removing")
-    shutil.rmtree(removing, ignore_errors=True)  # of a killed run
+    shutil.rmtree(removing, ignore_errors=True)  # left by a killed run
     if not os.path.lexists(VENV):
         return
-    if not _ours():
+    if not _is_ours():
         raise UsageError(f"{VENV} was not made by ./reproduce: please move it away")
     try:
-        # Under another name first: half of it is never taken for somebody else's.
+        # The new name first: a half-removed .venv could be taken for a user's.
         VENV.rename(removing)
         shutil.rmtree(removing)
     except OSError:
         raise UsageError(f"cannot remove {VENV}, which is out of date") from None
 
 
-def _ours():
-    """Whether .venv was made here: its log is in it, or it is that folder still, or it is empty."""
+def _is_ours() -> bool:
+    """Return whether .venv is empty or was made by ./reproduce."""
     if VENV.is_symlink() or not VENV.is_dir():
         return False
     if LOG.is_file() or not any(VENV.iterdir()):
         return True
-    made = MADE.read_text() if MADE.is_file() else ""
-    about = VENV / "pyvenv.cfg"
+    inode = MADE.read_text() if MADE.is_file() else ""
+    settings = VENV / "pyvenv.cfg"
     return (
-        made.strip() == str(VENV.stat().st_ino)
-        and (not about.exists() or f"/{LINK}/.venv" in about.read_text())
+        inode.strip() == str(VENV.stat().st_ino)
+        and (not settings.exists() or f"/{LINK}/.venv" in settings.read_text())
         and not (VENV / "conda-meta").exists()
     )
 
 
 @contextmanager
-def _linked():
-    """A path of this folder without letters that installers cannot take, such as $ or a newline."""
+def _plain_path() -> Iterator[str]:
+    """Yield a link to this folder whose path has no letters that break installers, such as $."""
     usual = tempfile.gettempdir()
-    place = usual if re.fullmatch(r"[\w/.+-]{1,60}", usual, re.ASCII) else "/tmp"
+    parent = usual if re.fullmatch(r"[\w/.+-]{1,60}", usual, re.ASCII) else "/tmp"
     try:
-        folder = tempfile.mkdtemp(dir=place)
+        folder = tempfile.mkdtemp(dir=parent)
     except OSError:
-        raise UsageError(f"cannot make a temporary folder in {place}") from None
+        raise UsageError(f"cannot make a temporary folder in {parent}") from None
     try:
         (Path(folder) / LINK).symlink_to(ROOT)
         if wheels := os.environ.get("PSEUDORIGID_WHEELS"):
@@ -203,9 +201,12 @@ def _linked():
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _install(names, text, again=False):
-    """Install requirements/NAME.txt of each name, by uv if possible; `again` also what is there."""
-    with _linked() as root, _told(text, names) as tell:
+def _install(names: list[str], message: str, again: bool = False) -> None:
+    """Install requirements/NAME.txt of each name, by uv if possible.
+
+    With `again`, packages that are present are installed too.
+    """
+    with _plain_path() as root, _progress(message, names) as tick:
         python = f"{root}/.venv/bin/python"
         pip = _pip(python)
         settings = indexes.pip_settings(pip)
@@ -214,81 +215,84 @@ def _install(names, text, again=False):
             source = ["--no-index", "--find-links", os.path.dirname(root) + "/wheels"]
         elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
             source = ["--no-index"]
-        how = ["--require-hashes", *source, "-r"]
-        of_pip = [*pip, "install", "--no-compile", "--progress-bar=off", *how]
+        options = ["--require-hashes", *source, "-r"]
+        pip_install = [*pip, "install", "--no-compile", "--progress-bar=off", *options]
         pip_environment = indexes.pip_environment(settings)
 
-        def by_pip(name, *more):
-            command = [*of_pip, f"{root}/requirements/{name}.txt", *more]
-            return _run(command, pip_environment, tell)
+        def by_pip(name: str, *more: str) -> bool:
+            command = [*pip_install, f"{root}/requirements/{name}.txt", *more]
+            return _run(command, pip_environment, tick)
 
         uv = _uv() or (by_pip("uv", "--only-binary=:all:", "--retries=1") and _uv())
         environment = indexes.uv_environment(settings)
-        mine = "UV_CACHE_DIR" not in environment
-        if mine:  # beside the packages, which are then links to it, and removed after them
+        own_cache = "UV_CACHE_DIR" not in environment
+        if own_cache:  # beside the packages, which become hard links, and removed afterwards
             environment["UV_CACHE_DIR"] = f"{root}/.venv/cache/uv"
         else:
-            environment["UV_LINK_MODE"] = "copy"  # an edited package is not another one's
+            environment["UV_LINK_MODE"] = "copy"  # an edit of a package must not reach the cache
         for name in names:
-            command = [uv, "pip", "install", f"--python={python}", "--no-build-isolation"]
-            command += [*how, f"{root}/requirements/{name}.txt", *["--reinstall"] * again]
-            if not (uv and _run(command, environment, tell) and _entries([name])):
+            installed = False
+            if uv:
+                command = [uv, "pip", "install", f"--python={python}", "--no-build-isolation"]
+                command += [*options, f"{root}/requirements/{name}.txt", *["--reinstall"] * again]
+                installed = _run(command, environment, tick) and bool(_entries([name]))
+            if not installed:
                 more = ["--no-build-isolation", *["--force-reinstall"] * again]
                 _check(by_pip(name, *more))
-        if mine:
+        if own_cache:
             shutil.rmtree(VENV / "cache" / "uv", ignore_errors=True)
         activation.adopt(VENV, f"{root}/.venv")
         activation.place_scripts(VENV)
-    # A relative path, so that the folder may move.
-    (_site() / "pseudorigid.pth").write_text("../../../../src\n")
+    # A relative path, so that the folder can be moved.
+    (_site_packages() / "pseudorigid.pth").write_text("../../../../src\n")
     listed = CONTENTS.read_text().splitlines() if CONTENTS.exists() else ["pseudorigid.pth"]
     entries = _entries(name for name in names if name != "build") | {
-        name for name in listed if (_site() / name).exists()
+        name for name in listed if (_site_packages() / name).exists()
     }
     CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
 
 
-def _pip(python):
-    """A command that runs pip for .venv: its own, or that of the present interpreter, or new."""
-    if not (_site() / "pip").is_dir():
+def _pip(python: str) -> list[str]:
+    """Return a command that runs pip for .venv: its own, this interpreter's, or a new one."""
+    if not (_site_packages() / "pip").is_dir():
         if importlib.util.find_spec("pip") and _version("pip") >= (22, 3):
             return [sys.executable, "-I", "-m", "pip", f"--python={python}"]
         _check(_run([python, "-I", "-m", "ensurepip", "--default-pip"]))
     return [python, "-I", "-m", "pip"]
 
 
-def _version(package):
+def _version(package: str) -> tuple[int, ...]:
     return tuple(int(part) for part in re.findall(r"\d+", metadata.version(package))[:2])
 
 
-def _uv():
-    """The uv of the pinned version, in .venv or on PATH; None where there is none."""
+def _uv() -> str | None:
+    """Return the path of a uv of the pinned version, in .venv or on PATH."""
     (pinned,) = re.findall(r"^uv==(\S+)", (ROOT / "requirements" / "uv.txt").read_text(), re.M)
-    for found in (VENV / "bin" / "uv", shutil.which("uv")):
+    for path in (str(VENV / "bin" / "uv"), shutil.which("uv")):
         try:
-            said = subprocess.check_output([found, "--version"], stderr=subprocess.DEVNULL)
-        except (OSError, TypeError, subprocess.CalledProcessError):
+            output = subprocess.check_output([path or "", "--version"], stderr=subprocess.DEVNULL)
+        except (OSError, subprocess.CalledProcessError):
             continue
-        if said.decode().split()[1:2] == [pinned]:
-            return str(found)
+        if output.decode().split()[1:2] == [pinned]:
+            return path
     return None
 
 
-def _names():
-    """The names of the requirements that .venv holds."""
+def _requirement_names() -> list[str]:
+    """Names of the requirements that .venv holds."""
     return ["lock", *(file.name.removesuffix("-stamp") for file in VENV.glob("*-stamp"))]
 
 
-def _installed(names):
-    """The packages of requirements/NAME.txt in site-packages."""
-    pinned = {name.lower() for each in names for name in _pins(each)}
-    for package in metadata.distributions(path=[str(_site())]):
+def _installed(names: Iterable[str]) -> Iterator[metadata.Distribution]:
+    """Yield the installed packages of requirements/NAME.txt."""
+    pinned = {package.lower() for name in names for package in _pins(name)}
+    for package in metadata.distributions(path=[str(_site_packages())]):
         if re.sub(r"[-_.]+", "-", package.name).lower() in pinned:
             yield package
 
 
-def _entries(names):
-    """What the packages of requirements/NAME.txt have put into site-packages."""
+def _entries(names: Iterable[str]) -> set[str]:
+    """Names in site-packages that belong to the packages of requirements/NAME.txt."""
     return {
         file.parts[0]
         for package in _installed(names)
@@ -297,40 +301,44 @@ def _entries(names):
     }
 
 
-def _pins(name):
+def _pins(name: str) -> list[str]:
     text = (ROOT / "requirements" / f"{name}.txt").read_text()
     return re.findall(r"^([\w-]+)==(?!.*win32)", text, re.M)
 
 
-def _site():
-    (site,) = VENV.glob("lib/python3*/site-packages")
-    return site
+def _site_packages() -> Path:
+    (path,) = VENV.glob("lib/python3*/site-packages")
+    return path
 
 
 @contextmanager
-def _told(text, names):
-    """Tell in one line what is done; yields what counts the packages on a terminal."""
+def _progress(message: str, names: list[str]) -> Iterator[Callable[[], None]]:
+    """Print the message; on a terminal, the function yielded appends how many are installed."""
     total = sum(len(_pins(name)) for name in names)
     live = sys.stderr.isatty()
     if not live:
-        print_error(text)
+        print_error(message)
 
-    def tell():
+    def tick() -> None:
         unpacked = len(list(VENV.glob("cache/uv/archive-v0/*")))  # by uv
         done = unpacked or LOG.read_bytes().count(b"\nCollecting ")  # by pip
         if live:
-            line = f"\rreproduce: {text}: {min(done, total)} of {total}"
+            line = f"\rreproduce: {message}: {min(done, total)} of {total}"
             print(line, end="", file=sys.stderr, flush=True)
 
     try:
-        yield tell
+        yield tick
     finally:
         if live:
             print(file=sys.stderr)
 
 
-def _run(command, environment=None, tell=lambda: None):
-    """Run a command with its output in the log; whether it succeeded."""
+def _run(
+    command: Sequence[str | Path],
+    environment: dict[str, str] | None = None,
+    tick: Callable[[], None] = lambda: None,
+) -> bool:
+    """Run a command with its output in the log, and return whether it succeeded."""
     with LOG.open("ab") as log:
         child = subprocess.Popen(
             command,
@@ -339,11 +347,11 @@ def _run(command, environment=None, tell=lambda: None):
             stderr=log,
             env=environment or indexes.neutral_environment(),
             cwd=VENV,
-            close_fds=False,  # the lock
+            close_fds=False,  # the child inherits the lock
         )
         try:
             while child.poll() is None:
-                tell()
+                tick()
                 time.sleep(0.05)
         finally:
             if child.poll() is None:
@@ -352,8 +360,8 @@ def _run(command, environment=None, tell=lambda: None):
     return child.returncode == 0
 
 
-def _check(succeeded):
-    """Refuse to go on after a command that failed."""
+def _check(succeeded: bool) -> None:
+    """Raise UsageError after a command that failed, below the end of its log."""
     if not succeeded:
         lines = LOG.read_text(errors="replace").splitlines()[-15:]
         print(*(line[:300] for line in lines), sep="\n", file=sys.stderr)

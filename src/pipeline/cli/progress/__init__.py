@@ -1,1 +1,1 @@
-"""What a user is told: what a run would make and why, and the state of files."""
+"""Describe to a user what a run would make and why, and the state of files."""

@@ -1,4 +1,4 @@
-"""Snakemake as ./reproduce runs it: what it is told to make again, and its options."""
+"""Run snakemake: read its options, and make the outdated results."""
 
 import argparse
 import os
@@ -6,9 +6,11 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext, suppress
 from functools import cache
 from pathlib import Path
+from typing import Any, NoReturn
 
 import yaml
 
@@ -18,22 +20,36 @@ from ...jobs import server
 from ...records.files import obstacle
 from ...records.record import log_path, record_path
 from ...records.sources import ROOT
-from ..arguments import explained
+from ..arguments import explain
 from ..progress.plan import plan
 from ..session import CommandLineError, UsageError, interruptible, print_error
 from .space import require_space
 
 INTERRUPTED = 130
-# Options with which a run would not be one of this folder, and what is so instead.
-_ELSEWHERE = {
+# Options that would run another workflow or folder, and what to do instead.
+_REFUSED = {
     "directory": "results are made in the folder of ./reproduce: copy it to have them elsewhere",
     "snakefile": "the Snakefile of this folder is run",
 }
-_CAUSES = ("its record", "no record", DAMAGED)
-# Options with which nothing is made.
-_SAY = ("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary")
-_SAY += ("touch", "list_rules", "list_target_rules", "list_changes", "unlock")
-# The options of most runs, which are understood without snakemake: that loads slowly.
+# Reasons to make a result again that a user is told of, since nobody edited anything.
+_REPORTED = ("its record", "no record", DAMAGED)
+# Options with which snakemake makes nothing.
+_DRY_RUN_OPTIONS = (
+    "dryrun",
+    "dag",
+    "rulegraph",
+    "filegraph",
+    "d3dag",
+    "lint",
+    "summary",
+    "detailed_summary",
+    "touch",
+    "list_rules",
+    "list_target_rules",
+    "list_changes",
+    "unlock",
+)
+# The options of most runs, which are read without importing snakemake: that takes long.
 _USUAL = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
 _USUAL.add_argument("-n", "--dry-run", "--dryrun", action="store_true", dest="dryrun")
 _USUAL.add_argument("-c", "--cores")
@@ -41,22 +57,22 @@ _USUAL.add_argument("targets", nargs="*")
 
 
 @cache
-def _parser():
-    """Snakemake's parser of its options, which raises MisuseError."""
-    from snakemake.cli import get_argument_parser  # takes a while
+def _parser() -> argparse.ArgumentParser:
+    """Return snakemake's parser, which raises CommandLineError."""
+    from snakemake.cli import get_argument_parser
 
-    parser = get_argument_parser()
+    parser: argparse.ArgumentParser = get_argument_parser()
 
-    def refuse(message):
-        raise CommandLineError(explained(parser, message))
+    def refuse(message: str) -> NoReturn:
+        raise CommandLineError(explain(parser, message))
 
-    parser.error = refuse
+    parser.error = refuse  # type: ignore[method-assign]
     return parser
 
 
-def options_of(arguments):
-    """Snakemake's own reading of its options; MisuseError where it refuses them."""
-    with suppress(argparse.ArgumentError):  # which snakemake has better words for
+def options_of(arguments: list[str]) -> argparse.Namespace:
+    """Parse options of snakemake; CommandLineError if they are wrong or not used here."""
+    with suppress(argparse.ArgumentError):  # snakemake's parser then reports the mistake
         options, others = _USUAL.parse_known_args(arguments)
         if not others and re.fullmatch("None|all|[1-9][0-9]*", str(options.cores)):
             return options
@@ -65,66 +81,55 @@ def options_of(arguments):
 
     try:
         options = parser.parse_args(arguments)
-    except (CliException, WorkflowError, ValueError) as error:  # of a value, as in --cores x
+    except (CliException, WorkflowError, ValueError) as error:  # wrong values, as in --cores x
         raise CommandLineError(" ".join(str(error).split())) from None
-    for name, what in _ELSEWHERE.items():
+    for name, instead in _REFUSED.items():
         if getattr(options, name):
-            raise CommandLineError(f"--{name} is not used here: {what}")
+            raise CommandLineError(f"--{name} is not used here: {instead}")
     return options
 
 
-def is_dry_run(arguments) -> bool:
-    """Whether these options of snakemake make nothing."""
+def is_dry_run(arguments: list[str]) -> bool:
+    """Whether snakemake makes nothing with these options."""
     options = options_of(arguments)
-    return any(getattr(options, name, None) for name in _SAY)
+    return any(getattr(options, name, None) for name in _DRY_RUN_OPTIONS)
 
 
-def asked(arguments) -> set[str]:
-    """What these options of snakemake ask for, beside numbers of cores."""
-    given, usual = (vars(options_of(some)) for some in (arguments, []))
-    if given.keys() != usual.keys():
-        usual = vars(_parser().parse_args([]))
-    different = {
-        name
-        for name, value in given.items()
-        if getattr(value, "__dict__", value) != getattr(usual[name], "__dict__", usual[name])
-    }
+def _special_options(arguments: list[str]) -> set[str]:
+    """Names of the options that differ from the defaults, apart from numbers of cores."""
+    options, defaults = vars(options_of(arguments)), vars(options_of([]))
+    if options.keys() != defaults.keys():
+        defaults = vars(_parser().parse_args([]))
+
+    def content(value: Any) -> Any:
+        return getattr(value, "__dict__", value)
+
+    different = {name for name in options if content(options[name]) != content(defaults[name])}
     return different - {"cores", "jobs", "targets"}
 
 
-def make(checked, freshness, wanted, arguments) -> int:
-    """Have snakemake make the results `wanted` where they are not current; its exit status.
+def make(
+    checked: dict[str, Any], freshness: Freshness, wanted: Iterable[str], arguments: list[str]
+) -> int:
+    """Make the results `wanted` that are outdated, and return snakemake's exit status.
 
-    Parameters
-    ----------
-    checked : dict
-        The checked config.
-    freshness : checks.freshness.Freshness
-        Of every result of it.
-    wanted : iterable of str
-        Results, from the root. Those that cannot be made are left out.
-    arguments : list of str
-        Options for snakemake; `-n` alone is answered here.
+    Results that are known not to exist are left out. `arguments` are options for snakemake; `-n`
+    alone is answered without it.
     """
     paths = with_dependencies(
         freshness.build_specs, [path for path in wanted if not freshness.refusal(path)]
     )
     outdated = freshness.outdated(paths)
-    for path, why in outdated.items():
+    for path, reason in outdated.items():
         if obstacle(ROOT / path):
-            raise UsageError(f"{path}: {why}")
-        files = (path, record_path(path), log_path(path))
-        for folder in dict.fromkeys(folder for file in files for folder in Path(file).parents):
-            if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
-                raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
-        if why.startswith(_CAUSES):
-            print_error(f"{path}: {why}: made again")
+            raise UsageError(f"{path}: {reason}")
+        _require_folders(path, record_path(path), log_path(path))
+        if reason.startswith(_REPORTED):
+            print_error(f"{path}: {reason}: made again")
     own = ROOT / ".snakemake"
-    for place in (own, *(own.iterdir() if own.is_dir() else ())):
-        if place.exists() and not place.is_dir():
-            where = place.relative_to(ROOT)
-            raise UsageError(f"{where}: a file stands in a folder's place, move it away")
-    options = asked(arguments)
+    for folder in (own, *(own.iterdir() if own.is_dir() else ())):
+        _require_folder(str(folder.relative_to(ROOT)))
+    options = _special_options(arguments)
     if options == {"dryrun"}:
         print(*plan(freshness, paths), sep="\n")
         return 0
@@ -132,9 +137,9 @@ def make(checked, freshness, wanted, arguments) -> int:
         return 0
     require_space(freshness.build_specs[path] for path in outdated)
 
-    # An input that is made again with the same bytes leaves what was made from it current: this is
-    # decided when its job begins. With options, snakemake decides.
-    def current(path):
+    # If an input keeps its bytes, what was made from it stays current: that is decided when the
+    # job begins. With special options, snakemake decides.
+    def current(path: str) -> bool:
         return not options and Freshness(ROOT, freshness.build_specs).own_reason(path) is None
 
     run = server.Plan(checked, freshness.build_specs, set(outdated))
@@ -142,28 +147,46 @@ def make(checked, freshness, wanted, arguments) -> int:
     return _run(run, targets, outdated, arguments, current)
 
 
-def _run(run, targets, outdated, arguments, current) -> int:
-    """Run snakemake until the targets are made; its exit status."""
-    forced = [path for path, why in outdated.items() if why != MISSING]
-    # The lock is ours: one that snakemake leaves behind when killed would stop the next run.
+def _require_folders(*files: str) -> None:
+    for folder in dict.fromkeys(folder for file in files for folder in Path(file).parents):
+        _require_folder(str(folder))
+
+
+def _require_folder(folder: str) -> None:
+    """Raise UsageError if a file stands in a folder's place."""
+    if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
+        raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
+
+
+def _run(
+    run: server.Plan,
+    targets: list[str],
+    outdated: dict[str, str],
+    arguments: list[str],
+    current: Callable[[str], bool],
+) -> int:
+    """Run snakemake for the targets and return its exit status."""
+    forced = [path for path, reason in outdated.items() if reason != MISSING]
+    # ./reproduce has its own lock: a killed snakemake would leave one that stops the next run.
     command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
     command += ["--forcerun", *forced] if forced else []
     command += ["--nolock", "--workflow-profile", "none", *targets]
-    given = options_of(arguments)
-    if given.cores is None and getattr(given, "jobs", None) is None:
+    options = options_of(arguments)
+    if options.cores is None and getattr(options, "jobs", None) is None:
         command += ["--cores", "all"]
     if is_dry_run(arguments):
-        said = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
-        sys.stdout.write(said.stdout.decode(errors="replace"))
-        return said.returncode
-    if not any(getattr(given, name, None) for name in ("logger", "quiet", "verbose")):
+        result = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
+        sys.stdout.write(result.stdout.decode(errors="replace"))
+        return result.returncode
+    if not any(getattr(options, name, None) for name in ("logger", "quiet", "verbose")):
         command += ["--logger", "reproduce"]
-    # On a cluster, which a profile may ask for, a job is a snakemake of its own elsewhere.
-    executor = getattr(given, "executor", None)
-    remote = bool(getattr(given, "profile", None)) or executor not in (None, "local")
+    # On a cluster, each job is a snakemake of its own on another machine.
+    executor = getattr(options, "executor", None)
+    remote = bool(getattr(options, "profile", None)) or executor not in (None, "local")
+    no_server: dict[str, str] = {}
     with interruptible(end=not remote) as caught:
         try:
-            with nullcontext({}) if remote else server.job_server(run, current) as variables:
+            with nullcontext(no_server) if remote else server.job_server(run, current) as variables:
                 status = _wait([*command, *arguments], os.environ | variables, remote)
         except KeyboardInterrupt:
             if not caught:
@@ -172,16 +195,15 @@ def _run(run, targets, outdated, arguments, current) -> int:
         print_error("interrupted: run it again to go on")
         return INTERRUPTED
     if status and (logs := sorted(ROOT.glob(".snakemake/log/*.log"))):
-        print_error(
-            f"snakemake's log: {logs[-1].relative_to(ROOT)}"
-        )  # their names begin with the time
+        newest = logs[-1]  # names begin with the time
+        print_error(f"snakemake's log: {newest.relative_to(ROOT)}")
     return status
 
 
-def _wait(command, environment, remote) -> int:
-    """Run a command in a group that Ctrl-C does not reach; its stdin closes with this process.
+def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
+    """Run a command in a process group of its own, whose stdin closes when this process ends.
 
-    Where it has jobs on another machine, it is asked to cancel these.
+    On Ctrl-C, a command with jobs on other machines is asked to cancel them.
     """
     child = subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, process_group=0)
     with child:
@@ -194,8 +216,8 @@ def _wait(command, environment, remote) -> int:
             raise
 
 
-def _profile():
-    """The options that are passed on every run; as a profile snakemake would tell of them."""
+def _profile() -> Iterator[str]:
+    """Yield the options of profiles/default; snakemake would print that it uses a profile."""
     text = (ROOT / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     for name, value in yaml.safe_load(text).items():
         values = [value] if isinstance(value, str) else value

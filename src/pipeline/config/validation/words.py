@@ -1,8 +1,9 @@
 """The form of error messages about the config: place, value, and what is allowed."""
 
-import difflib
 from collections.abc import Iterable, Iterator
 from itertools import islice
+
+from ...records.names import suggestion
 
 Place = tuple[int | str, ...]  # keys and indices that lead to a value
 _LONGEST_VALUE = 60  # characters of a value in a message
@@ -34,7 +35,7 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
 
 def meant(name: object, known: Iterable[str]) -> list[str]:
     """Return a question that suggests the known name nearest to `name`; empty if none is near."""
-    return [f"did you mean {near}?" for near in difflib.get_close_matches(str(name), known, 1, 0.5)]
+    return [question] if (question := suggestion(name, known)) else []
 
 
 def dotted(place: Place) -> str:

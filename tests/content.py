@@ -1,0 +1,11 @@
+"""Hash of a dataset's content."""
+
+import hashlib
+
+from pipeline.checks.manifest import describe_data
+from pipeline.records.artifacts import canonical_json
+
+
+def content_hash(dataset):
+    """Hash of names, dims, dtypes, values and attributes, as the manifest describes them."""
+    return hashlib.sha256(canonical_json(describe_data(dataset)).encode()).hexdigest()
