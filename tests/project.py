@@ -17,6 +17,17 @@ ROOT = Path(__file__).parents[1]
 # The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
 SHIPPED = Path(__file__).with_name("scenes.yaml")
 PARTS = ("Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements", "src", "workflow")
+# Prints the results that a run would make for published figures.
+PLANNED = """
+import sys
+from pipeline.checks.freshness import Freshness
+from pipeline.config import build_specs, figures, load
+from pipeline.records.sources import ROOT
+variants = load(ROOT / "config.yaml")["variants"]
+specs, published = build_specs.of_variants(variants), figures(variants, "paper")
+drawings = [published[path][1][-1] for path in sys.argv[1:] or published]
+print(*Freshness(ROOT, specs).outdated(build_specs.with_dependencies(specs, drawings)))
+"""
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 
@@ -91,10 +102,15 @@ class Tree:
         return subprocess.Popen(self.command(*arguments), **how)
 
     def planned(self, *targets):
-        """The results that a run would make now."""
-        result = self.run(*targets, "-n", "--quiet", "host")
-        assert result.returncode == 0, result.stdout
-        return set(re.findall(r"^    output: ([^\s,]+)", result.stdout, re.MULTILINE))
+        """Return the outdated results behind published figures, by default behind all of them."""
+        result = subprocess.run(
+            [sys.executable, "-P", "-c", PLANNED, *targets],
+            env=self.environment(),
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        return set(result.stdout.split())
 
     def published(self):
         """Name -> (bytes, inode, mtime) of each file in paper_figures/."""
