@@ -1,4 +1,4 @@
-"""Words about what differs between two blocks of config and two sets of packages."""
+"""Descriptions of differences between blocks of config and sets of packages."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Files: what is read, what a full disk says, and what a failing job leaves."""
+"""Reading regular files only, and the message about a full disk."""
 
 import errno
 import os

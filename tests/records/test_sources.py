@@ -1,4 +1,4 @@
-"""Which files stand behind a job, read from the import statements."""
+"""Source files of a job, read from import statements."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from pipeline.records import sources
 
 
 def of_stage(name):
-    """The science's files behind a stage, without their package."""
+    """Return the files of pseudorigid behind a stage, from its folder."""
     files = sources.source_files("pipeline.jobs.stage", STAGES[name].module)
     return {file.removeprefix("src/pseudorigid/") for file in files if "pseudorigid" in file}
 

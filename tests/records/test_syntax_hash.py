@@ -1,4 +1,4 @@
-"""What a source file means, and that only what decides a result is a source of it."""
+"""Syntax hashes of source files, and which files are sources of results."""
 
 import ast
 import os
@@ -57,7 +57,7 @@ def meaning(text, name="x.py"):
         ("point, *, more=None", "point,\n    *,\n    more=None,\n"),
     ],
 )
-def test_what_changes_nothing_has_the_same_hash(old, new):
+def test_an_edit_without_effect_keeps_the_hash(old, new):
     assert TEXT.count(old) == 1
     assert meaning(TEXT.replace(old, new)) == meaning(TEXT)
 
@@ -83,7 +83,7 @@ def test_what_changes_nothing_has_the_same_hash(old, new):
         ("abs(point.x)", "abs(point.y)"),
     ],
 )
-def test_what_may_change_something_has_another_hash(old, new):
+def test_an_edit_with_an_effect_changes_the_hash(old, new):
     assert TEXT.count(old) == 1
     assert meaning(TEXT.replace(old, new)) != meaning(TEXT)
 
@@ -95,20 +95,20 @@ def test_hashes_do_not_depend_on_pythons_version():
     assert meaning("a: 1\n", "x.toml")[:16] == "9b7acdf56d4776c2"
 
 
-def test_of_rules_the_tokens_count():
+def test_rules_are_hashed_by_their_tokens():
     for same in (RULES.replace("  # why", ""), RULES.replace(" f", "\n\n        f", 1)):
         assert meaning(same, "x.smk") == meaning(RULES, "x.smk") == meaning(RULES, "Snakefile")
     for other in (RULES.replace("}b", "}d"), RULES.replace('"c"', '"e"')):
         assert meaning(other, "x.smk") != meaning(RULES, "x.smk")
 
 
-def test_what_is_no_python_counts_by_its_text():
+def test_other_files_are_hashed_by_their_text():
     assert meaning("def f(:\n") != meaning("def f(:\n\n")
     assert meaning("a = 1", "x.toml") != meaning("a  = 1", "x.toml")
 
 
 def of_all():
-    """Result -> what makes it, for every result of the shipped config."""
+    """Build specifications of every result of the shipped config."""
     return build_specs.of_all(load(SHIPPED))
 
 
@@ -135,7 +135,7 @@ def test_bookkeeping_is_no_source_of_any_result():
     left_out = {f"{name}.py" for name in modules} | {f"{name}/__init__.py" for name in modules}
     for path, made in of_all().items():
         assert not left_out & set(made.sources), path
-    # All of them are there, and no other file of the records' is left out of a drawing.
+    # Other modules of `records` are sources of a drawing.
     for name in modules:
         assert (ROOT / f"{name}.py").is_file() or (ROOT / name).is_dir()
     drawing = of_all()["results/paper/figures/fig3.png"].sources
@@ -148,7 +148,7 @@ def test_every_file_of_the_tree_can_be_read():
         assert facts(file.name, file.read_bytes()) != facts("x.toml", file.read_bytes())
 
 
-def test_a_fifo_has_no_meaning(tmp_path):
+def test_a_fifo_has_no_hash(tmp_path):
     os.mkfifo(tmp_path / "module.py")
     assert meanings.syntax_hash(tmp_path / "module.py") is None
 
