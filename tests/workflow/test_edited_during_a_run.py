@@ -1,4 +1,4 @@
-"""What changes while a run goes on is not recorded as what made the results."""
+"""Files that change during a run are not recorded as what made its results."""
 
 import subprocess
 import sys
@@ -26,7 +26,6 @@ def append(path):
     "path",
     [
         "src/pseudorigid/figures/canvas/style.py",  # loaded beforehand by the server of jobs
-        MOTION,
         "results/paper/motion_fig3.nc",
     ],
 )

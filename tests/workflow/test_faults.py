@@ -1,6 +1,7 @@
-"""Faults of a run: damaged files, failing jobs, interrupts and kills."""
+"""Damaged files, failing jobs, interrupts and kills."""
 
 import contextlib
+import errno
 import fcntl
 import os
 import re
@@ -8,12 +9,21 @@ import shutil
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import netCDF4
 import psutil
 import pytest
+from project import SHIPPED
 from runs import contents, last_line, rows
 from slowly import slowly
+
+from pipeline.checks.freshness import Freshness
+from pipeline.cli import figures, running
+from pipeline.cli.session import UsageError
+from pipeline.config import build_specs, load
+
+DRAWING = "results/paper/figures/fig3.png"
 
 
 def test_damaged_results_are_made_again_and_not_published(done):
@@ -33,7 +43,7 @@ def test_damaged_results_are_made_again_and_not_published(done):
         file["strain"][:] = 0.5 * file["strain"][:]
     os.utime(edited, ns=(then.st_atime_ns, then.st_mtime_ns))
     said = done.run("-n").stdout
-    assert drawing.stat().st_size == 300  # what only says something changes nothing
+    assert drawing.stat().st_size == 300  # -n changes nothing
     result = done.run()
     assert result.returncode == 0
     last_line(result)
@@ -66,23 +76,26 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     assert row.endswith(said)
     assert "Traceback" in (done.path / log).read_text()
     assert done.published() == before
-    module.write_text(text)
-    assert done.run("paper_figures/fig3.png").returncode == 0
 
 
-def test_a_failing_publication_leaves_the_figures_as_they_were(done):
-    """Where a drawing cannot be copied, the committed figure stays whole."""
-    before = contents(done)
-    module = done.path / "src" / "pipeline" / "cli" / "figures.py"
-    text = module.read_text()
-    assert text.count("shutil.copyfile(") == 1
-    done.edit("fig3", duration=15)
-    module.write_text(text.replace("shutil.copyfile(", "part.write_text('half'), shutil.nothing("))
-    assert done.run("paper_figures/fig3.png").returncode != 0
-    assert contents(done) == before
-    module.write_text(text)
-    assert done.run("paper_figures/fig3.png").returncode == 0
-    assert contents(done)["fig3.png"] != before["fig3.png"]
+def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch):
+    published, drawing = tmp_path / "published.png", tmp_path / "drawing.png"
+    published.write_text("before")
+    drawing.write_text("after")
+
+    def copy_half(source, target):
+        Path(target).write_text("half")
+        raise OSError(errno.EIO, "Input/output error")
+
+    monkeypatch.setattr(figures, "ROOT", tmp_path)
+    with monkeypatch.context() as patch:
+        patch.setattr(figures.shutil, "copyfile", copy_half)
+        problems = figures._publish({"published.png": "drawing.png"})
+    assert problems == {"published.png": "cannot be written: Input/output error"}
+    assert published.read_text() == "before"
+    assert sorted(tmp_path.iterdir()) == [drawing, published]
+    assert figures._publish({"published.png": "drawing.png"}) == {}
+    assert published.read_text() == "after"
 
 
 @pytest.mark.parametrize("everyone", [False, *slowly(True)])
@@ -175,19 +188,15 @@ PLACES = [f"results/paper/{name}" for name in ("figures", "logs", "provenance")]
 
 
 @pytest.mark.parametrize("place", [*PLACES, ".snakemake", ".snakemake/metadata"])
-def test_a_file_in_the_place_of_a_folder_is_named(tree, place):
-    (tree.path / place).parent.mkdir(parents=True, exist_ok=True)
-    (tree.path / place).touch()
-    result = tree.run()
-    line = f"reproduce: {place}: a file stands in a folder's place, move it away\n"
-    assert (result.returncode, result.stdout) == (1, line)
-
-
-def test_settings_of_a_users_shell_that_numba_refuses_do_not_reach_a_run(done):
-    (done.path / "results" / "paper" / "motion_fig3.nc").unlink()
-    settings = {"NUMBA_NUM_THREADS": "0", "NUMBA_OPT": "none", "NUMBA_THREADING_LAYER": "none"}
-    result = done.run("paper_figures/fig3.png", **settings)
-    assert result.returncode == 0, result.stdout
+def test_a_file_in_the_place_of_a_folder_is_named(tmp_path, monkeypatch, place):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(running, "ROOT", tmp_path)
+    (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+    (tmp_path / place).touch()
+    checked = load(SHIPPED)
+    specs = build_specs.of_variants(checked["variants"])
+    with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
+        running.make(checked, Freshness(tmp_path, specs), [DRAWING], [])
 
 
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):

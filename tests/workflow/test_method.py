@@ -1,4 +1,4 @@
-"""Scenes that name a method: their data say what it missed, and nothing else changes."""
+"""Scenes with a `method`: their data count what it missed, and nothing else changes."""
 
 import pytest
 from project import Tree, fresh_tree, shipped, small

@@ -1,4 +1,4 @@
-"""What is refused before anything starts, each in one line."""
+"""Refusals before anything starts, and the installation of .venv."""
 
 import os
 import re
@@ -403,9 +403,10 @@ def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up,
     pip = "PIP_NO_INDEX=1 .venv/bin/python -m pip install -q --find-links .. mine"
     assert mine == "mine" and set_up.shell(pip) == ""
     assert set_up.run() == (0, "handed over\n")
-    for name in ("needed", "needed-1.0.dist-info", "extra", "pseudorigid.pth"):
-        (set_up.site / name).rename(set_up.folder / name)
-        line = f"reproduce: .venv lacks {name}: installing its packages again\n"
+    for names in (["extra", "needed", "pseudorigid.pth"], ["needed-1.0.dist-info"]):
+        for name in names:
+            (set_up.site / name).rename(set_up.folder / name)
+        line = f"reproduce: .venv lacks {names[0]}: installing its packages again\n"
         assert set_up.run() == (0, f"handed over\n{line}")
     assert set_up.run() == (0, "handed over\n")
     for package in ("needed", "extra", "mine"):
@@ -436,7 +437,7 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
         set_up.with_uv()
     assert set_up.run("--offline", "nowhere") == (
         1,
-        f"reproduce: {set_up.folder}/nowhere: no folder with wheels is there\n",
+        f"reproduce: {set_up.folder}/nowhere: there is no folder with wheels\n",
     )
     for words in (["--offline"], ["--offline", ""], ["--offline="]):
         assert set_up.run(*words)[0] == 2
@@ -453,7 +454,7 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
     status, said = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)
     assert (status, said) == (0, f"handed over fig3\n{LINE}")
     # Also where nothing has to be installed.
-    nowhere = f"reproduce: {set_up.folder}/nowhere: no folder with wheels is there\n"
+    nowhere = f"reproduce: {set_up.folder}/nowhere: there is no folder with wheels\n"
     assert set_up.run("--offline", "nowhere", "fig3") == (1, nowhere)
 
 

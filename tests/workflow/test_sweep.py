@@ -1,4 +1,4 @@
-"""Sweeps as they are run: what is told, refused and repaired; no fault shows in the bytes."""
+"""Runs of sweeps: progress, mistakes, and faults that are repaired to the same bytes."""
 
 import hashlib
 import os
@@ -13,7 +13,7 @@ import pytest
 from project import ROOT, fresh_tree, of_scenes
 from runs import rows
 
-from pipeline.cli.commands.sweep import chosen
+from pipeline.cli.commands.sweep import selected
 from pipeline.cli.running.space import require_space
 from pipeline.cli.session import CommandLineError, UsageError
 from pipeline.config import build_specs, paths
@@ -38,14 +38,14 @@ def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
     require_space(each for path, each in specs().items() if path not in blocks)
 
 
-def test_all_sweeps_are_meant_where_none_is_named():
+def test_all_sweeps_are_selected_without_a_name():
     sweeps = {"plane": SMALL, "line": SMALL}
-    assert chosen(sweeps, []) == ["plane", "line"]
-    assert chosen(sweeps, ["line"]) == ["line"]
+    assert selected(sweeps, []) == ["plane", "line"]
+    assert selected(sweeps, ["line"]) == ["line"]
     with pytest.raises(CommandLineError, match="no sweep lime: did you mean line"):
-        chosen(sweeps, ["lime"])
+        selected(sweeps, ["lime"])
     with pytest.raises(UsageError, match="sweeps: missing, or empty"):
-        chosen({}, [])
+        selected({}, [])
 
 
 def test_progress_tells_rate_and_time_to_finish(monkeypatch):

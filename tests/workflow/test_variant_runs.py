@@ -1,4 +1,4 @@
-"""Variants as they are run: what is shared, what cannot exist, and the copy scaled by two."""
+"""Runs of variants: shared results, figures that cannot exist, and a copy scaled by two."""
 
 import os
 import shutil
@@ -13,6 +13,9 @@ from project import of_scenes
 from runs import VARIANTS, contents, rows
 
 from pipeline import config
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import variant
+from pipeline.cli.session import CommandLineError
 
 LENGTHS = {"x", "xdot", "udot", "position", "strain", "impact_position"}
 ABSENT = "cannot exist: no elliptic orbit of period 6 at energy 0.0017"
@@ -35,7 +38,7 @@ def figures_of(tree, name):
 
 @pytest.fixture(scope="module")
 def scaled(tmp_path_factory):
-    """(variant, name of a dataset) -> the dataset, of small scenes as they are and times two."""
+    """Return a function of a variant and a name that computes the dataset of a small scene."""
     folder = tmp_path_factory.mktemp("scaled")
     document = of_scenes("fig4", "fig5", "fig6", "fig7", variants=VARIANTS)
     (folder / "config.yaml").write_text(yaml.safe_dump(document))
@@ -86,7 +89,6 @@ def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
 def test_a_second_run_has_nothing_to_do(done):
     again = done.run("variant", "low")
     assert again.returncode == 0
-    assert "snakemake" not in again.stdout
     assert [*rows(again.stdout).values()] == ["current"] * 2
     assert ABSENT in again.stdout
 
@@ -102,26 +104,12 @@ def test_one_figure_of_variants(done):
     assert "low/fig7  drawing png" in said
     assert "side by side: results/compare/paper..low/fig7.png" in said
     assert "fig3" not in said
-    result = done.run("variant", "low", "fig33")
-    assert result.returncode == 2
-    assert result.stdout.startswith("reproduce: no figure fig33: did you mean fig3? ")
 
 
 def test_a_variant_s_figures_are_not_published(variants):
     assert set(contents(variants)) == {"fig3.png", "fig4.png", "fig7.png"}
     data = (variants.path / "results" / "paper" / "figures" / "fig7.png").read_bytes()
     assert contents(variants)["fig7.png"] == data
-
-
-@pytest.mark.slow
-def test_a_deleted_file_of_a_variant_comes_back(done):
-    figure = done.path / "results" / "low" / "figures" / "fig7.png"
-    data = done.path / "results" / "low" / "lyapunov_fig7.nc"
-    before = figure.read_bytes(), data.read_bytes()
-    figure.unlink()
-    data.unlink()
-    assert done.run("variant", "low").returncode == 0
-    assert (figure.read_bytes(), data.read_bytes()) == before
 
 
 def test_a_figure_that_can_no_longer_exist_is_removed(done):
@@ -155,41 +143,29 @@ def test_what_is_shared_is_not_computed_again(done):
 
 
 @pytest.mark.parametrize(
-    ("words", "line"),
+    ("name", "line"),
     [
-        (("lowr",), "no variant lowr: did you mean low? config.yaml has low, doubled"),
-        (("a/b",), "no variant a/b: config.yaml has low, doubled"),
-        (("paper",), "no variant paper: config.yaml has low, doubled"),
-        ((), "variant needs a name: config.yaml has low, doubled"),
-        (("-n",), "variant needs a name: config.yaml has low, doubled"),
+        ("lowr", "no variant lowr: did you mean low? config.yaml has low, doubled"),
+        ("a/b", "no variant a/b: config.yaml has low, doubled"),
+        ("paper", "no variant paper: config.yaml has low, doubled"),
+        (None, "variant needs a name: config.yaml has low, doubled"),
     ],
 )
-def test_a_name_that_is_no_variant_is_one_line(variants, words, line):
-    result = variants.run("variant", *words)
-    assert (result.returncode, result.stdout) == (2, f"reproduce: {line}\n")
+def test_an_unknown_variant_is_one_line(variants, name, line):
+    args = Arguments(variant=name, figure=[], options=[], config=config.load(variants.config))
+    with pytest.raises(CommandLineError) as error:
+        variant.run(args)
+    assert str(error.value) == line
 
 
 def test_a_bad_variant_starts_nothing_whatever_is_asked_for(done):
     edit(done, "bad", {"energy": 0.9})
-    line = "config.yaml: variants.bad.energy: 0.9 is not allowed: expected a number below k/2 - g"
-    for words in ((), ("variant", "low"), ("variant", "bad"), ("verify",)):
+    line = "config.yaml: variants.bad.energy: 0.9 is not allowed"
+    for words in ((), ("variant", "low")):
         result = done.run(*words)
         assert result.returncode == 1
         assert result.stdout.startswith(line)
         assert result.stdout.count("\n") == 1
-
-
-@pytest.mark.slow
-def test_damaged_findings_drawings_and_data_are_made_again(done):
-    folder = done.path / "results" / "low"
-    files = folder / "figures" / "fig7.png", folder / "lyapunov_fig7.nc"
-    before = [file.read_bytes() for file in files]
-    for file, content in zip(files, before, strict=True):
-        file.write_bytes(content[:10])
-    result = done.run("variant", "low")
-    assert result.returncode == 0, result.stdout
-    assert [file.read_bytes() for file in files] == before
-    assert "lyapunov_fig7.nc: changed after it was made: made again" in result.stdout
 
 
 @pytest.mark.slow
