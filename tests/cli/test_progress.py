@@ -1,4 +1,4 @@
-"""What a user is told: what would be made and why, steps, and the state of files."""
+"""Plans, the line of each step of a run, and the state of files."""
 
 import hashlib
 import json
@@ -36,14 +36,14 @@ def test_a_result_has_the_name_of_its_scene_and_step():
 
 
 def spec(path, step, config, sources, inputs=()):
-    """A result of fig2, made from few sources."""
+    """Return the specification of a result of fig2."""
     config |= {"energy": 0.01}
     return BuildSpec(path, "fig2", step, config, "stage", None, sources, [*inputs])
 
 
 @pytest.fixture
 def made(tmp_path, monkeypatch):
-    """A folder with orbits and a drawing of them, made by two sources; what is expected there."""
+    """Return a folder with recorded orbits and a drawing of them, and their specifications."""
     monkeypatch.chdir(tmp_path)
     build_specs = {
         ORBITS: spec(ORBITS, "orbits", {"ball": {"g": 0.04}}, ["a.py", "b.py"]),
@@ -80,7 +80,7 @@ def test_a_plan_names_what_changed_by_scene(made):
     ]
 
 
-def test_a_plan_names_damage_and_what_is_not_there(made):
+def test_a_plan_names_damaged_and_missing_results(made):
     root, _ = made
     (root / DRAWING).unlink()
     assert planned(made) == ["fig2: not made yet: drawing"]
@@ -114,9 +114,9 @@ def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
     sums["gone.png"] = sums["same.png"]
     (folder / "SHA256SUMS").write_text("".join(f"{d}  {name}\n" for name, d in sums.items()))
     paths = [f"figures/{name}.png" for name in ("same", "other", "new", "gone")]
-    found = states.committed("figures", [*paths, "results/x.pdf"])
+    compared = states.committed("figures", [*paths, "results/x.pdf"])
     words = ("identical", "differs", "not committed", "missing")
-    assert found == dict(zip(paths, words, strict=True))
+    assert compared == dict(zip(paths, words, strict=True))
 
 
 def event(kind, created, **about):
@@ -136,7 +136,7 @@ def handler(tmp_path, monkeypatch):
     return steps.LogHandler(None, None)
 
 
-def test_a_step_is_a_line_with_its_seconds_and_what_is_left(handler, capsys):
+def test_a_step_is_a_line_with_its_seconds_and_the_count_of_steps(handler, capsys):
     for job, path in enumerate((ORBITS, DRAWING)):
         handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
     handler.emit(event(LogEvent.JOB_STARTED, 10.0, jobs=[0, 1]))
@@ -169,7 +169,7 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     assert handler.failed
 
 
-def test_blocks_of_a_sweep_are_told_by_its_cells(handler, capsys, monkeypatch):
+def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
     handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[ORBITS]))
     block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10}, [])
     monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
@@ -190,7 +190,7 @@ def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path)
     assert "as it was" in capsys.readouterr().err
 
 
-def test_only_what_is_written_for_the_user_is_one_line():
+def test_only_errors_of_the_given_kind_are_one_line():
     with pytest.raises(UsageError, match=r"^archive: no archive$"), one_line("archive: ", OSError):
         raise OSError("no archive")
     with pytest.raises(KeyError), one_line("archive: ", OSError):

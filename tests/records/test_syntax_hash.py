@@ -113,7 +113,7 @@ def of_all():
 
 
 def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():
-    files = {file for made in of_all().values() for file in made.sources}
+    files = {file for spec in of_all().values() for file in spec.sources}
     files |= set(sources.source_files("pseudorigid.proofs.derivations"))
     lazy = set(proofs._MODULES)
     dynamic = {f"src/pipeline/jobs/{name}.py" for name in ("draw", "stage", "study")}
@@ -133,8 +133,8 @@ def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():
 def test_bookkeeping_is_no_source_of_any_result():
     modules = {f"src/{name.replace('.', '/')}" for name in sources.BOOKKEEPING}
     left_out = {f"{name}.py" for name in modules} | {f"{name}/__init__.py" for name in modules}
-    for path, made in of_all().items():
-        assert not left_out & set(made.sources), path
+    for path, spec in of_all().items():
+        assert not left_out & set(spec.sources), path
     # Other modules of `records` are sources of a drawing.
     for name in modules:
         assert (ROOT / f"{name}.py").is_file() or (ROOT / name).is_dir()
@@ -154,23 +154,23 @@ def test_a_fifo_has_no_hash(tmp_path):
 
 
 @pytest.mark.parametrize("damage", ["value", "import", "cut", "folder", "FIFO"])
-def test_a_damaged_cache_of_meanings_is_not_used(tmp_path, monkeypatch, damage):
-    kept = tmp_path / "meanings.json"
-    monkeypatch.setattr(meanings, "_KEPT", kept)
+def test_a_damaged_cache_of_hashes_is_not_used(tmp_path, monkeypatch, damage):
+    cache = tmp_path / "meanings.json"
+    monkeypatch.setattr(meanings, "_KEPT", cache)
     fresh, data = meanings._known.__wrapped__, b"import os\n\nVALUE = 1\n"
     known = fresh()
     monkeypatch.setattr(meanings, "_known", lambda: known)
     found = facts("module.py", data)
     meanings.keep()
     assert list(fresh().values()) == [found]
-    text = kept.read_text()
+    text = cache.read_text()
     if damage in ("folder", "FIFO"):
-        kept.unlink()
-        (os.mkdir if damage == "folder" else os.mkfifo)(kept)
+        cache.unlink()
+        (os.mkdir if damage == "folder" else os.mkfifo)(cache)
     elif damage == "cut":
-        kept.write_text(text[:-1])
+        cache.write_text(text[:-1])
     else:
         edits = {"value": (found[0], "0" * 64), "import": ('"os"', '"re"')}
-        kept.write_text(text.replace(*edits[damage]))
-        assert kept.read_text() != text
+        cache.write_text(text.replace(*edits[damage]))
+        assert cache.read_text() != text
     assert fresh() == {}

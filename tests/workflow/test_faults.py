@@ -42,12 +42,12 @@ def test_damaged_results_are_made_again_and_not_published(done):
     with netCDF4.Dataset(edited, "a") as file:  # a number changed by hand
         file["strain"][:] = 0.5 * file["strain"][:]
     os.utime(edited, ns=(then.st_atime_ns, then.st_mtime_ns))
-    said = done.run("-n").stdout
+    plan = done.run("-n").stdout
     assert drawing.stat().st_size == 300  # -n changes nothing
     result = done.run()
     assert result.returncode == 0
     last_line(result)
-    for text in (said, result.stdout):
+    for text in (plan, result.stdout):
         for file in ("figures/fig3.png", "periodic_fig4.nc", "motion_fig3.nc"):
             line = f"reproduce: results/paper/{file}: changed after it was made: made again"
             assert line in text
@@ -66,14 +66,14 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(done):
     result = done.run("paper_figures/fig3.png")
     assert result.returncode == 1
     log = "results/paper/logs/motion_fig3.nc.log"
-    said = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
+    reason = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
     (line,) = (line for line in result.stdout.splitlines() if line.startswith("fig3    motion"))
-    assert line.endswith(said)
+    assert line.endswith(reason)
     last_line(result)
     (named,) = re.findall(r"^reproduce: snakemake's log: (.*)$", result.stdout, re.MULTILINE)
     assert (done.path / named).is_file()
     (row,) = (line for line in result.stdout.splitlines() if "paper_figures/fig3.png" in line)
-    assert row.endswith(said)
+    assert row.endswith(reason)
     assert "Traceback" in (done.path / log).read_text()
     assert done.published() == before
 
@@ -166,9 +166,9 @@ def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
             break
         time.sleep(0.1)
     run.send_signal(number)
-    _, said = run.communicate(timeout=30)
+    _, output = run.communicate(timeout=30)
     assert run.returncode == 130
-    assert said.splitlines()[-1] == "reproduce: interrupted: run it again to go on"
+    assert output.splitlines()[-1] == "reproduce: interrupted: run it again to go on"
     # Until somebody asks for its end a killed process is a zombie.
     with contextlib.suppress(psutil.NoSuchProcess):
         job = psutil.Process(int(begun.read_text()))

@@ -10,7 +10,7 @@ DATA = [f"results/paper/{name}.nc" for name in ("orbits_fig2", "manifolds_fig6")
 
 
 def make(folder):
-    """Figures 3 and 7, an orbit and manifolds of small scenes by the paper's method."""
+    """Make figures 3 and 7, orbits and manifolds of small scenes by scan and bisection."""
     document = small(shipped())
     for scene in ("fig2", "fig3", "fig6"):
         document["scenes"][scene]["method"] = FINE
@@ -18,7 +18,7 @@ def make(folder):
     tree = fresh_tree(folder, document)
     result = tree.run(*(f"paper_figures/{scene}.png" for scene in ("fig3", "fig7")), *DATA)
     assert result.returncode == 0, result.stdout
-    (folder / "said").write_text(result.stdout)
+    (folder / "output").write_text(result.stdout)
 
 
 @pytest.fixture(scope="module")
@@ -32,23 +32,20 @@ def attributes(tree, name):
 
 def test_the_data_of_a_method_say_what_it_missed(published, finished):
     for name in ("motion_fig3", "orbits_fig2", "manifolds_fig6", "lyapunov_fig7"):
-        found = attributes(published, name)
-        assert '"method":{"scan":' in found["config"]
-        assert 0 <= found["impacts_missed"] < found["impacts"]
+        attrs = attributes(published, name)
+        assert '"method":{"scan":' in attrs["config"]
+        assert 0 <= attrs["impacts_missed"] < attrs["impacts"]
     assert attributes(published, "lyapunov_fig7")["impacts"] == 9000
     assert attributes(published, "lyapunov_fig7")["impacts_missed"] > 0
-    # periodic points are the certified map's; a scene without a method has no such words
+    # Periodic points are those of the certified map.
     for tree, name in ((published, "periodic_fig3"), (finished, "motion_fig3")):
         assert not {"impacts", "impacts_missed"} & set(attributes(tree, name))
         assert "method" not in attributes(tree, name)["config"]
 
 
-def test_the_run_tells_it(published):
-    lines = [
-        x
-        for x in (published.path / "said").read_text().splitlines()
-        if "fell through the floor" in x
-    ]
+def test_the_run_prints_missed_impacts(published):
+    output = (published.path / "output").read_text()
+    lines = [line for line in output.splitlines() if "fell through the floor" in line]
     missed = attributes(published, "lyapunov_fig7")["impacts_missed"]
     assert lines[-1] == (
         f"fig7: {missed} of 9,000 impacts fell through the floor (scan 1, tolerance 0.001)"
@@ -63,5 +60,5 @@ def test_a_method_makes_its_own_data_alone(published, tmp_path):
     assert planned.startswith("fig3: method") and planned.endswith(": motion, drawing")
 
 
-def test_the_paper_s_own_scenes_are_certified():
+def test_the_papers_own_scenes_are_certified():
     assert not [block for block in shipped()["scenes"].values() if "method" in block]

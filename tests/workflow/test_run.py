@@ -19,14 +19,14 @@ def test_a_fresh_clone_computes_everything_whatever_the_file_times(finished):
 
 
 def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
-    said = (finished.path / "first run").read_text().splitlines()
-    steps = [line.split() for line in said if re.search(r" \d+ of \d+$", line)]
+    output = (finished.path / "first run").read_text().splitlines()
+    steps = [line.split() for line in output if re.search(r" \d+ of \d+$", line)]
     assert {step[0] for step in steps} == set(finished.document()["scenes"])
     assert [step[-3] for step in steps] == [str(i + 1) for i in range(len(steps))]
     assert {step[-1] for step in steps} == {str(len(steps))}
-    assert len(said) + 2 <= 60  # with those of the set-up
+    assert len(output) + 2 <= 60  # with the lines of the installation
     # steps, an empty line, the header, the files: nothing else
-    assert len(said) == len(steps) + 2 + len(finished.published())
+    assert len(output) == len(steps) + 2 + len(finished.published())
 
 
 def test_a_plan_is_in_our_words_and_makes_nothing(done):
@@ -59,8 +59,8 @@ def test_figures_by_name(done):
 def test_the_closing_table_and_the_list_say_what_is_committed(accepted, tmp_path):
     done = accepted.copy(tmp_path / "done")
     done.edit("fig7", records=5)
-    said = done.run().stdout
-    state = dict(re.findall(r"(paper_figures/\S+) .* (identical|differs)$", said, re.MULTILINE))
+    output = done.run().stdout
+    state = dict(re.findall(r"(paper_figures/\S+) .* (identical|differs)$", output, re.MULTILINE))
     assert set(state) == {
         f"paper_figures/{f}" for f in done.published() if "." in f and f != "MANIFEST.json"
     }
@@ -89,13 +89,13 @@ def test_data_that_keep_their_bytes_have_nothing_drawn_from_them(done):
         for file in (done.path / "results" / "paper" / "figures").glob(f"{scene}.*")
     ]
     before = [file.stat().st_ino for file in drawings]
-    said = done.run(*scenes).stdout
-    steps = re.findall(r"^(fig\d)  +(\w+).* (as it was|s) +\d+ of \d+$", said, re.MULTILINE)
+    output = done.run(*scenes).stdout
+    steps = re.findall(r"^(fig\d)  +(\w+).* (as it was|s) +\d+ of \d+$", output, re.MULTILINE)
     assert {(scene, what) for scene, what, how in steps if how == "s"} == {
         (scene, "motion") for scene in scenes
     }
     assert {what for _, what, how in steps if how != "s"} == {"drawing"}
-    assert set(rows(said).values()) == {"current"}
+    assert set(rows(output).values()) == {"current"}
     assert [file.stat().st_ino for file in drawings] == before
     assert done.planned() == set()
     module.write_text(
@@ -220,11 +220,11 @@ def test_a_figure_that_cannot_exist_is_left_out_and_the_rest_is_drawn(done):
     done.edit("fig7", records=5)
     result = done.run()
     assert result.returncode == 1
-    step, *said = [line for line in result.stdout.splitlines() if line.startswith("fig3")]
+    step, *states = [line for line in result.stdout.splitlines() if line.startswith("fig3")]
     words = "no inverse hyperbolic orbit of period 1 at energy 0.01 (found: elliptic)"
     assert step.endswith(f"not made: {words}")
-    assert len(said) == 2
-    assert all(line.endswith(f"cannot exist: {words}") for line in said)
+    assert len(states) == 2
+    assert all(line.endswith(f"cannot exist: {words}") for line in states)
     assert "fig3    periodic" not in done.run("fig3").stdout  # it is not tried again
     table = rows(result.stdout)
     assert {file for file in table if table[file] == "recomputed"} == {
@@ -234,18 +234,12 @@ def test_a_figure_that_cannot_exist_is_left_out_and_the_rest_is_drawn(done):
     assert len(table) == len(before) - 2
 
 
-def test_the_graph_is_printed(tree):
-    result = tree.run("paper_figures/fig3.png", "--dag")
-    assert result.returncode == 0
-    assert "digraph snakemake_dag" in result.stdout
-
-
 def test_long_jobs_begin_first_and_only_two_parts_of_the_study_run_alone(tree):
     parts = [f"results/study/{part}.nc" for part in (*study.FIXED, *study.MEASURED)]
-    said = tree.run(*parts, "-n", "--cores", "3", "--quiet", "host").stdout
+    output = tree.run(*parts, "-n", "--cores", "3", "--quiet", "host").stdout
     jobs = {
         re.search(r"output: results/(\S+)\.nc ", job)[1]: job
-        for job in re.split(r"^rule ", said, flags=re.MULTILINE)[1:]
+        for job in re.split(r"^rule ", output, flags=re.MULTILINE)[1:]
     }
     alone = {name for name, job in jobs.items() if "threads: 3" in job}
     assert alone == {"study/verdicts", "study/work_all"}

@@ -11,7 +11,7 @@ from project import ROOT, fresh_tree, of_scenes, shipped
 
 from pipeline.records.sources import BOOKKEEPING
 
-# Added to the module that makes results: once one is there, it writes down what had been loaded.
+# Appended to jobs/dispatch.py: when a result is made, write the names of the loaded files.
 NOTES = """
 
 class _Noting:
@@ -34,7 +34,7 @@ def make(spec, answer):
 
 
 def loaded(tree, folder, *targets):
-    """Result -> the files of the tree that its job, a Python of its own, had loaded at its end."""
+    """Return {result: files of the tree that its job, in a Python of its own, had loaded}."""
     with (tree.path / "src/pipeline/jobs/dispatch.py").open("a") as making:
         making.write(NOTES)
     notes = folder / "notes"
@@ -62,9 +62,9 @@ def bookkeeping():
     return {f"{name}.py" for name in names} | {f"{name}/__init__.py" for name in names}
 
 
-def undeclared(tree, found):
-    """Result -> what its job had loaded and its record does not name."""
-    for result, files in found.items():
+def undeclared(tree, loaded_files):
+    """Yield results with the files that their jobs loaded and their records do not name."""
+    for result, files in loaded_files.items():
         _, variant, *_, name = Path(result).parts
         record = tree.path / "results" / variant / "provenance" / f"{name}.json"
         named = set(json.loads(record.read_text())["sources"])
@@ -75,15 +75,15 @@ def undeclared(tree, found):
 @pytest.mark.slow
 def test_a_job_loads_what_its_record_names(tmp_path):
     tree = fresh_tree(tmp_path / "tree", of_scenes("fig2", "fig3", "fig5", "fig7"))
-    found = loaded(tree, tmp_path)
-    assert len(found) >= 9
-    assert dict(undeclared(tree, found)) == {}
-    assert all("src/pipeline/records/record.py" in files for files in found.values())
+    loaded_files = loaded(tree, tmp_path)
+    assert len(loaded_files) >= 9
+    assert dict(undeclared(tree, loaded_files)) == {}
+    assert all("src/pipeline/records/record.py" in files for files in loaded_files.values())
 
 
 @pytest.mark.slow
 def test_jobs_of_the_other_kinds_load_what_their_records_name(tmp_path):
-    """What is proved, a picture of the claims and a sweep."""
+    """Draw theorems, a claim and a sweep."""
     whole = shipped()
     few = of_scenes("fig3")
     few["proofs"] = whole["proofs"]
@@ -93,12 +93,12 @@ def test_jobs_of_the_other_kinds_load_what_their_records_name(tmp_path):
     tree = fresh_tree(tmp_path / "tree", few)
     drawn = ("proofs/figures/horseshoe.png", "proofs/figures/twist.png", "claims/figures/jumps.png")
     targets = [f"results/{name}" for name in (*drawn, "sweep/figures/line.png")]
-    found = loaded(tree, tmp_path, *targets)
-    assert len(found) >= 10
-    assert dict(undeclared(tree, found)) == {}
+    loaded_files = loaded(tree, tmp_path, *targets)
+    assert len(loaded_files) >= 10
+    assert dict(undeclared(tree, loaded_files)) == {}
 
 
-def test_comments_formatting_and_docstrings_make_nothing_again(done):
+def test_comments_formatting_and_docstrings_outdate_nothing(done):
     python = [*(done.path / "src").rglob("*.py"), *(done.path / "workflow").rglob("*.py")]
     rules = [done.path / "Snakefile", *(done.path / "workflow").rglob("*.smk")]
     for file in (*python, *rules):
@@ -116,7 +116,7 @@ def test_comments_formatting_and_docstrings_make_nothing_again(done):
     assert "recomputed" not in done.run().stdout
 
 
-def test_a_line_of_code_in_the_kernel_makes_the_datasets_again(done):
+def test_a_line_of_code_in_the_kernel_outdates_the_datasets(done):
     with (done.path / "src/pseudorigid/kernel/lanes.py").open("a") as file:
         file.write("_UNUSED = 1\n")
     planned = done.run("-n").stdout.splitlines()
@@ -124,7 +124,7 @@ def test_a_line_of_code_in_the_kernel_makes_the_datasets_again(done):
     assert len(planned) == len(done.document()["scenes"])
 
 
-# In each module of bookkeeping a change of what it does, where it does anything.
+# Module of BOOKKEEPING -> an edit that changes what it does; packages without code have none.
 PLANTED = {
     "pipeline": ("", ""),
     "pipeline.jobs": ("", ""),

@@ -37,14 +37,14 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
         text=True,
         check=False,
     )
-    profile, said = bare.stderr.split("\n", 1)  # of which snakemake tells
-    assert (bare.returncode, said) == (1, lines)
+    profile, message = bare.stderr.split("\n", 1)
+    assert (bare.returncode, message) == (1, lines)
     assert "profiles/default" in profile
     assert not (tree.path / "results").exists()
 
 
 def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
-    """As when a job of a cluster finds another checkout's packages first."""
+    """On a cluster, a job could import the packages of another checkout."""
     result = subprocess.run(
         [sys.executable, "-m", "snakemake", "--cores", "1"],
         cwd=tree.path,
@@ -58,16 +58,10 @@ def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
     assert not (tree.path / "results").exists()
 
 
-def test_settings_on_the_command_line_are_refused(tree):
-    result = tree.run("-n", "--config", "energy=0.3")
-    assert result.returncode == 2
-    assert result.stdout.splitlines()[-1].endswith("not used here: edit config.yaml")
-
-
 @pytest.mark.parametrize(
     "words", ["--coers 1", "--cores x", "-j x", "--set-threads x", "--default-resources ="]
 )
-def test_what_snakemake_cannot_read_is_one_line(words):
+def test_a_bad_option_of_snakemake_is_one_line(words):
     with pytest.raises(CommandLineError) as refused:
         running.options_of(words.split())
     (line,) = str(refused.value).splitlines()
@@ -75,13 +69,13 @@ def test_what_snakemake_cannot_read_is_one_line(words):
 
 
 @pytest.mark.parametrize("option", ["--directory", "-d", "--direct"])
-def test_a_run_is_of_its_own_folder(option):
+def test_options_for_another_folder_are_refused(option):
     with pytest.raises(CommandLineError, match=r"^--directory is not used here"):
         running.options_of(["fig3", option, "elsewhere"])
 
 
 def shell_tools(folder, *tools):
-    """A folder with nothing on it but these tools."""
+    """Return a folder for PATH with only a few tools."""
     folder.mkdir()
     for tool in ("readlink", "cat", "cksum", "uname", "cut", "tail", "mkdir", "rm", *tools):
         (folder / tool).symlink_to(shutil.which(tool))
@@ -112,9 +106,9 @@ def shell_tools(folder, *tools):
 def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
     path = shell_tools(tmp_path / "bin", "sh")
     if pretend:
-        told = "import platform\nplatform.python_version = lambda: '.'.join(map(str, version))\n"
+        version = "import platform\nplatform.python_version = lambda: '.'.join(map(str, version))\n"
         prelude = (
-            f"import sys\n{pretend}\nversion = sys.version_info[:3]\n{told}exec(sys.argv.pop())"
+            f"import sys\n{pretend}\nversion = sys.version_info[:3]\n{version}exec(sys.argv.pop())"
         )
         program = tmp_path / "program.py"
         program.write_text(prelude)
@@ -168,7 +162,7 @@ def wheel(folder, name):
 
 
 class SetUp:
-    """A tree that installs three small packages from a folder, and then only says so."""
+    """A tree that installs three small packages and prints a line instead of making figures."""
 
     def __init__(self, tree, folder):
         self.tree, self.venv, self.folder = tree.path, tree.path / ".venv", folder
@@ -177,8 +171,8 @@ class SetUp:
         for name, package in (("build", "tools"), ("lock", "needed"), ("test", "extra")):
             file = self.tree / "requirements" / f"{name}.txt"
             file.write_text(wheel(self.wheels, package))
-        told = "*sys.argv[1:], *sys.warnoptions, *['no caches'] * sys.dont_write_bytecode"
-        main = f"import sys\nprint('handed over', {told})\n"
+        printed = "*sys.argv[1:], *sys.warnoptions, *['no caches'] * sys.dont_write_bytecode"
+        main = f"import sys\nprint('handed over', {printed})\n"
         (self.tree / "src" / "pipeline" / "__main__.py").write_text(main)
         (folder / "bin").mkdir()
         (folder / "tmp").mkdir()
@@ -189,7 +183,7 @@ class SetUp:
             "PSEUDORIGID_WHEELS": str(self.wheels),
             "TMPDIR": str(folder / "tmp"),
             "SLOW": str(self.slow),
-            "PYTHONWARNINGS": "error",  # these two must not reach what runs
+            "PYTHONWARNINGS": "error",  # neither may reach python -m pipeline
             "PYTHONDONTWRITEBYTECODE": "1",
         }
 
@@ -216,8 +210,8 @@ class SetUp:
         return result.returncode, result.stdout + result.stderr
 
     def shell(self, command, shell="sh"):
-        """What a command prints in a shell, in the folder of the tree."""
-        said = subprocess.run(
+        """Return what a command prints in a shell, in the folder of the tree."""
+        result = subprocess.run(
             [shell, "-c", command],
             env={"PATH": "/usr/bin:/bin", "HOME": str(self.folder)},
             cwd=self.venv.parent,
@@ -225,7 +219,7 @@ class SetUp:
             text=True,
             check=False,
         )
-        return said.stdout + said.stderr
+        return result.stdout + result.stderr
 
     @property
     def site(self):
@@ -241,7 +235,7 @@ def set_up(tree, tmp_path):
     return SetUp(tree, tmp_path)
 
 
-def test_what_is_left_of_a_venv_is_made_anew(set_up):
+def test_an_incomplete_venv_is_made_anew(set_up):
     set_up.with_uv()
     assert set_up.run() == MADE
     assert set_up.installer() == "uv"
@@ -301,7 +295,7 @@ def test_a_venv_of_somebody_else_stays(set_up):
 
 
 def start_slowly(set_up, number):
-    """A run of ./reproduce and its installer's process, which sleeps; `number` is not ignored."""
+    """Start ./reproduce with an installer that sleeps; return it and the process id."""
     (version,) = re.findall(r"^uv==(\S+)", (ROOT / "requirements/uv.txt").read_text(), re.MULTILINE)
     set_up.with_uv(SLOW_UV % version)
     set_up.slow.touch()
@@ -322,12 +316,12 @@ def start_slowly(set_up, number):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_set_up_ends_when_it_alone_is_told(set_up, number):
+def test_a_signal_to_the_set_up_ends_its_installer(set_up, number):
     run, installer = start_slowly(set_up, number)
     run.send_signal(number)
-    _, said = run.communicate(timeout=30)
+    _, output = run.communicate(timeout=30)
     assert run.returncode == 130
-    assert said == f"{LINE}reproduce: interrupted: run it again to go on\n"
+    assert output == f"{LINE}reproduce: interrupted: run it again to go on\n"
     assert not Path(f"/proc/{installer}").exists()
     assert not list((set_up.folder / "tmp").iterdir())
 
@@ -343,10 +337,10 @@ def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     with pytest.raises(subprocess.TimeoutExpired):
         next_one.communicate(timeout=2)
     os.kill(installer, signal.SIGKILL)
-    out, said = next_one.communicate(timeout=60)
+    out, output = next_one.communicate(timeout=60)
     assert out == "handed over\n"
     assert set_up.installer() == "pip"  # since this uv fails
-    assert said == f"reproduce: waiting for another ./reproduce in this folder to end\n{LINE}"
+    assert output == f"reproduce: waiting for another ./reproduce in this folder to end\n{LINE}"
 
 
 INSTALLERS = ["uv", pytest.param("pip", marks=pytest.mark.slow)]
@@ -366,8 +360,8 @@ def test_the_venv_works_as_any_other_in_any_folder_and_moved(set_up, name, insta
         set_up.venv = place / ".venv"
         if folder == "moved":
             assert set_up.shell(".venv/bin/needed-where") == f"{set_up.venv}\n"
-            said = set_up.shell(". .venv/bin/activate; echo $?")
-            assert said.startswith("1\nreproduce: this folder has moved: ")
+            output = set_up.shell(". .venv/bin/activate; echo $?")
+            assert output.startswith("1\nreproduce: this folder has moved: ")
             assert set_up.run() == (0, "handed over\n")
         else:
             assert set_up.run() == MADE
@@ -376,10 +370,10 @@ def test_the_venv_works_as_any_other_in_any_folder_and_moved(set_up, name, insta
         for shell, word in SHELLS.items():
             if shutil.which(shell, path="/usr/bin:/bin"):
                 script = f"./.venv/bin/activate{'.fish' * (shell == 'fish')}"
-                said = set_up.shell(f"{word} {script}; needed-where; command -v python", shell)
-                assert said == f"{set_up.venv}\n{set_up.venv}/bin/python\n", shell
-    said = set_up.shell(".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'")
-    assert said == f"{set_up.venv.parent}/src/pipeline\n"
+                output = set_up.shell(f"{word} {script}; needed-where; command -v python", shell)
+                assert output == f"{set_up.venv}\n{set_up.venv}/bin/python\n", shell
+    output = set_up.shell(".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'")
+    assert output == f"{set_up.venv.parent}/src/pipeline\n"
 
 
 def test_a_folder_that_path_cannot_hold_says_so(set_up):
@@ -432,7 +426,7 @@ def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it
 
 
 @pytest.mark.parametrize("installer", INSTALLERS)
-def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
+def test_a_bad_folder_of_wheels_is_reported(set_up, installer):
     if installer == "uv":
         set_up.with_uv()
     assert set_up.run("--offline", "nowhere") == (
@@ -445,14 +439,14 @@ def test_a_wheelhouse_that_does_not_serve_is_told(set_up, installer):
     whole = needed.read_bytes()
     for content in (whole[:-9] + b"corrupted", None):
         needed.write_bytes(content) if content else needed.unlink()
-        status, said = set_up.run()
+        status, output = set_up.run()
         assert status == 1
-        assert said.splitlines()[-1].startswith("reproduce: could not install the packages (above")
+        assert output.splitlines()[-1].startswith("reproduce: could not install the packages")
         assert not (set_up.venv / "stamp").exists()
     needed.write_bytes(whole)
     environment = {"PSEUDORIGID_WHEELS": ""}
-    status, said = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)
-    assert (status, said) == (0, f"handed over fig3\n{LINE}")
+    status, output = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)
+    assert (status, output) == (0, f"handed over fig3\n{LINE}")
     # Also where nothing has to be installed.
     nowhere = f"reproduce: {set_up.folder}/nowhere: there is no folder with wheels\n"
     assert set_up.run("--offline", "nowhere", "fig3") == (1, nowhere)

@@ -13,7 +13,8 @@ import pytest
 from project import ROOT, fresh_tree, of_scenes
 from runs import rows
 
-from pipeline.cli.commands.sweep import selected
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import sweep
 from pipeline.cli.running.space import require_space
 from pipeline.cli.session import CommandLineError, UsageError
 from pipeline.config import build_specs, paths
@@ -26,11 +27,11 @@ SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 2
 
 
 def specs():
-    """Result -> BuildSpec of a sweep of six cells."""
+    """Build specifications of a sweep of six cells."""
     return build_specs.of_sweeps({"plane": SMALL})
 
 
-def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
+def test_a_full_disk_is_reported_before_anything_starts(monkeypatch):
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=10_100_000))
     with pytest.raises(UsageError, match=r"^the disk is full: about 10 MB are needed here, 10 are"):
         require_space(specs().values())
@@ -40,22 +41,22 @@ def test_a_disk_that_is_too_full_is_told_before_anything_starts(monkeypatch):
 
 def test_all_sweeps_are_selected_without_a_name():
     sweeps = {"plane": SMALL, "line": SMALL}
-    assert selected(sweeps, []) == ["plane", "line"]
-    assert selected(sweeps, ["line"]) == ["line"]
+    assert sweep.selected(sweeps, []) == ["plane", "line"]
+    assert sweep.selected(sweeps, ["line"]) == ["line"]
     with pytest.raises(CommandLineError, match="no sweep lime: did you mean line"):
-        selected(sweeps, ["lime"])
+        sweep.selected(sweeps, ["lime"])
     with pytest.raises(UsageError, match="sweeps: missing, or empty"):
-        selected({}, [])
+        sweep.selected({}, [])
 
 
-def test_progress_tells_rate_and_time_to_finish(monkeypatch):
-    told = "sweep: 4 of 10 cells"
-    assert cells.line(10, (6, 600), 1.5) == told
-    assert cells.line(10, (6, 600), 1.5, (0.0, 9, 900)) == f"{told}, 2 cells/s, 0 min 3 s to go"
+def test_progress_shows_rate_and_time_to_finish(monkeypatch):
+    begin = "sweep: 4 of 10 cells"
+    assert cells.line(10, (6, 600), 1.5) == begin
+    assert cells.line(10, (6, 600), 1.5, (0.0, 9, 900)) == f"{begin}, 2 cells/s, 0 min 3 s to go"
     done = cells.line(10, (0, 0), 2.0, (0.0, 4, 400))
     assert done == "sweep: 10 of 10 cells, 2 cells/s"
     assert cells.line(10, (9, 999_900), 1.0, (0.0, 10, 10**6)).endswith("2 h 46 min to go")
-    # Before the first block the jobs may compile: no speed is told from that.
+    # Before the first block the jobs may compile: speed is not measured from that.
     first, second, third = paths.block_files("plane", SMALL)
     other = BuildSpec("results/claims/x.nc", "x", "x", {"cells": 24}, "stage", None, [], [])
     progress = cells.Cells(specs() | {other.result: other}, {second, third, other.result})
@@ -63,8 +64,8 @@ def test_progress_tells_rate_and_time_to_finish(monkeypatch):
     assert progress.done(third).startswith("sweep: 6 of 6 cells, ")
     monkeypatch.setattr(cells, "PAUSE", 1000.0)
     progress = cells.Cells(specs(), {first, second, third})
-    said = [progress.done(path) for path in (first, second, third)]
-    assert [line and line.split(",")[0] for line in said] == [
+    lines = [progress.done(path) for path in (first, second, third)]
+    assert [line and line.split(",")[0] for line in lines] == [
         "sweep: 2 of 6 cells",
         None,
         "sweep: 6 of 6 cells",
@@ -77,8 +78,8 @@ def tree(tmp_path):
     return fresh_tree(tmp_path / "a fresh clone", of_scenes("fig3", sweeps={"small": SMALL}))
 
 
-def set_sweep(tree, sweep):
-    tree.write(tree.document() | {"sweeps": {"small": sweep}})
+def set_sweep(tree, block):
+    tree.write(tree.document() | {"sweeps": {"small": block}})
 
 
 def made(tree):
@@ -103,7 +104,7 @@ def swept(tree, *words):
     return result.stdout
 
 
-def test_faults_are_repaired_and_nothing_else_is_done_again(tree):
+def test_damaged_files_alone_are_made_again(tree):
     out = swept(tree)
     assert "sweep: 6 of 6 cells" in out
     assert rows(out) == {"results/sweep/small.nc": "recomputed"}
@@ -163,21 +164,11 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
     assert hashes(tree) == wanted
 
 
-def test_mistakes_end_in_one_line_before_any_job(tree):
-    result = tree.run("sweep", "smal")
-    assert result.returncode == 2
-    assert result.stdout == "reproduce: no sweep smal: did you mean small? config.yaml has small\n"
-    set_sweep(tree, SMALL | {"energy": []})
-    result = tree.run("sweep")
-    assert result.returncode == 1
-    assert result.stdout.startswith("config.yaml: sweeps.small.energy: [] is not allowed")
-    assert not (tree.path / "results").exists()
-
-
-def test_slurm_where_there_is_none_is_one_line(tree):
-    result = tree.run("sweep", "--slurm", PATH="/nowhere")
-    assert result.returncode == 1
-    assert result.stdout == "reproduce: --slurm: there is no sbatch on this machine\n"
+def test_slurm_needs_sbatch(monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    args = Arguments(sweep=[], slurm=True, options=[], config={"sweeps": {"small": SMALL}})
+    with pytest.raises(UsageError, match="--slurm: there is no sbatch on this machine"):
+        sweep.run(args)
 
 
 @pytest.mark.slow
@@ -196,8 +187,7 @@ def test_the_atlas_is_drawn_and_published(tree):
 
 
 def test_the_papers_figures_need_no_sweep(tree):
-    planned = tree.run("-n").stdout.splitlines()
-    assert {line.partition(":")[0] for line in planned} == set(tree.document()["scenes"])
+    assert not [path for path in tree.planned() if not path.startswith("results/paper/")]
 
 
 def test_the_start_imports_nothing_heavy():

@@ -80,9 +80,9 @@ def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
 def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert figures_of(variants, "low") == {"fig3.png", "fig7.png"}
     assert figures_of(variants, "doubled") == {"fig3.png", "fig4.png", "fig7.png"}
-    said = (variants.path / "said of paper and low").read_text()
-    assert [line.split()[0] for line in said.splitlines() if ABSENT in line] == ["fig4"]
-    table = {file: state for file, state in rows(said).items() if "results/low" in file}
+    output = (variants.path / "said of paper and low").read_text()
+    assert [line.split()[0] for line in output.splitlines() if ABSENT in line] == ["fig4"]
+    table = {file: state for file, state in rows(output).items() if "results/low" in file}
     assert [*table.values()] == ["recomputed"] * 2
 
 
@@ -99,11 +99,11 @@ def test_one_figure_of_variants(done):
     assert rows(done.run("variant", "low", "fig3").stdout) == {
         "results/low/figures/fig3.png": "current"
     }
-    said = done.run("compare", "paper", "low", "fig7").stdout
-    assert rows(said) == {"results/low/figures/fig7.png": "recomputed"}
-    assert "low/fig7  drawing png" in said
-    assert "side by side: results/compare/paper..low/fig7.png" in said
-    assert "fig3" not in said
+    output = done.run("compare", "paper", "low", "fig7").stdout
+    assert rows(output) == {"results/low/figures/fig7.png": "recomputed"}
+    assert "low/fig7  drawing png" in output
+    assert "side by side: results/compare/paper..low/fig7.png" in output
+    assert "fig3" not in output
 
 
 def test_a_variant_s_figures_are_not_published(variants):

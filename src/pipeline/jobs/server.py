@@ -30,14 +30,8 @@ from . import dispatch
 ADDRESS = "PSEUDORIGID_JOBS"  # the variable that holds the path of the server's socket
 _PLAN = "plan"  # the Snakefile's request
 # Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
-THREADS = (
-    "OMP_NUM_THREADS",
-    "GOTO_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "NUMEXPR_NUM_THREADS",
-    "VECLIB_MAXIMUM_THREADS",
-)
+_LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")
+THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THREADS"]
 
 
 class Plan(NamedTuple):
