@@ -330,7 +330,7 @@ def everything(tree, checked):
     (tree.path / "a.tar").unlink(missing_ok=True)
     given = Arguments(folder=[], yes=True)
     given.config = checked
-    for file in clean._made(given, ["paper"]):
+    for file in clean._generated_files(given, ["paper"]):
         assert file.resolve().is_relative_to(tree.path / "results" / "paper")
 
 

@@ -152,4 +152,7 @@ def test_the_dataset_has_each_cell_at_its_coordinates():
     data = joined(4)
     assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
     assert set(data.data_vars) == set(cell.VARIABLES)
-from content import content_hash
+    for k, energy in product(SMALL["k"], SMALL["energy"]):
+        here = data.sel(k=k, energy=energy)
+        for name, value in cell.cell(k, energy, SMALL["starts"], SMALL["impacts"]).items():
+            assert np.array_equal(here[name].values, value, equal_nan=True)

@@ -1,4 +1,4 @@
-"""./reproduce benchmark: the part about whole runs, in a copy with one small scene."""
+"""./reproduce benchmark times whole runs in a copy of the project."""
 
 import pytest
 from project import fresh_tree, of_scenes
@@ -19,5 +19,5 @@ def test_whole_runs_are_measured_in_a_copy(tmp_path, monkeypatch):
     drawn = (tmp_path / "copy/results/paper/figures/fig3.png").read_bytes()
     assert drawn.startswith(b"\x89PNG")
     assert not (tree.path / "results").exists()
-    # A Python starts and snakemake loads: seconds of a clock, not of this process's own work.
+    # The times are those of a clock: a Python starts and snakemake loads.
     assert all(0.2 < float(line.split("(")[0].split()[-1]) < 200 for line in lines)

@@ -18,7 +18,7 @@ def plant(tree, code):
 
 
 def append(path):
-    """Code that edits a file."""
+    """Return code that edits a file."""
     return f"open(root / {path!r}, 'a').write('# edited\\n')"
 
 
@@ -38,7 +38,7 @@ def test_a_file_that_changes_fails_the_job(done, path):
 
 
 def test_an_edit_that_is_undone_fails_the_job_that_loaded_it(done):
-    """The server has loaded the file as it was; a job loads it as edited, and then it is undone."""
+    """A job loads the edited file, which the server has loaded before, then the edit is undone."""
     edited = "src/pseudorigid/figures/edited.py"
     (done.path / edited).write_text("VALUE = 1\n")
     plant(
@@ -70,7 +70,7 @@ def test_what_was_drawn_before_an_edit_is_not_called_current(done):
     ]
 
 
-def test_a_run_says_that_the_config_changed(done):
+def test_a_run_reports_that_the_config_changed(done):
     plant(done, append("config.yaml"))
     result = done.run("paper_figures/fig3.png")
     assert result.returncode == 1
@@ -78,7 +78,7 @@ def test_a_run_says_that_the_config_changed(done):
     assert done.run("paper_figures/fig3.png").returncode == 0
 
 
-def test_a_job_of_plain_snakemake_is_compared_too(done):
+def test_a_job_of_plain_snakemake_fails_too(done):
     plant(done, append("src/pipeline/jobs/draw.py"))
     (done.path / DRAWING).unlink()
     result = subprocess.run(

@@ -78,26 +78,17 @@ def test_data_that_keep_their_bytes_have_nothing_drawn_from_them(done):
     module = done.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
     text = module.read_text()
     module.write_text(f"{text}\n_UNUSED = 1\n")
-    scenes = ("fig3", "fig4")
-    plan = "".join(
-        f"{scene}: its source changed: motion.py: motion; perhaps drawing\n" for scene in scenes
-    )
-    assert done.run("-n").stdout == plan
-    drawings = [
-        file
-        for scene in scenes
-        for file in (done.path / "results" / "paper" / "figures").glob(f"{scene}.*")
-    ]
+    plan = "fig3: its source changed: motion.py: motion; perhaps drawing\n"
+    assert done.run("fig3", "-n").stdout == plan
+    drawings = [*(done.path / "results" / "paper" / "figures").glob("fig3.*")]
     before = [file.stat().st_ino for file in drawings]
-    output = done.run(*scenes).stdout
-    steps = re.findall(r"^(fig\d)  +(\w+).* (as it was|s) +\d+ of \d+$", output, re.MULTILINE)
-    assert {(scene, what) for scene, what, how in steps if how == "s"} == {
-        (scene, "motion") for scene in scenes
-    }
-    assert {what for _, what, how in steps if how != "s"} == {"drawing"}
+    output = done.run("fig3").stdout
+    steps = re.findall(r"^fig3  +(\w+).* (as it was|s) +\d+ of \d+$", output, re.MULTILINE)
+    assert {step for step, duration in steps if duration == "s"} == {"motion"}
+    assert {step for step, duration in steps if duration != "s"} == {"drawing"}
     assert set(rows(output).values()) == {"current"}
     assert [file.stat().st_ino for file in drawings] == before
-    assert done.planned() == set()
+    assert done.planned("paper_figures/fig3.png") == set()
     module.write_text(
         f"{text}\n_MOTION = scene_motion\n\n\n"
         "def scene_motion(*given, **fields):\n"

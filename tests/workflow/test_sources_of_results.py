@@ -134,7 +134,7 @@ PLANTED = {
     "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
-    "pipeline.records.sources": ("return meanings.syntax_hash(path)", "return 'planted'"),
+    "pipeline.records.sources": ("= meanings.syntax_hash(path)", "= 'planted'"),
     "pseudorigid": ("_PACKAGES_FROM_TEXT.add(package)", "pass"),
     "pseudorigid.kernel.compiled.import_closure": ("    syntax_hash.keep()\n", ""),
     "pseudorigid.kernel.compiled.syntax_hash": ("SCHEME = 1 ", "SCHEME = 99 "),
