@@ -122,7 +122,7 @@ def test_every_file_is_read_and_known_imports_are_seen():
     graph = imports(ROOT / "src")
     assert len(graph) == len(list((ROOT / "src").glob("p*/**/*.py")))
     assert "pseudorigid.kernel.compiled" in graph["pseudorigid.kernel.arithmetic"]
-    assert "pseudorigid.figures.canvas.render" in graph["pipeline.records.drawings"]
+    assert "pseudorigid.figures.canvas.render" in graph["pipeline.jobs.draw"]
 
 
 @pytest.fixture

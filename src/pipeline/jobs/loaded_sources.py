@@ -9,8 +9,8 @@ from importlib import import_module
 for _name in (
     "pipeline.jobs.dispatch",
     "pipeline.records.artifacts",
-    "pipeline.records.drawings",
     "pseudorigid.figures.axes.box",
+    "pseudorigid.figures.canvas.render",
 ):
     with suppress(Exception):
         import_module(_name)
