@@ -1,12 +1,22 @@
 """Ball: its parameters, energy and section, and the impact map on numbers or arrays."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..kernel.impact_law import impact_coefficients, rebound
 from .ensemble import ImpactMap
 from .inputs import coordinates, not_allowed, number, whole_number
+
+# A number for numbers, an array for arrays.
+Result = float | np.ndarray
+State = tuple[Result, Result, Result]
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
+NextState = tuple[Result, Result, Result, Result]
+Rows = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -55,7 +65,7 @@ class Ball:
     g: float
     map: ImpactMap = field(default_factory=ImpactMap)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         k = number("k", self.k, "0 < k <= 1", lambda v: 0.0 < v <= 1.0)
         g = number("g", self.g, "g > 0, finite", lambda v: v > 0.0)
         object.__setattr__(self, "k", k)
@@ -64,7 +74,7 @@ class Ball:
             raise not_allowed("map", self.map, "an ImpactMap")
 
     @np.errstate(over="ignore", invalid="ignore")
-    def energy(self, x, xdot, udot):
+    def energy(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Result:
         """Return the total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
@@ -78,7 +88,7 @@ class Ball:
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     @np.errstate(over="ignore")
-    def section(self, energy):
+    def section(self, energy: ArrayLike) -> tuple[float, Any]:
         """Return the section's centre and radius along y = 0.
 
         There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
@@ -98,7 +108,7 @@ class Ball:
         return self.g / self.k, _plain(np.sqrt(square))
 
     @np.errstate(over="ignore", invalid="ignore")
-    def state(self, x, xdot, energy, branch=1):
+    def state(self, x: ArrayLike, xdot: ArrayLike, energy: ArrayLike, branch: float = 1) -> State:
         """Return (x, xdot, udot) with this energy, eq. (29).
 
         Parameters
@@ -123,7 +133,7 @@ class Ball:
         return _plain(x), _plain(xdot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
-    def state_xy(self, x, y, energy):
+    def state_xy(self, x: ArrayLike, y: ArrayLike, energy: ArrayLike) -> State:
         """Return (x, xdot, udot) at a point of the chart (x, y = xdot - k udot).
 
         The map keeps areas in this chart.
@@ -142,7 +152,7 @@ class Ball:
         s = np.sqrt(square)
         return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
 
-    def start(self, fraction, energy):
+    def start(self, fraction: ArrayLike, energy: ArrayLike) -> State:
         """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
 
         Raises
@@ -160,7 +170,7 @@ class Ball:
         return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
-    def reflect(self, x, xdot, udot):
+    def reflect(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> State:
         """Apply the reversor R, (x, y) -> (x, -y).
 
         It reverses the velocities after the impact, eq. (25). R is its own inverse, and R F R is
@@ -170,7 +180,7 @@ class Ball:
         b, c, _ = rebound(xdot, udot, self.k, impact_coefficients(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
-    def time_to_impact(self, x, xdot, udot):
+    def time_to_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Result:
         """Return the time to the next impact: the smallest positive root of eq. (21) with (26).
 
         It is 0 where the ball does not leave the floor: at rest on it, or pressed down on the rim
@@ -178,7 +188,7 @@ class Ball:
         """
         return self.impact(x, xdot, udot)[3]
 
-    def impact(self, x, xdot, udot):
+    def impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the impact map, eq. (28).
 
         Returns
@@ -189,7 +199,7 @@ class Ball:
         """
         return self._map_once(self.map.steps, x, xdot, udot)
 
-    def inverse_impact(self, x, xdot, udot):
+    def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
 
         Returns
@@ -199,7 +209,9 @@ class Ball:
         """
         return self._map_once(self.map.steps_back, x, xdot, udot)
 
-    def jacobian(self, x, xdot, udot, impacts=1) -> np.ndarray:
+    def jacobian(
+        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
+    ) -> np.ndarray:
         """Return the Jacobian of the map with respect to (x, xdot, udot), eq. (33).
 
         Parameters
@@ -222,7 +234,9 @@ class Ball:
         return out.reshape(*shape, 3, 3)
 
     @np.errstate(all="ignore")
-    def chart_jacobian(self, x, xdot, udot, impacts=1) -> tuple:
+    def chart_jacobian(
+        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
+    ) -> Rows:
         """Return the Jacobian in the chart (x, y = xdot - k udot) at one state and a fixed energy.
 
         The map is iterated `impacts` times. The result is two rows of two floats with determinant
@@ -241,25 +255,29 @@ class Ball:
         dx, dv, dw = (j[:, :, None] * along).sum(axis=1)
         return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
-    def on_section(self, x, xdot, udot):
+    def on_section(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Arrays:
         """Read a state as arrays of one shape; raise ValueError if xdot + udot < 0, eq. (22)."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         if np.any(xdot < -udot):  # the sum could overflow
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
-    def columns(self, x, xdot, udot):
+    def columns(
+        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike
+    ) -> tuple[Arrays, tuple[int, ...]]:
         """Return copies of x, xdot and udot as arrays (n,), and the shape that they had before."""
-        state = self.on_section(x, xdot, udot)
-        return [a.flatten() for a in state], state[0].shape
+        x, xdot, udot = self.on_section(x, xdot, udot)
+        return (x.flatten(), xdot.flatten(), udot.flatten()), x.shape
 
-    def _map_once(self, loop, x, xdot, udot):
+    def _map_once(
+        self, loop: Callable[..., None], x: ArrayLike, xdot: ArrayLike, udot: ArrayLike
+    ) -> NextState:
         columns, shape = self.columns(x, xdot, udot)
         tau = np.empty(columns[0].size)
         loop(*columns, self.k, self.g, 1, tau)
         return tuple(_plain(a.reshape(shape)) for a in (*columns, tau))
 
 
-def _plain(array):
+def _plain(array: Any) -> Any:
     """Return a 0-dimensional result as a float."""
     return float(array) if np.ndim(array) == 0 else array

@@ -3,7 +3,9 @@
 `branch` computes points of a branch, `tracing` makes a polyline of them.
 """
 
+from collections.abc import Sequence
 from itertools import product
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -35,7 +37,7 @@ def trace_manifold(
     length: float = 1.0,
     distance: float = 0.01,
     bend: float = 10.0,
-    window=None,
+    window: Sequence[float] | None = None,
 ) -> xr.Dataset:
     """Trace one branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
 
@@ -109,7 +111,7 @@ def trace_manifold(
     return xr.Dataset(variables("vertex", vertices, _STATES), attrs=attributes)
 
 
-def _points(orbit):
+def _points(orbit: Any) -> np.ndarray:
     """Return one orbit's states as an array (3, n)."""
     if not (hasattr(orbit, "data_vars") and all(name in orbit for name in _STATES)):
         raise not_allowed("orbit", orbit, "a Dataset with x, xdot and udot")
@@ -118,7 +120,7 @@ def _points(orbit):
     return np.stack(coordinates(**{name: orbit[name].values for name in _STATES}))
 
 
-def _check_orbit(ball, energy, points):
+def _check_orbit(ball: Ball, energy: float, points: np.ndarray) -> None:
     """Raise ValueError if the orbit has another energy."""
     errors = np.abs(ball.energy(*points) - energy)
     if not np.all(errors <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
@@ -126,7 +128,7 @@ def _check_orbit(ball, energy, points):
         raise not_allowed("energy", energy, allowed)
 
 
-def _edges(window):
+def _edges(window: Any) -> tuple[float, float, float, float]:
     """Return the edges of a window as floats."""
     allowed = "(x_low, x_high, xdot_low, xdot_high)"
     try:
@@ -144,10 +146,10 @@ def scene_manifolds(
     periodic: xr.Dataset,
     period: int,
     type: str,
-    resolution: dict,
-    branches: dict | None = None,
+    resolution: dict[str, float],
+    branches: dict[str, dict[str, float]] | None = None,
     point: int | None = None,
-    window: dict | None = None,
+    window: dict[str, list[float]] | None = None,
     length: float | None = None,
 ) -> xr.Dataset:
     """Trace both manifolds of an orbit's points (Figure 5), or what a window shows (Figure 6).
@@ -187,9 +189,11 @@ def scene_manifolds(
     12
     """
     orbit = of_type(periodic, type, period)
+    extents: dict[str, dict[str, Any]]
+    attributes: dict[str, Any] = {}
     if window is None:
-        extents = {side: {"length": branches[side]["length"]} for side in sorted(branches)}
-        attributes = {}
+        lengths = branches or {}
+        extents = {side: {"length": lengths[side]["length"]} for side in sorted(lengths)}
     else:
         radius = ball.section(energy)[1]
         centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}

@@ -1,7 +1,10 @@
 """Orbits of the impact map, from states or from the starts of a scene."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from .ball import Ball
 from .inputs import not_allowed, one_of, state_of, whole_number
@@ -9,7 +12,7 @@ from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims, variables
 
 
-def orbit(ball: Ball, state, impacts: int, keep: str = "all") -> xr.Dataset:
+def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset:
     """Compute the orbit of one state, or of many, under the impact map, eq. (28).
 
     Parameters
@@ -69,11 +72,13 @@ def orbit(ball: Ball, state, impacts: int, keep: str = "all") -> xr.Dataset:
     )
 
 
-def _impact(dims, values):
+def _impact(dims: Any, values: ArrayLike) -> tuple[Any, ArrayLike, dict[str, str]]:
     return dims, values, attributes_of("number of impacts")
 
 
-def scene_orbits(ball: Ball, energy: float, starts: list, impacts: int | list[int]) -> xr.Dataset:
+def scene_orbits(
+    ball: Ball, energy: float, starts: list[Any], impacts: int | list[int]
+) -> xr.Dataset:
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
     Parameters
@@ -103,12 +108,15 @@ def scene_orbits(ball: Ball, energy: float, starts: list, impacts: int | list[in
     pieces = []
     for state, count in zip(states, impacts, strict=True):
         out = np.empty((1, count, 4))
-        ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
+        x, xdot, udot = (np.array([a]) for a in state)
+        ball.map.history(x, xdot, udot, ball.k, ball.g, out)
         pieces.append(out[0].T)
     return ragged_orbits(pieces, starts, states, impacts)
 
 
-def ragged_orbits(pieces, starts, states, impacts) -> xr.Dataset:
+def ragged_orbits(
+    pieces: list[np.ndarray], starts: list[Any], states: list[Any], impacts: list[int]
+) -> xr.Dataset:
     """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau.
 
     Each of the lists has an entry for each orbit; `states` are the states (x, xdot, udot) of

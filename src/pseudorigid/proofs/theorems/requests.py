@@ -1,7 +1,9 @@
 """Proofs on request: of any symmetric orbit, and of a horseshoe on any hyperbolic one."""
 
 from fractions import Fraction
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from ...dynamics.ball import Ball
@@ -110,7 +112,7 @@ def prove_horseshoe(
         raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
-def _request(ball, orbit, energy):
+def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, Any, str]:
     """Return the surface, the points (x, y) and the type of a requested orbit."""
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
@@ -120,7 +122,8 @@ def _request(ball, orbit, energy):
         energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
         surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
     near = approximate_orbits.ball(surface)
-    actual, expected = float(near.energy(*states_of(orbit))[0]), float(surface.energy)
+    actual = float(np.ravel(near.energy(*states_of(orbit)))[0])
+    expected = float(surface.energy)
     if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
         raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")
     return surface, approximate_orbits.chart_points(near, orbit), str(orbit["type"].item())
