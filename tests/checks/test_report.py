@@ -14,7 +14,7 @@ import pytest
 from project import ROOT, Tree, fresh_tree, shipped, small
 
 from pipeline import config
-from pipeline.checks import claims, figures_page, published_sets
+from pipeline.checks import claims, figures_page
 from pipeline.checks.claims import ledger
 from pipeline.checks.claims.schema import CORRECTED, FALSE
 from pipeline.checks.report import captions, numbers, page

@@ -24,7 +24,7 @@ from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import manifest, published_sets
 from .checksums import SUMS, ChecksumError, format_sums, known_sums, read_sums
-from .difference import Comparison, not_as_made
+from .difference import Comparison, dataset_difference, not_as_made
 from .freshness import MISSING
 from .published_sets import PublishedSet
 
@@ -287,9 +287,9 @@ def _comparison(
         layer = "data" if path.endswith(".nc") else "drawing"
         try:
             if layer == "data":
-                described = {path: manifest.describe_data(load(folder / path))}
-                alone = Comparison(root, None, {"data": described}, folder)
-                layers = {"data": alone.differing_data(path, path) or "the same in other bytes"}
+                described = manifest.describe_data(load(folder / path))
+                words = dataset_difference(root, path, described, folder)
+                layers = {"data": words or "the same in other bytes"}
             elif path in comparisons:
                 comparison, name = comparisons[path]
                 layers = comparison.layers(name) or {}

@@ -79,7 +79,9 @@ class Comparison:
         self.other_tree = other_tree
         self.versions = versions()
         self.file_hash: Callable[[str], str | None] = cache(lambda path: file_hash(root / path))
-        self.differing_data = cache(self._differing_data)
+        self.differing_data = cache(
+            lambda path, name: dataset_difference(root, path, committed["data"][name], other_tree)
+        )
 
     def layers(self, name: str) -> dict[str, str] | None:
         """Return differing layer -> words, the cause first; None if the manifest lacks the file."""
@@ -107,45 +109,6 @@ class Comparison:
         if entry["data"].get(stage) in self.committed["data"] and self.file_hash(path):
             return self.differing_data(path, entry["data"][stage])
         return None
-
-    def _differing_data(self, path: str, committed_name: str) -> str | None:
-        try:
-            dataset = load(self.root / path)
-        except ArtifactError as error:
-            return str(error).replace(f"{self.root}/", "")
-        before, after = self.committed["data"][committed_name], manifest.describe_data(dataset)
-        for name in sorted({*before["variables"], *after["variables"]}):
-            old, new = before["variables"].get(name), after["variables"].get(name)
-            if old is None or new is None:
-                return f"{path}: variable {name} is {'new' if old is None else 'gone'}"
-            for what in ("dims", "dtype", "shape", "attributes"):
-                if old[what] != new[what]:
-                    words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
-                    return f"{path}: variable {name}: another {what.removesuffix('s')}{words}"
-            if old["sha256"] != new["sha256"]:
-                pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=False)
-                block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
-                return (
-                    f"{path}: variable {name} differs from block {block} on "
-                    f"(value {block * manifest.BLOCK:,} of {int(np.prod(new['shape'])):,})"
-                    + self._size_of_difference(path, name, dataset)
-                )
-        names = [name for name, *_ in differing_keys(before["attributes"], after["attributes"])]
-        verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
-        return f"{path}: {verb.format(', '.join(names))}" if names else None
-
-    def _size_of_difference(self, path: str, name: str, dataset: xr.Dataset) -> str:
-        if self.other_tree is None:
-            return ""
-        copy = self.other_tree / path
-        try:
-            other = load(copy)
-        except ArtifactError as error:
-            return f"; {error}"
-        if name not in other or other[name].shape != dataset[name].shape:
-            return f"; {copy} has another {name}"
-        words = _ulps_in_words(dataset.variables[name], other.variables[name])
-        return f"; {words}, compared with {copy}"
 
     def _drawing_or_file(self, name: str, entry: dict[str, Any]) -> dict[str, str]:
         """Return the layer drawing or file, if it differs in the published file or in results."""
@@ -216,17 +179,68 @@ class Comparison:
         build_specs = self.published_set.build_specs
         specs = [build_specs[each] for each in with_dependencies(build_specs, [path])]
         keys = {key for spec in specs for key in spec.config}
-        blocks = (entry["config"], self.published_set.config[scene])
+        before, after = (
+            {key: block[key] for key in keys & {*block}}
+            for block in (entry["config"], self.published_set.config[scene])
+        )
         return bool(
             any(used not in build_specs for spec in specs for used in spec.inputs)
             or differing_package(self.committed["environment"], self.versions)
-            or differing_block(*({k: block[k] for k in keys & {*block}} for block in blocks))
+            or differing_block(before, after)
             or any(
                 syntax_hash(self.root / file) != self.committed["sources"].get(file)
                 for spec in specs
                 for file in spec.sources
             )
         )
+
+
+def dataset_difference(
+    root: Path, path: str, before: dict[str, Any], other_tree: Path | None
+) -> str | None:
+    """Describe the first difference between a dataset and its description, or return None.
+
+    `before` is a description by `manifest.describe_data`. The dataset of the same path in
+    `other_tree` serves to say how large a difference is.
+    """
+    try:
+        dataset = load(root / path)
+    except ArtifactError as error:
+        return str(error).replace(f"{root}/", "")
+    after = manifest.describe_data(dataset)
+    for name in sorted({*before["variables"], *after["variables"]}):
+        old, new = before["variables"].get(name), after["variables"].get(name)
+        if old is None or new is None:
+            return f"{path}: variable {name} is {'new' if old is None else 'gone'}"
+        for what in ("dims", "dtype", "shape", "attributes"):
+            if old[what] != new[what]:
+                words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
+                return f"{path}: variable {name}: another {what.removesuffix('s')}{words}"
+        if old["sha256"] != new["sha256"]:
+            pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=False)
+            block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
+            return (
+                f"{path}: variable {name} differs from block {block} on "
+                f"(value {block * manifest.BLOCK:,} of {int(np.prod(new['shape'])):,})"
+                + _size_of_difference(other_tree, path, name, dataset)
+            )
+    names = [name for name, *_ in differing_keys(before["attributes"], after["attributes"])]
+    verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
+    return f"{path}: {verb.format(', '.join(names))}" if names else None
+
+
+def _size_of_difference(other_tree: Path | None, path: str, name: str, dataset: xr.Dataset) -> str:
+    if other_tree is None:
+        return ""
+    copy = other_tree / path
+    try:
+        other = load(copy)
+    except ArtifactError as error:
+        return f"; {error}"
+    if name not in other or other[name].shape != dataset[name].shape:
+        return f"; {copy} has another {name}"
+    words = _ulps_in_words(dataset.variables[name], other.variables[name])
+    return f"; {words}, compared with {copy}"
 
 
 def ulps(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -243,6 +257,7 @@ def _ulps_in_words(ours: xr.Variable, theirs: xr.Variable) -> str:
         return f"{kind} instead of {other}"
     if kind != "<f8":
         return f"{sum(x != y for x, y in zip(a, b, strict=True))} of {len(a)} values differ"
+    a, b = np.asarray(a), np.asarray(b)
     one_sided = np.isnan(a) != np.isnan(b)
     if one_sided.any():
         return f"{int(one_sided.sum())} values are NaN on one side only"

@@ -110,7 +110,7 @@ def _orbits(dataset: xr.Dataset) -> str | None:
     x, v, w = states = states_of(dataset)
     if _off(ball.energy(x, v, w), energy, ENERGY_TOLERANCE):
         return "its states are not of its energy"
-    after = ball.impact(x.copy(), v.copy(), w.copy())
+    after = [np.asarray(a) for a in ball.impact(x.copy(), v.copy(), w.copy())]
     followed = np.ones(x.size, bool)
     followed[np.cumsum(dataset["row_size"].values) - 1] = False
     followed = followed[:-1]

@@ -68,9 +68,8 @@ def _rows(
 
 def _equal(a: xr.Variable, b: xr.Variable) -> bool:
     (a_type, a_values), (b_type, b_values) = canonical_values(a), canonical_values(b)
-    return bool(
-        a.shape == b.shape and a_type == b_type and a_values.tobytes() == b_values.tobytes()
-    )
+    same_bytes = np.asarray(a_values).tobytes() == np.asarray(b_values).tobytes()
+    return a.shape == b.shape and a_type == b_type and same_bytes
 
 
 def _rms(values: np.ndarray) -> float:

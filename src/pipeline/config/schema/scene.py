@@ -4,7 +4,6 @@ A kind of picture is one class in `kinds`, derived from these. Checks that need 
 stand with the group. They compare numbers as the decimals that were written.
 """
 
-import inspect
 import math
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -24,11 +23,7 @@ SectionAxes = dict[Literal["x", "xdot", "udot"], fields.Axis]
 
 
 class Scene(fields.Block):
-    """a mapping that begins with picture
-
-    The docstring of a kind has, below its first line, the caption of the kind's figures: Jinja,
-    with the scene's block as `s`; what the picture shows, and what to see in it.
-    """
+    """a mapping that begins with picture"""
 
     # Stages that compute the data, in the order in which the kind's `draw` takes their datasets.
     stages: ClassVar[tuple[str, ...]]
@@ -58,11 +53,6 @@ class Scene(fields.Block):
     none was missed; leave it out unless you want to compare methods."""
     formats: fields.Formats = ["png"]
     """File formats of the figure. png and svg are published; pdf stays in `results/`."""
-
-    @classmethod
-    def caption(cls) -> str:
-        """Return the Jinja template of the captions of this kind's figures."""
-        return (inspect.getdoc(cls) or "").partition("\n\n")[2]
 
     @classmethod
     def hidden(cls, block: YamlMapping) -> Iterator[str]:
@@ -249,11 +239,13 @@ def listing(data: Dataset, template: str, *names: str) -> str:
 
 def measured_energy(block: YamlMapping, states: Dataset) -> dict[str, str]:
     """Return the energy of a dataset's states, eq. (29), to twelve digits."""
+    import numpy as np
+
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.variables import states_of
 
     ball = Ball(**block["ball"])
-    energy = ball.energy(*states_of(states))
+    energy = np.asarray(ball.energy(*states_of(states)))
     ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
     return {"energy": " to ".join(ends)}
 

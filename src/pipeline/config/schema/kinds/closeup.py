@@ -9,15 +9,7 @@ from ..scene import CrossFieldError, Dataset, OfManifolds, beyond
 
 
 class Closeup(OfManifolds):
-    """manifolds in a window around one point
-
-    The surroundings of one point (dot), a saddle, of the {{ s.type }} orbit of period
-    {{ s.period }}, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}: stable
-    (green) and unstable (blue) manifolds of all its points that pass here.
-
-    What to see: branches that come from other points arrive along the dot's own and swing to and
-    fro across them. Each crossing is an orbit that leaves one point and ends at another.
-    """
+    """manifolds in a window around one point"""
 
     stages = ("manifolds",)
     axes_depend_on = ("period", "type", "point", "window")

@@ -10,18 +10,7 @@ LONGEST_FLIGHT = 1_000_000  # 1/omega: the histogram of flight times has ten bin
 
 
 class Clusters(Scene):
-    """clusters of impacts and their memory
-
-    Flight times of {{ s.orbits }} orbits in the chaotic sea at energy {{ s.energy }} for k = {{
-    s.ball.k }}, g = {{ s.ball.g }}; and what one cluster of impacts says of later ones, for
-    clusters cut at flights longer than {{ s.cuts|join(", ") }}: correlation of the first state's y
-    = xdot - k udot with that of a later cluster, the same of x, and the share of the variance of y,
-    and of x, that the cell explains in which the earlier cluster starts. Lines above and below a
-    mark are 95 % intervals by a bootstrap over whole orbits.
-
-    What to see: where a cluster starts says something about where the next one starts, whatever
-    the cut.
-    """
+    """clusters of impacts and their memory"""
 
     stages = ("clusters",)
     headline = "time between clusters"

@@ -7,18 +7,7 @@ from ..scene import Dataset, OfRecords
 
 
 class Exponents(OfRecords):
-    """Lyapunov exponents against the number of impacts
-
-    The three Lyapunov exponents of {{ s.starts|length }} orbits, one colour an orbit, against the
-    number of impacts, up to {{ s.impacts|max if s.impacts is iterable else s.impacts }}, at
-    energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. The inset has the largest
-    ones on a finer scale, each point of it below the same number of impacts, without the first
-    quarter.
-
-    What to see: one exponent stays above zero, so neighbours part exponentially; one is zero,
-    since the energy is kept; and the third mirrors the first, since areas are kept. Single runs
-    differ in the third digit.
-    """
+    """Lyapunov exponents against the number of impacts"""
 
     stages = ("lyapunov",)
     axes_depend_on = ("impacts",)

@@ -7,18 +7,7 @@ from ..scene import CrossFieldError, Dataset, Scene, bounded, listing
 
 
 class Flux(Scene):
-    """crossings and lobes of both branches
-
-    Regions within the inner and the outer branches of the hyperbolic orbit of period {{ s.period
-    }}, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}, and their lobes.
-
-    The edge of a region is made of pieces of unstable and stable branches, which cross on y = 0
-    (dots). Below, left: the stable (green) and unstable (blue) outer branches near their crossing;
-    a lobe is what they enclose between two crossings. Below, right: the same of the inner branches,
-    as the distance in x of the unstable branch from the stable one, which is the line at zero.
-
-    What to see: the outer lobes are wide; the inner branches differ by less than a line's width.
-    """
+    """crossings and lobes of both branches"""
 
     stages = ("flux",)
     headline = "lobes"

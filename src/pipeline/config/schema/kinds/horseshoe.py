@@ -7,18 +7,7 @@ from ..scene import Dataset, OfBranches
 
 
 class Horseshoe(OfBranches):
-    """the sets of a proved horseshoe along a connection of the orbit
-
-    The sets that prove a horseshoe on the {{ s.type }} orbit of period {{ s.period }} by its {{
-    s.connection }} connection, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g
-    }}; dots, far larger than the sets. Above, over the manifolds (pale lines: stable green,
-    unstable blue): at the saddles (red) and along the connection, on the way out to the middle set
-    (black) and back from it. Below: the middle set as a square, and across it the image of the set
-    before it.
-
-    What to see: the image crosses the square from side to side, its heavy ends lie beyond, and it
-    touches neither top nor bottom. Each set covers the next in that way.
-    """
+    """the sets of a proved horseshoe along a connection of the orbit"""
 
     stages = ("manifolds", "horseshoe")
     axes_depend_on = ("period", "type", "branches", "connection")

@@ -5,14 +5,7 @@ from ..scene import Dataset, OfChaoticOrbits, listing
 
 
 class Jumps(OfChaoticOrbits):
-    """the curves where the map and its inverse jump
-
-    The section at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }} in the chart
-    (x, y): orbits, symmetry lines, the rim of grazing impacts, and the curves where the map and
-    its inverse jump; below, at energies next to that where these curves are born.
-
-    What to see: the curves lie in the sea, and shrink to a point of the rim at E = g^2 (1 + k/2).
-    """
+    """the curves where the map and its inverse jump"""
 
     stages = ("jumps", "orbits")
     headline = "jump curve"

@@ -8,16 +8,7 @@ from ..scene import CrossFieldError, Dataset, Scene, listing, not_elliptic
 
 
 class LastCurve(Scene):
-    """residues of the convergents of noble rotation numbers
-
-    Greene's residues of {{ s.convergents }} convergents of noble rotation numbers at energy
-    {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}; below, in the same colours, an orbit
-    that starts at the periodic point of the last convergent of each.
-
-    What to see: by Greene's criterion, residues that fall to zero mean a curve of that rotation
-    number. Residues that grow mean that there is none: the orbit from there wanders through the
-    sea and has no rotation number. The last curve of the main island lies between.
-    """
+    """residues of the convergents of noble rotation numbers"""
 
     stages = ("last_curve",)
     headline = "last residues"

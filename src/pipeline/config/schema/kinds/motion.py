@@ -7,16 +7,7 @@ from ..scene import Dataset, OfPeriodicOrbit
 
 
 class Motion(OfPeriodicOrbit):
-    """a periodic motion in time
-
-    The {{ s.type }} orbit of period {{ s.period }} in time, at energy {{ s.energy }} for k = {{
-    s.ball.k }}, g = {{ s.ball.g }}: height -x of the centre above where it is when the undeformed
-    ball touches the floor, and strain u.
-
-    What to see: the two lines touch at the impacts (dots) and never cross, since there the ball
-    would be below the floor. After {{ s.period }} impact{{ "s" if s.period > 1 }} the motion
-    repeats itself.
-    """
+    """a periodic motion in time"""
 
     stages = ("motion",)
     axes_depend_on = ("period", "type", "duration")

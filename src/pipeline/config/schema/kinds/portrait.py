@@ -5,18 +5,7 @@ from ..scene import Dataset, OfChaoticOrbits, OnSurface, measured_energy
 
 
 class Portrait(OnSurface, OfChaoticOrbits):
-    """orbits on the energy surface
-
-    {{ s.starts|length }} orbits of {{ s.impacts|sum if s.impacts is iterable else s.impacts *
-    s.starts|length }} impacts in all, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
-    s.ball.g }}: position x (downwards), velocity and strain rate just before each impact. They
-    lie on one half of an ellipsoid, the surface of this energy, which ends at the rim where impacts
-    graze. The surface is opaque: points on its far side are not drawn.
-
-    What to see: closed curves, one colour an orbit, are regular motion. Those around one point
-    belong to the elliptic fixed point, chains of small ones to elliptic orbits of a longer
-    period. Grey points are one orbit that wanders over an area: chaos.
-    """
+    """orbits on the energy surface"""
 
     stages = ("orbits",)
     headline = "impacts"

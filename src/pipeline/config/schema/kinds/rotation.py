@@ -7,17 +7,7 @@ from ..scene import CrossFieldError, Dataset, Scene, listing, not_elliptic
 
 
 class Rotation(Scene):
-    """rotation number and exponent against the start
-
-    Rotation number around the fixed point, and exponent, of {{ s.starts }} starts along y = 0,
-    from the fixed point to the rim, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
-    s.ball.g }}. Below: a part of these starts at higher resolution, with the rotation numbers of
-    chains of islands beside their plateaus; and how far the rotation number departs from the fixed
-    point's, at this energy and at {{ s.energies|join(", ") }}.
-
-    What to see: plateaus where islands lock the rotation number, so that curves leave gaps
-    between them; it is not monotone at every energy.
-    """
+    """rotation number and exponent against the start"""
 
     stages = ("rotation",)
     headline = "at the fixed point"

@@ -7,16 +7,7 @@ from ..scene import CrossFieldError, Dataset, OfRecords
 
 
 class Spread(OfRecords):
-    """Lyapunov exponents of many orbits at many lengths
-
-    Lyapunov exponents of the chaotic ones among {{ s.orbits }} orbits of {{ s.length }} impacts
-    that start uniformly over the section, at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{
-    s.ball.g }}: range, quartiles and mean over all stretches of a length; the distribution of runs
-    as long as Figure 7's, with its three and the paper's number; exponents of regular orbits beside
-    ln n/n.
-
-    What to see: single runs scatter about the long-run value, and the paper's number is one such.
-    """
+    """Lyapunov exponents of many orbits at many lengths"""
 
     stages = ("spread", "lyapunov")
     headline = "long-run exponent"

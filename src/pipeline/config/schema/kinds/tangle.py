@@ -5,18 +5,7 @@ from ..scene import Dataset, OfBranches, OfOrbits, OnSurface
 
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
-    """manifolds on the energy surface
-
-    Stable (green) and unstable (blue) manifolds of the {{ s.type }} orbit of period {{ s.period
-    }} (dots), at energy {{ s.energy }} for k = {{ s.ball.k }}, g = {{ s.ball.g }}. In grey some
-    orbits as a backdrop. The surface, which ends at the rim where impacts graze, is opaque: what
-    lies on its far side is not drawn. An open dot marks the end of a line that was not followed
-    further, an open square a line that a jump of the map interrupts. At a small full dot a line
-    does not end: it turns back on itself in a sharp fold.
-
-    What to see: lines of the two colours leave each dot and meet those of its neighbours, but do
-    not coincide with them: they cross, fold and fill the chaotic sea.
-    """
+    """manifolds on the energy surface"""
 
     stages = ("orbits", "manifolds", "periodic")
     headline = "orbit"

@@ -13,18 +13,7 @@ RESONANT = 1e-9  # distance of a trace from one at which the multiplier is a roo
 
 
 class Twist(Scene):
-    """the fixed point's twist coefficient against the energy
-
-    The twist coefficient (Birkhoff's first) of the elliptic fixed point against the energy, for k
-    = {{ s.ball.k }}, g = {{ s.ball.g }}. At {{ s.energies|length }} energies from
-    {{ s.energies|first }} to {{ s.energies|last }} it is enclosed, and rounded to a double;
-    straight lines join these values.
-
-    What to see: where it is not zero, Moser's theorem gives invariant curves around the point.
-    Positive means that the rotation number falls away from the point. A zero is proved at the ring,
-    its energy enclosed to ten digits and more; whether there is another one is not. Below that
-    energy the normal form has a circle without shear, which shrinks into the point.
-    """
+    """the fixed point's twist coefficient against the energy"""
 
     stages = ("twist",)
     axes_depend_on = ("energies",)
