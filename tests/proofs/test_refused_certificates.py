@@ -368,3 +368,12 @@ def test_no_leading_digit_of_a_horseshoe_may_change(name):
     changes = list(leading_digits(THEOREMS[name].text()))
     for _, number, text in changes[:: len(changes) // 1500]:
         assert THEOREMS[name].check(text).verdict == "not proved", number
+
+
+def test_a_set_contains_what_is_proved_to_be_inside():
+    """A parallelogram is not its bounding box, and a box across its edge is not inside."""
+    one = HSet("S", (arb(1), arb(2)), (arb(0.5), arb(0.5)), (arb(-0.1), arb(0.1)))
+    assert one.contains(arb(1.3), arb(2.3))
+    assert not one.contains(arb(1.3), arb(1.7))
+    assert not one.contains(arb(1.6), arb(2.6))
+    assert not one.contains(arb(1.4, 0.2), arb(2.4, 0.2))

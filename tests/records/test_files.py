@@ -52,3 +52,12 @@ def test_a_disk_is_full_only_if_it_is(tmp_path, monkeypatch, number, usage, word
     refused = pytest.raises(files.FileError, match=f"cannot be written: {words}$")
     with refused, files.replacing(tmp_path / "new" / "x"):
         raise error
+
+
+def test_a_reader_keeps_the_old_file(tmp_path):
+    """A new file takes the name; bytes of the old one are never overwritten in place."""
+    path = tmp_path / "file"
+    path.write_bytes(b"old")
+    with path.open("rb") as reader:
+        files.write_whole(path, b"new!")
+        assert (reader.read(), path.read_bytes()) == (b"old", b"new!")

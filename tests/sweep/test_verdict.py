@@ -83,3 +83,11 @@ def test_undecided_orbits_keep_their_order_in_memory(monkeypatch):
     monkeypatch.setattr(verdict, "propagate_with_tangent", checked)
     cell.cell(K, E, 50, 1000)
     assert lengths == [500, 1000]
+
+
+def test_frozen_verdicts():
+    """Counts of 2,000 short orbits, of which some lie on either side of each threshold."""
+    shares = cell.cell(0.2, 9.0, 2000, 500)
+    counts = {name: round(2000 * float(shares[name])) for name in shares if "regular" in name}
+    expected = {"regular_strict": 333, "regular": 367, "regular_lenient": 379}
+    assert expected.items() <= counts.items()
