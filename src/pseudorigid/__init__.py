@@ -45,8 +45,8 @@ __all__ = list(_MODULES)
 # The modules of this package are compiled from their text, which takes milliseconds. Python would
 # run a cached .pyc if the source has the size and the second that the .pyc states, and so miss an
 # edit of the same length within one second. No .pyc of this package is read or written.
-LOADED: dict[str, set[str]] = {}  # real path of a file -> sha256 of each text loaded from it
-_PACKAGES_FROM_TEXT: set[str] = set()
+LOADED: "dict[str, set[str]]" = {}  # real path of a file -> sha256 of each text loaded from it
+_PACKAGES_FROM_TEXT: "set[str]" = set()
 
 
 def __getattr__(name: str) -> Any:
@@ -57,7 +57,7 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def __dir__() -> list[str]:
+def __dir__() -> "list[str]":
     return sorted([*globals(), *__all__, "__version__"])
 
 
@@ -74,7 +74,7 @@ def _version() -> str:
     return metadata.version(__name__)
 
 
-def note_loaded(path: str | os.PathLike[str], data: bytes) -> None:
+def note_loaded(path: "str | os.PathLike[str]", data: bytes) -> None:
     """Add the hash of a file's content, as this process read it, to LOADED."""
     digest = hashlib.sha256(data).hexdigest()
     LOADED.setdefault(os.path.realpath(path), set()).add(digest)
@@ -103,8 +103,8 @@ class _Finder:
 
     @staticmethod
     def find_spec(
-        fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
-    ) -> ModuleSpec | None:
+        fullname: str, path: "Sequence[str] | None" = None, target: "ModuleType | None" = None
+    ) -> "ModuleSpec | None":
         if fullname.partition(".")[0] not in _PACKAGES_FROM_TEXT:
             return None
         spec = PathFinder.find_spec(fullname, path, target)

@@ -296,7 +296,9 @@ MISTAKES = {
     },
     '"fig2/orbits"': {'"fig2/orbit"': "claims.4.data: 'orbit' is not known: did you mean orbits?"},
     '["uncoupled"]': {'["couple"]': "claims.1.formulas: 'couple' is not known: did you mean unc"},
-    '"twist-zero"': {'"zero"': "claims.49.theorems: 'zero' is not known: did you mean twist-zero?"},
+    '"twist-zero"': {
+        '"twist-zer"': "claims.49.theorems: 'twist-zer' is not known: did you mean twist-zero?"
+    },
     'check = "model.homogeneous"\n': {
         'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
         "": "claims.4: expected one of check, formulas and verdict",
@@ -307,7 +309,7 @@ MISTAKES = {
     'data = ["derivations"]': {
         'data = ["atlas/line"]': "claims.1: formulas are in one dataset: expected d"
     },
-    '"undecided" =': {'"unsettled" =': "verdicts: 'unsettled' is not allowed: expected one of "},
+    '"undecided" =': {'"unsettled" =': "verdicts.unsettled: unknown key: allowed here: does not"},
 }
 
 

@@ -14,10 +14,10 @@ import pytest
 from project import ROOT, Tree, fresh_tree, shipped, small
 
 from pipeline import config
-from pipeline.checks import claims, figures_page
+from pipeline.checks import claims
 from pipeline.checks.claims import ledger
 from pipeline.checks.claims.schema import CORRECTED, FALSE
-from pipeline.checks.report import captions, numbers, page
+from pipeline.checks.report import captions, figures_page, numbers, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.study import CHARTS
@@ -163,18 +163,10 @@ def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     tree = reported.copy(tmp_path / "poor")
     (tree.path / "CLAIMS.json").write_text("nothing <b> of the kind")
     shutil.rmtree(tree.path / "results" / "lower")
-    text = rendered(tree)
-    Outline(text)
-    assert "There is no readable <code>CLAIMS.json</code>" in text
-    assert "this tree made: lower" in text and '<h2 id="variants"' not in text
-
-
-def test_a_figure_that_is_not_current_is_not_shown(reported, tmp_path):
-    tree = reported.copy(tmp_path / "damaged")
     with open(tree.path / "results" / "paper" / "lyapunov_fig7.nc", "r+b") as file:
         file.truncate(1000)
     text = rendered(tree, {"paper": {"fig6": "no hyperbolic orbit"}}.items())
-    assert "no readable <code>CLAIMS.md</code>" in text
+    assert "no readable <code>CLAIMS.json</code>" in text
     assert "did not make: lower" in text and '<h2 id="variants"' not in text
     damaged = r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc"
     assert re.search(damaged, text) and "<td>approximately 0.235" not in text
@@ -232,7 +224,7 @@ def test_every_picture_has_a_caption():
 
 def test_the_page_of_figures_is_current_and_complete():
     text = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
-    assert text == figures_page.page(), "renew it: python -m pipeline.checks.figures_page"
+    assert text == figures_page.page(), "renew it: python -m pipeline.checks.report.figures_page"
     pictures = [*ROOT.glob("paper_figures/*.png"), *ROOT.glob("more_figures/*/*.png")]
     links = Counter(re.findall(r"\]\(\.\./(\S+)\)", text))
     assert links == Counter(str(path.relative_to(ROOT)) for path in pictures)

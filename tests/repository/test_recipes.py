@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from project import ROOT, fresh_tree, shipped
 from runs import rows
-from verdicts import said
+from verdicts import verified
 
 from pipeline.records.artifacts import load
 
@@ -203,7 +203,7 @@ def test_a_kind_is_three_files(copy):
 
     succeed(copy, "accept")
     result = copy.run("verify")
-    assert said(result.stdout, result.returncode)[:4] == (0, {}, [], [])
+    assert verified(copy)[:4] == (0, {}, [], [])
     assert "map.png  identical\n" in result.stdout
 
 

@@ -121,6 +121,7 @@ class Claim(Row):
 
         Parameters
         ----------
+        datasets : mapping from names as in `data` to datasets
         proofs : mapping from a theorem's name to "proved" or another word
 
         Raises

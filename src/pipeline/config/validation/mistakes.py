@@ -120,7 +120,10 @@ def _line(model: Any, error: ErrorDetails, place: Place) -> str:
     if error["type"] in _UNKNOWN_KEY:
         known = list(fields_of(allowed_at(model, loc[:-1])[0]))
     elif _is_of_unknown_key(error):
-        known = list(typing.get_args(allowed_at(model, loc)[0]))
+        names = allowed_at(model, loc)[0]
+        if typing.get_origin(names) is typing.Annotated:
+            names = typing.get_args(names)[0]
+        known = list(typing.get_args(names))
         where = where[:-1]
     if known:
         (hint,) = meant(where[-1], known) or [f"allowed here: {', '.join(known)}"]

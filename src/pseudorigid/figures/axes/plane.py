@@ -17,13 +17,15 @@ class Plane(Panel):
     Parameters
     ----------
     scene : dict
-        Its energy and ball are written above the frame, without `energy` the ball alone.
+        Its ball is written above the frame.
     axes : pair of str
         Keys of scene["axes"], which have limits and ticks.
     names : pair of str
         Names of the axes; the second is written above the upper end of its axis.
     high, right : int
         Height of the figure, a multiple of 75, and the margin at the right, in pixels.
+    energy : bool
+        Whether the scene's energy is written above the frame too.
     """
 
     tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN

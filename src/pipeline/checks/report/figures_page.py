@@ -1,23 +1,23 @@
 """Write docs/figures.md, which has every committed picture and its caption.
 
-Run `.venv/bin/python -m pipeline.checks.figures_page`. The captions are those of the report, with
-the values from which the committed pictures were made.
+Run `.venv/bin/python -m pipeline.checks.report.figures_page`. The captions are those of the
+report, with the values from which the committed pictures were made.
 """
 
 from textwrap import fill
 
-from ..config import PAPER, PUBLISHED, paths
-from ..config.schema import study
-from ..records.files import write_whole
-from ..records.sources import ROOT
-from . import manifest
-from .report.captions import caption_of
+from ...config import PAPER, PUBLISHED, paths
+from ...config.schema import study
+from ...records.files import write_whole
+from ...records.sources import ROOT
+from .. import manifest
+from .captions import caption_of
 
 HEAD = """\
 # All figures
 
 This page has every committed picture with its caption. It is written by
-`.venv/bin/python -m pipeline.checks.figures_page`, which takes the texts from
+`.venv/bin/python -m pipeline.checks.report.figures_page`, which takes the texts from
 `src/pipeline/checks/report/captions.toml` and the values from the `MANIFEST.json` beside the
 pictures. `./reproduce report` makes a page with the same captions, and with the numbers measured in
 each figure."""
