@@ -73,6 +73,7 @@ def test_the_residue_tells_the_types_apart():
     assert pseudorigid.residue(six.isel(orbit=0)).shape == ()
 
 
+@pytest.mark.slow
 def test_the_flux_through_both_turnstiles():
     """The inner branches almost coincide; certified digits are those of CLAIMS.md."""
     outer, inner = (pseudorigid.turnstile_flux(BALL, 0.01, 6, side) for side in ("outer", "inner"))

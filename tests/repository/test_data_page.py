@@ -19,6 +19,7 @@ PAGE = "docs/data.md"
 BALL = Ball(0.2, 0.04)
 
 
+@pytest.mark.slow
 def test_the_page_is_up_to_date():
     """It describes the files of each stage, of sweeps and of the study, and every attribute."""
     assert text_of(PAGE) == datasets.page(), "renew it: python -m pipeline.checks.datasets"

@@ -9,6 +9,7 @@ from pipeline.records import sources
 from pseudorigid.figures import study
 
 
+@pytest.mark.slow
 def test_the_table_of_ratios_has_every_row(monkeypatch):
     for package in ("heyoka", "pynamicalsys"):
         pytest.importorskip(package)

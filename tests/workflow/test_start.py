@@ -235,6 +235,7 @@ def set_up(tree, tmp_path):
     return SetUp(tree, tmp_path)
 
 
+@pytest.mark.slow
 def test_an_incomplete_venv_is_made_anew(set_up):
     set_up.with_uv()
     assert set_up.run() == MADE
@@ -253,6 +254,7 @@ def test_an_incomplete_venv_is_made_anew(set_up):
     assert not (set_up.site / "needed").exists()
 
 
+@pytest.mark.slow
 def test_a_venv_whose_python_does_not_start_is_made_anew(set_up):
     set_up.with_uv()
     set_up.run()
@@ -326,6 +328,7 @@ def test_a_signal_to_the_set_up_ends_its_installer(set_up, number):
     assert not list((set_up.folder / "tmp").iterdir())
 
 
+@pytest.mark.slow
 def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     run, installer = start_slowly(set_up, signal.SIGINT)
     run.kill()
@@ -384,6 +387,7 @@ def test_a_folder_that_path_cannot_hold_says_so(set_up):
     assert set_up.shell(". .venv/bin/activate").startswith("reproduce: PATH cannot hold a folder")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("installer", INSTALLERS)
 def test_a_package_that_is_missing_is_installed_again_and_additions_stay(set_up, installer):
     if installer == "uv":
@@ -425,6 +429,7 @@ def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it
     assert set_up.run() == (0, f"{set_up.venv}\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("installer", INSTALLERS)
 def test_a_bad_folder_of_wheels_is_reported(set_up, installer):
     if installer == "uv":
