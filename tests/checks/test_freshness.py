@@ -77,7 +77,7 @@ def test_a_run_killed_between_result_and_record_does_both_again(moved):
     text = module.read_text()
     result.unlink()
     record.unlink()
-    end = "    about = {"
+    end = "    output = {"
     assert text.count(end) == 1
     module.write_text(text.replace(end, f"    os.killpg(os.getpgrp(), 9)\n{end}"))
     # The process group of this run dies with its job.

@@ -4,13 +4,17 @@ import fcntl
 import os
 import signal
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import IO
 
 from ..jobs.server import ADDRESS
 from ..records.record import require_loaded_unchanged
 from ..records.sources import ROOT
+
+LOCK_SECONDS = 5.0  # that a run waits for the lock of another one
 
 
 class UsageError(Exception):
@@ -38,8 +42,11 @@ def one_line(prefix: str = "", kind: type[Exception] = ValueError) -> Iterator[N
 def locked() -> Iterator[None]:
     """Hold the lock of this folder, which the system releases if the process dies.
 
-    Raises UsageError if another run holds it, and ChangedError at the end if config.yaml or a
-    loaded module has changed.
+    The snakemake of a run inherits the lock. If the run is killed, the next one waits until that
+    snakemake has ended: before it ends, it may delete or restore the result of its last job.
+
+    Raises UsageError if another run holds the lock for longer than LOCK_SECONDS, and ChangedError
+    at the end if config.yaml or a loaded module has changed.
     """
     try:
         # Nothing is written to the lock: a FIFO or a link to another file does no harm.
@@ -50,12 +57,23 @@ def locked() -> Iterator[None]:
     except OSError as error:
         raise UsageError(f"cannot write in {ROOT}: {error.strerror}: {error.filename}") from None
     with lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise UsageError("another ./reproduce is running in this folder") from None
+        end = time.monotonic() + LOCK_SECONDS
+        while not _is_locked(lock):
+            if time.monotonic() > end:
+                raise UsageError("another ./reproduce is running in this folder")
+            time.sleep(0.05)
+        os.set_inheritable(lock.fileno(), True)
         yield
         require_loaded_unchanged()
+
+
+def _is_locked(lock: IO[str]) -> bool:
+    """Try to take a lock, without waiting for it."""
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
 
 
 def _end_jobs() -> None:

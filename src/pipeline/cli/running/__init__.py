@@ -205,7 +205,13 @@ def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
 
     On Ctrl-C, a command with jobs on other machines is asked to cancel them.
     """
-    child = subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, process_group=0)
+    child = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        env=environment,
+        process_group=0,
+        close_fds=False,  # the child inherits the lock
+    )
     with child:
         try:
             return child.wait()
