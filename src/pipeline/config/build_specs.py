@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import PurePath
+from typing import Any
 
 from pseudorigid.sweep import grid
 
@@ -16,10 +17,7 @@ from .schema.kinds import KINDS
 from .schema.published import FOLDERS
 from .schema.stages import STAGES
 
-
-@cache
-def _source_files(*modules: str) -> list[str]:
-    return sources.source_files(*modules)
+_source_files = cache(sources.source_files)
 
 
 def _spec(
@@ -28,10 +26,9 @@ def _spec(
     step: str,
     config: YamlMapping,
     program: str,
-    *,
-    given: object = None,
-    modules: Iterable[str] = (),
     inputs: Iterable[str] = (),
+    given: Any = None,
+    modules: Iterable[str] = (),
 ) -> BuildSpec:
     """Specify a result of the scene, sweep or part of the study that is called `name`."""
     folder = PurePath(result).parts[1]
@@ -43,49 +40,33 @@ def _spec(
 def _drawing(
     result: str, name: str, config: YamlMapping, module: str, inputs: Iterable[str]
 ) -> BuildSpec:
-    step = f"drawing {PurePath(result).suffix[1:]}"
-    modules = [f"pseudorigid.figures.{module}"]
-    return _spec(result, name, step, config, "draw", given=module, modules=modules, inputs=inputs)
+    """Specify a picture that a module of pseudorigid.figures draws."""
+    step, modules = f"drawing {PurePath(result).suffix[1:]}", [f"pseudorigid.figures.{module}"]
+    return _spec(result, name, step, config, "draw", inputs, module, modules)
 
 
-def _computed(
-    result: str,
-    name: str,
-    step: str,
-    config: YamlMapping,
-    function: tuple[str, str],
-    inputs: Iterable[str] = (),
-) -> BuildSpec:
-    """Specify the dataset that a function, named with its module, computes."""
-    modules = function[:1]
-    return _spec(
-        result, name, step, config, "stage", given=function, modules=modules, inputs=inputs
-    )
-
-
-def of_scenes(variants: Variants, variant: str = paths.PAPER) -> dict[str, BuildSpec]:
-    """Specify each result of a variant's scenes, from its path; inputs come first."""
-    return _of_scenes(variants, [variant])
-
-
-def of_variants(variants: Variants) -> dict[str, BuildSpec]:
-    """Specify each result of all variants. Variants share stages that have the same parameters."""
-    return _of_scenes(variants, variants)
-
-
-def _of_scenes(variants: Variants, names: Iterable[str]) -> dict[str, BuildSpec]:
+def of_variants(variants: Variants, names: Iterable[str] | None = None) -> dict[str, BuildSpec]:
+    """Specify each result of all variants, or of some. They share stages of equal parameters."""
     artifact_paths, specs = paths.artifact_paths(variants), {}
-    for variant, (scene, block) in ((v, item) for v in names for item in variants[v].items()):
+    chosen = variants if names is None else names
+    for variant, (scene, block) in ((v, item) for v in chosen for item in variants[v].items()):
         for stage, parameters in paths.stages(block).items():
             path, function = artifact_paths[variant, scene, stage], STAGES[stage].maker(parameters)
             inputs = [artifact_paths[variant, scene, name] for name in STAGES[stage].inputs]
-            specs[path] = _computed(path, scene, stage, parameters, function, inputs)
+            specs[path] = _spec(
+                path, scene, stage, parameters, "stage", inputs, function, function[:1]
+            )
         kind = block["picture"]
         inputs = [artifact_paths[variant, scene, stage] for stage in KINDS[kind].stages]
         for extension in block["formats"]:
             path = paths.drawn(scene, extension, variant)
             specs[path] = _drawing(path, scene, paths.drawing(block), f"kinds.{kind}", inputs)
     return specs
+
+
+def of_scenes(variants: Variants, variant: str = paths.PAPER) -> dict[str, BuildSpec]:
+    """Specify each result of a variant's scenes, from its path; inputs come first."""
+    return of_variants(variants, [variant])
 
 
 def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
@@ -101,17 +82,12 @@ def of_all(checked: YamlMapping) -> dict[str, BuildSpec]:
     """Specify each result that a checked config can make; inputs come first."""
     variants = checked["variants"]
     specs = of_variants(variants) | of_study(variants) | of_sweeps(checked["sweeps"])
-    return specs | of_derivations(checked)
-
-
-def of_derivations(checked: YamlMapping) -> dict[str, BuildSpec]:
-    """Specify the computer algebra on the paper's formulas, at the ball and energy of fig2."""
-    if "fig2" not in checked["scenes"]:
-        return {}
-    block = {"ball": checked["ball"], "energy": checked["scenes"]["fig2"]["energy"]}
-    function = "pseudorigid.proofs.derivations", "derivations"
-    path = paths.DERIVATIONS
-    return {path: _computed(path, "claims", "derivations", block, function)}
+    if "fig2" in checked["scenes"]:  # computer algebra on the paper's formulas, at its ball
+        block = {"ball": checked["ball"], "energy": checked["scenes"]["fig2"]["energy"]}
+        path, module = paths.DERIVATIONS, "pseudorigid.proofs.derivations"
+        given = module, "derivations"
+        specs[path] = _spec(path, "claims", "derivations", block, "stage", (), given, [module])
+    return specs
 
 
 def of_study(variants: Variants) -> dict[str, BuildSpec]:
@@ -119,21 +95,13 @@ def of_study(variants: Variants) -> dict[str, BuildSpec]:
     scenes, artifact_paths = variants[paths.PAPER], paths.artifact_paths(variants)
     specs = {}
     for part in (*parts.FIXED, *parts.MEASURED):
-        path, artifacts = parts.data(part), parts.artifacts(part, scenes, artifact_paths)
-        inputs = sorted({file for *_, file in artifacts})
-        specs[path] = _spec(
-            path,
-            part,
-            "data",
-            parts.block(part, scenes),
-            "study",
-            given=artifacts,
-            modules=parts.modules(part),
-            inputs=inputs,
-        )
+        path, block = parts.data(part), parts.block(part, scenes)
+        given = parts.artifacts(block, artifact_paths)
+        inputs = sorted({file for *_, file in given})
+        specs[path] = _spec(path, part, "data", block, "study", inputs, given, parts.modules(part))
     for chart, (part, *_) in parts.CHARTS.items():
-        path = parts.drawn(chart)
-        specs[path] = _drawing(path, chart, parts.drawing(chart), "study", [parts.data(part)])
+        path, block = parts.drawn(chart), parts.drawing(chart)
+        specs[path] = _drawing(path, chart, block, "study", [parts.data(part)])
     return specs
 
 
@@ -144,7 +112,8 @@ def of_sweeps(sweeps: YamlMapping) -> dict[str, BuildSpec]:
         blocks, data = paths.block_files(name, sweep), paths.sweep_dataset(name)
         for i, path in enumerate(blocks):
             specs[path] = _spec(path, name, f"block {i}", grid.block(sweep, i), "sweep")
-        specs[data] = _spec(data, name, "data", grid.whole(sweep), "sweep", inputs=blocks)
+        specs[data] = _spec(data, name, "data", grid.whole(sweep), "sweep", blocks)
+        drawing = {key: value for key, value in sweep.items() if key != "block"}
         for path in paths.sweep_pictures(name, sweep):
-            specs[path] = _drawing(path, name, sweep, "atlas", [data])
+            specs[path] = _drawing(path, name, drawing, "atlas", [data])
     return specs

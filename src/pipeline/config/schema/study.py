@@ -1,6 +1,6 @@
 """The parts of the study: its data, which of them are the same on every machine, and its charts."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from .fields import YamlMapping
 from .kinds import KINDS
@@ -59,16 +59,15 @@ def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:
 
 
 def artifacts(
-    part: str,
-    scenes: Mapping[str, YamlMapping],
-    artifact_paths: Mapping[tuple[str, str, str], str],
+    block: YamlMapping, artifact_paths: Mapping[tuple[str, str, str], str]
 ) -> list[tuple[str, str, str]]:
     """Return the figures' own datasets that a part compares with: (stage, scene, file)."""
-    compared: Iterable[str] = block(part, scenes).get("scenes", ())
     return [
         (stage, scene, file)
         for (variant, scene, stage), file in artifact_paths.items()
-        if variant == PAPER and scene in compared and stage in ("periodic", "manifolds")
+        if variant == PAPER
+        and scene in block.get("scenes", ())
+        and stage in ("periodic", "manifolds")
     ]
 
 
