@@ -46,7 +46,6 @@ class Returns(OfOrbits):
 
     stages = ("orbits",)
     headline = "orbits"
-    example = "energy: 0.001\\nstarts: [0.1]\\nimpacts: 50"
 
     axes: dict[Literal["x", "next"], Axis] = None
     """Limits and ticks."""
@@ -122,12 +121,23 @@ title = "the next position against the present one"
 shows = "Positions of {{ s.starts|length }} orbits: the next one, x', against the present one, x."
 see = "Regular orbits are closed lines."
 """
+EXAMPLE = """
+returns:
+  picture: returns
+  energy: 0.001
+  starts: [0.1]
+  impacts: 50
+"""
 
 
 def write_new(tree, files):
-    """Write new files, and append the caption of their kind."""
-    with (tree.path / "src/pipeline/checks/report/captions.toml").open("a") as captions:
-        captions.write(CAPTION)
+    """Write new files, and append the caption and the example of their kind."""
+    for name, text in {
+        "checks/report/captions.toml": CAPTION,
+        "config/schema/kinds/examples.yaml": EXAMPLE,
+    }.items():
+        with (tree.path / "src/pipeline" / name).open("a") as file:
+            file.write(text)
     for name, text in files.items():
         path = tree.path / name
         assert not path.exists()

@@ -3,10 +3,9 @@
 Run `.venv/bin/python -m pipeline.config.reference` to renew it.
 """
 
-import inspect
 from collections.abc import Iterable
 from pathlib import Path
-from textwrap import fill
+from textwrap import dedent, fill
 
 import jinja2
 
@@ -21,6 +20,8 @@ from .schema.sweep import Span, Sweep
 from .schema.variant import Prove, Variant
 from .validation.mistakes import allowed_at
 
+EXAMPLES = Path(__file__).parent / "schema" / "kinds" / "examples.yaml"
+
 
 def page() -> str:
     """Return the text of the page."""
@@ -30,12 +31,13 @@ def page() -> str:
     )
     declared = (Prove, Scene, Span, Sweep, Variant, example, listed, own_fields, quoted, upstream)
     names = {each.__name__: each for each in declared}
-    return template.render(names, KINDS=KINDS, STAGES=STAGES, fields=fields)
+    return str(template.render(names, KINDS=KINDS, STAGES=STAGES, fields=fields))
 
 
 def example(name: str) -> str:
     """Return the example of a kind of picture as YAML, a block of `scenes:`."""
-    return f"picture: {name}\n{inspect.cleandoc(KINDS[name].example)}"
+    _, _, text = EXAMPLES.read_text(encoding="utf-8").partition(f"\n{name}:\n")
+    return dedent(text.partition("\n\n")[0]).rstrip()
 
 
 def own_fields(kind: type[Scene]) -> list[str]:

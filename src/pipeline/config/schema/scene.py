@@ -33,8 +33,6 @@ class Scene(fields.Block):
     along: ClassVar[dict[str, str]] = {}
     # The quantity of `numbers` that stands for the figure in a list.
     headline: ClassVar[str]
-    # A small scene of this kind, other than the committed one, in YAML without `picture`.
-    example: ClassVar[str]
     # The measure of error that the study applies (pseudorigid.study.figure_errors), or None.
     studied: ClassVar[str | None] = None
     # Quantity -> value as text, measured in the datasets: numbers(block, **{stage: dataset}).
@@ -67,9 +65,9 @@ class Scene(fields.Block):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Yield what is wrong between fields of a complete block, each of which has its type."""
-        ball = block["ball"]
-        if not ball["g"] < ball["k"]:
-            yield ("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"
+        k, g = (block["ball"][name] for name in "kg")
+        if not g < k:
+            yield ("ball", "g"), g, f"0 < g < k = {k}"
             return
         yield from _energy_errors(block)
         for name, axis in block.get("axes", {}).items():
@@ -160,11 +158,12 @@ class OfPeriodicOrbit(Scene):
         from pseudorigid.dynamics.variables import of_type
 
         orbit = of_type(periodic, block["type"])
-        words = {"orbit": f"{orbit['type'].item()}, period {orbit.sizes['point']}"}
-        words |= measured_energy(block, orbit)
-        if block["type"] == "elliptic":
-            return words | {"rotation number": f"{float(orbit['rotation_number']):.6f}"}
-        return words | {"multiplier": f"{float(orbit['multiplier']):.6f}"}
+        last = "rotation_number" if block["type"] == "elliptic" else "multiplier"
+        return {
+            "orbit": f"{orbit['type'].item()}, period {orbit.sizes['point']}",
+            **measured_energy(block, orbit),
+            last.replace("_", " "): f"{float(orbit[last]):.6f}",
+        }
 
 
 class OfManifolds(OfPeriodicOrbit):
@@ -244,44 +243,46 @@ def measured_energy(block: YamlMapping, states: Dataset) -> dict[str, str]:
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.variables import states_of
 
-    ball = Ball(**block["ball"])
-    energy = np.asarray(ball.energy(*states_of(states)))
+    energy = np.asarray(Ball(**block["ball"]).energy(*states_of(states)))
     ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
     return {"energy": " to ".join(ends)}
 
 
 def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:
     """Yield an error for each energy of a field at which the fixed point is hyperbolic."""
+    k, g = (block["ball"][name] for name in "kg")
+    theta = _last(lambda theta: _fixed_point(k, theta)[1] > -2)
+    highest = _fixed_point(k, theta)[0] * g * g
     several = isinstance(block[name], list)
     for i, energy in enumerate(block[name] if several else [block[name]]):
-        if fixed_point_trace(block["ball"], energy) > -2:
-            continue
-        low, high = -(block["ball"]["g"] ** 2) / (2 * block["ball"]["k"]), energy
-        for _ in range(40):
-            middle = (low + high) / 2
-            elliptic = fixed_point_trace(block["ball"], middle) > -2
-            low, high = (middle, high) if elliptic else (low, middle)
-        place = (name, i) if several else (name,)
-        yield place, energy, f"an energy below {low:.6g}, where the fixed point is elliptic"
+        if not energy < highest:
+            words = f"an energy below {highest:.6g}, where the fixed point is elliptic"
+            yield ((name, i) if several else (name,)), energy, words
 
 
 def fixed_point_trace(ball: YamlMapping, energy: float) -> float:
-    """Return the trace of the map's derivative at the fixed point, to about nine digits.
+    """Return the trace of the map's derivative at the fixed point, to about nine digits."""
+    k, scaled = ball["k"], energy / ball["g"] ** 2
+    return _fixed_point(k, _last(lambda theta: _fixed_point(k, theta)[0] < scaled))[1]
 
-    `pseudorigid.dynamics.fixed_point` computes it too, but compiles code when it is imported, which
-    takes too long for a check of the config.
+
+def _fixed_point(k: float, theta: float) -> tuple[float, float]:
+    """Return E/g^2 and the trace for theta = tau/2, as `pseudorigid.dynamics.fixed_point` does.
+
+    That module compiles code when it is imported, which takes too long for a check of the config.
     """
-    k, energy = ball["k"], energy / ball["g"] ** 2
+    b = 1 - theta / math.tan(theta)
+    energy = ((1 + k) * theta * theta + b * b - 1) / (2 * k)
+    shear = b * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
+    return energy, 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
 
-    def one_minus_theta_cot(theta: float) -> float:
-        return 1 - theta / math.tan(theta)
 
+def _last(condition: Callable[[float], bool]) -> float:
+    """Return the theta in (0, pi) up to which a condition holds, by bisection."""
     low, high = 0.0, math.pi
     while (theta := (low + high) / 2) not in (low, high):
-        below = ((1 + k) * theta * theta + one_minus_theta_cot(theta) ** 2 - 1) / (2 * k) < energy
-        low, high = (theta, high) if below else (low, theta)
-    shear = one_minus_theta_cot(theta) * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
-    return float(2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k))
+        low, high = (theta, high) if condition(theta) else (low, theta)
+    return theta
 
 
 def exact(value: float) -> Fraction:
@@ -295,6 +296,7 @@ def _impacts_of_each(block: YamlMapping) -> list[int]:
 
 
 def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
+    """Yield the energies at which there is no motion, or at which the ball could flatten."""
     k, g = (exact(block["ball"][name]) for name in "kg")
     lowest, highest = -g * g / (2 * k), k / 2 - g
     energies: dict[tuple[str | int, ...], float] = {("energy",): block["energy"]}

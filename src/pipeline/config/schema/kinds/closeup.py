@@ -15,16 +15,6 @@ class Closeup(OfManifolds):
     axes_depend_on = ("period", "type", "point", "window")
     headline = "x of the point"
     studied = "closeup"
-    example = """
-    ball: {k: 0.3, g: 0.02}
-    energy: 0.002
-    period: 6
-    type: hyperbolic
-    point: 1
-    window: {x: [-0.05, 0.05], xdot: [-0.05, 0.05]}
-    length: 1
-    resolution: {distance: 0.02, bend: 20}
-    """
 
     point: int = whole(0, 11)
     """Which point of the orbit the window surrounds, from 0 to period - 1, in the order of the

@@ -14,17 +14,6 @@ class Clusters(Scene):
 
     stages = ("clusters",)
     headline = "time between clusters"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.05
-    between: [0.55, 0.68]
-    orbits: 16
-    impacts: 2000
-    cuts: [15, 20]
-    lags: 2
-    resamples: 50
-    seed: 1
-    """
 
     between: Between
     """Part of the symmetry line y = 0 over which the orbits start evenly, in section radii from the

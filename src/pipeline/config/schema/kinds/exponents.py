@@ -14,13 +14,6 @@ class Exponents(OfRecords):
     along = {"impact": "impacts"}
     headline = "largest exponent"
     studied = "exponents"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.05
-    starts: [0.1, 0.5]
-    impacts: 2000
-    records: 50
-    """
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and

@@ -11,16 +11,6 @@ class Flux(Scene):
 
     stages = ("flux",)
     headline = "lobes"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.001
-    period: 6
-    distance: 0.01
-    grid: 100
-    between: [0.8, 0.9]
-    orbits: 8
-    impacts: 500
-    """
 
     period: int = whole(2, 12, 2)
     """Period of the hyperbolic orbit whose branches enclose the regions. It must be even."""

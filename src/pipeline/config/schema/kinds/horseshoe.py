@@ -12,15 +12,6 @@ class Horseshoe(OfBranches):
     stages = ("manifolds", "horseshoe")
     axes_depend_on = ("period", "type", "branches", "connection")
     headline = "sets"
-    example = """
-    ball: {k: 0.3, g: 0.02}
-    energy: 0.002
-    period: 5
-    type: hyperbolic
-    branches: {outer: {length: 0.8}}
-    resolution: {distance: 0.02, bend: 20}
-    connection: outer
-    """
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
     """Side of the branches along which the orbit is connected with itself, and along which the sets

@@ -9,15 +9,6 @@ class Jumps(OfChaoticOrbits):
 
     stages = ("jumps", "orbits")
     headline = "jump curve"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.01
-    energies: [0.0005, 0.002]
-    sides: 400
-    starts: [-0.3, 0.7]
-    impacts: [200, 2000]
-    sea: [1]
-    """
 
     energies: Energies
     """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""

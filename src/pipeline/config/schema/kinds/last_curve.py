@@ -12,14 +12,6 @@ class LastCurve(Scene):
 
     stages = ("last_curve",)
     headline = "last residues"
-    example = """
-    ball: {k: 0.3, g: 0.02}
-    energy: 0.002
-    convergents: 4
-    between: [-0.3, 0.3]
-    impacts: 2000
-    drawn: 1000
-    """
 
     nobles: list[
         Annotated[

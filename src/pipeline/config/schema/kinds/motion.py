@@ -14,13 +14,6 @@ class Motion(OfPeriodicOrbit):
     along = {"t": "duration"}
     headline = "orbit"
     studied = "motion"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.01
-    period: 5
-    type: hyperbolic
-    duration: 40
-    """
 
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
     """Length of time that is drawn, in 1/omega, from an impact on. The orbit repeats itself as

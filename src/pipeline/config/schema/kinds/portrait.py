@@ -10,13 +10,6 @@ class Portrait(OnSurface, OfChaoticOrbits):
     stages = ("orbits",)
     headline = "impacts"
     studied = "portrait"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.01
-    starts: [-0.3, {x: 0.1, y: 0.02}, 0.7]
-    impacts: [200, 200, 2000]
-    sea: [2]
-    """
 
     @staticmethod
     def numbers(block: YamlMapping, orbits: Dataset) -> dict[str, str]:

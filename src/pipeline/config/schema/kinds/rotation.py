@@ -11,15 +11,6 @@ class Rotation(Scene):
 
     stages = ("rotation",)
     headline = "at the fixed point"
-    example = """
-    ball: {k: 0.1, g: 0.02}
-    energy: 0.01
-    energies: [0.001, 0.005]
-    starts: 80
-    impacts: 1000
-    detail: [-0.3, -0.2]
-    detail_impacts: 1000
-    """
 
     energies: Energies
     """Further energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of

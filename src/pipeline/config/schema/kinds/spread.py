@@ -11,20 +11,6 @@ class Spread(OfRecords):
 
     stages = ("spread", "lyapunov")
     headline = "long-run exponent"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.02}
-    energy: 0.05
-    orbits: 8
-    length: 2000
-    blocks: 20
-    regular: [-0.05]
-    regular_impacts: 1024
-    cells: 10
-    visits: 1000
-    starts: [0.3, 0.5]
-    impacts: 500
-    records: 20
-    """
 
     orbits: int = whole(2, 1000)
     """Number of long orbits. They start uniformly over the whole section, in islands as well as in

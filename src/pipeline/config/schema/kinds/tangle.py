@@ -10,16 +10,6 @@ class Tangle(OfBranches, OfOrbits, OnSurface):
     stages = ("orbits", "manifolds", "periodic")
     headline = "orbit"
     studied = "tangle"
-    example = """
-    ball: {k: 0.3, g: 0.02}
-    energy: 0.002
-    period: 5
-    type: hyperbolic
-    branches: {outer: {length: 0.8}, inner: {length: 0.4}}
-    resolution: {distance: 0.02, bend: 20}
-    starts: [-0.3, 0.1]
-    impacts: 300
-    """
 
     @staticmethod
     def numbers(

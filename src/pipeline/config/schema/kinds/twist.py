@@ -19,12 +19,6 @@ class Twist(Scene):
     axes_depend_on = ("energies",)
     along = {"energy": "energies"}
     headline = "zero of the twist"
-    example = """
-    ball: {k: 0.3, g: 0.02}
-    energy: 0.002
-    energies: [0.0005, 0.001, 0.002, 0.003, 0.004, 0.005]
-    marks: [0.002]
-    """
 
     energies: Annotated[
         list[Energy],
