@@ -16,7 +16,6 @@ COMMANDS = (
     *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report"),
     *("archive", "verify", "accept", "clean", "benchmark", "test", "help", "all"),
 )
-_ON_REQUEST = [name for name in PUBLISHED if name != PAPER]
 _Scenes = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 
 
@@ -33,28 +32,20 @@ class Document(Block):
 
 
 def check(document: object) -> YamlMapping:
-    """Return the complete config of a parsed YAML document.
+    """Return the complete config of a parsed YAML document: ball, scenes, variants, sweeps, prove.
 
-    Returns
-    -------
-    dict
-        ball, scenes, variants, sweeps and prove. The variants are mappings name -> scene -> block;
-        the first of them are the paper itself and the scenes that are drawn on request.
-
-    Raises
-    ------
-    ConfigError
-        The document has mistakes. The error has a line for each of them.
+    The variants are mappings name -> scene -> block; the first of them are the paper itself and the
+    scenes that are drawn on request. Raises ConfigError with a line for each mistake.
     """
     lines = mistakes(Document, document, ())
     given = complete(Document, document if isinstance(document, dict) else {})
     given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
     ball = None if mistakes(BallBlock, given.get("ball"), ()) else given["ball"]
-    derived: dict[str, YamlMapping] = {}
-    for key, variant in {"scenes": PAPER, **{name: name for name in _ON_REQUEST}}.items():
-        derived[variant] = {}
+    derived: dict[str, YamlMapping] = {variant: {} for variant in PUBLISHED}
+    for variant, scenes in derived.items():
+        key = "scenes" if variant == PAPER else variant
         for name, block in given.get(key, {}).items():
-            derived[variant][name], scene_lines = checked(block, ball, (key, name))
+            scenes[name], scene_lines = checked(block, ball, (key, name))
             lines += scene_lines
             if name in COMMANDS:
                 lines.append(refusal((key,), name, "a name that is no command of ./reproduce"))
@@ -72,10 +63,5 @@ def check(document: object) -> YamlMapping:
             lines.append(refusal(("sweeps",), name, words))
     if lines:
         raise ConfigError(*dict.fromkeys(lines))
-    return {
-        "ball": ball,
-        "scenes": derived[PAPER],
-        "variants": derived,
-        "sweeps": grids,
-        "prove": given["prove"],
-    }
+    parts = {"scenes": derived[PAPER], "variants": derived, "sweeps": grids}
+    return {"ball": ball, **parts, "prove": given["prove"]}

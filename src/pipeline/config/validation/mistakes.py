@@ -42,11 +42,8 @@ def has_types(model: type[Block], given: object) -> bool:
 
 def complete(model: type[Block], given: YamlMapping) -> YamlMapping:
     """Add the defaults of the fields that a correct block leaves out."""
-    defaults = {
-        key: field.default
-        for key, field in fields_of(model).items()
-        if not field.is_required() and field.default is not None
-    }
+    fields = {key: field for key, field in fields_of(model).items() if not field.is_required()}
+    defaults = {key: field.default for key, field in fields.items() if field.default is not None}
     return defaults | given
 
 
@@ -68,7 +65,7 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
                 return bare, words
             annotation, loc, tagged = fields_of(bare)[str(loc[0])], loc[1:], False
             continue
-        words = _words(metadata) or _words_of_literals(bare) or _description(metadata) or words
+        words = _words(bare, metadata) or words
         if loc in ((), ("[key]",)):
             return annotation, words
         tagged = loc[0] in TAGS
@@ -77,19 +74,16 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
         annotation, loc = typing.get_args(bare)[argument], loc[1:]
 
 
-def _words(metadata: list[Any]) -> str | None:
-    """Return the words that `schema.fields.allowed` gave to a field."""
-    extras = (item.json_schema_extra for item in metadata if isinstance(item, FieldInfo))
-    return next((str(extra["allowed"]) for extra in extras if isinstance(extra, dict)), None)
+def _words(annotation: Any, metadata: list[Any]) -> str | None:
+    """Return the words that `schema.fields.allowed` gave to a field, or describe its type.
 
-
-def _description(metadata: list[Any]) -> str | None:
-    """Return a field's description, which says what is allowed in other files than config.yaml."""
-    return next((i.description for i in metadata if getattr(i, "description", None)), None)
-
-
-def _words_of_literals(annotation: Any) -> str | None:
-    """Describe texts, and mappings whose keys are texts, by listing the texts."""
+    Texts, and mappings whose keys are texts, are described by a list of the texts. In other files
+    than config.yaml, a field's description says what is allowed.
+    """
+    fields = [item for item in metadata if isinstance(item, FieldInfo)]
+    for extra in (field.json_schema_extra for field in fields):
+        if isinstance(extra, dict):
+            return str(extra["allowed"])
     if typing.get_origin(annotation) is typing.Literal:
         return f"one of {', '.join(typing.get_args(annotation))}"
     if typing.get_origin(annotation) is dict:
@@ -97,7 +91,7 @@ def _words_of_literals(annotation: Any) -> str | None:
         if typing.get_origin(key_type) is typing.Literal:
             *keys, last = typing.get_args(key_type)
             return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
-    return None
+    return next((field.description for field in fields if field.description), None)
 
 
 def _is_of_unknown_key(error: ErrorDetails) -> bool:
@@ -106,6 +100,7 @@ def _is_of_unknown_key(error: ErrorDetails) -> bool:
 
 
 def _errors(model: Any, given: object) -> list[ErrorDetails]:
+    """Return pydantic's errors about a value."""
     try:
         TypeAdapter(model).validate_python(given)
     except ValidationError as error:
@@ -114,6 +109,7 @@ def _errors(model: Any, given: object) -> list[ErrorDetails]:
 
 
 def _line(model: Any, error: ErrorDetails, place: Place) -> str:
+    """Return the line for one of pydantic's errors."""
     loc = error["loc"]
     where = (*place, *(part for part in loc if part not in TAGS))
     known: list[str] = []
@@ -123,8 +119,7 @@ def _line(model: Any, error: ErrorDetails, place: Place) -> str:
         names = allowed_at(model, loc)[0]
         if typing.get_origin(names) is typing.Annotated:
             names = typing.get_args(names)[0]
-        known = list(typing.get_args(names))
-        where = where[:-1]
+        known, where = list(typing.get_args(names)), where[:-1]
     if known:
         (hint,) = meant(where[-1], known) or [f"allowed here: {', '.join(known)}"]
         return f"{dotted(where)}: unknown key: {hint}"

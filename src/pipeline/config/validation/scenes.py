@@ -12,7 +12,7 @@ def checked(
     given: object,
     ball: YamlMapping | None,
     place: Place,
-    origins: Mapping[str, Place] | None = None,
+    origins: Mapping[int | str, Place] | None = None,
 ) -> tuple[YamlMapping, list[str]]:
     """Return a scene's complete block and a line for each mistake; with mistakes the block is {}.
 
@@ -21,18 +21,17 @@ def checked(
     """
     if not isinstance(given, dict):
         return {}, [refusal(place, given, "a mapping that begins with picture")]
-    words = f"one of {', '.join(KINDS)}"
+    words, picture = f"one of {', '.join(KINDS)}", (*place, "picture")
     if "picture" not in given:
-        return {}, [f"{dotted((*place, 'picture'))}: missing: expected {words}"]
-    kind = KINDS.get(given["picture"]) if isinstance(given["picture"], str) else None
-    if kind is None:
-        return {}, [refusal((*place, "picture"), given["picture"], words)]
+        return {}, [f"{dotted(picture)}: missing: expected {words}"]
+    if not isinstance(given["picture"], str) or given["picture"] not in KINDS:
+        return {}, [refusal(picture, given["picture"], words)]
+    kind = KINDS[given["picture"]]
     lines = mistakes(kind, given, place)
     if ball is None or (lines and not has_types(kind, given)):
         return {}, lines
     block = complete(kind, {"ball": ball} | given)
-    places: dict[int | str, Place] = {} if "ball" in given else {"ball": ("ball",)}
-    places.update(origins or {})
+    places = ({} if "ball" in given else {"ball": ("ball",)}) | dict(origins or {})
     for (field, *inner), value, allowed in kind.cross_field_errors(block):
         lines.append(refusal((*places.get(field, (*place, field)), *inner), value, allowed))
     return ({}, lines) if lines else (block, [])

@@ -35,78 +35,70 @@ def checked(given: YamlMapping, place: Place) -> tuple[YamlMapping, list[str]]:
 
 
 def _axis_errors(given: YamlMapping | list[float], axis: str) -> Iterator[CrossFieldError]:
-    if isinstance(given, list):
-        return
-    low, high = given["from"], given["to"]
-    if not low < high:
-        yield (axis, "to"), high, f"a number above from = {low}"
-    elif given.get("spacing") == "log" and not low > 0:
-        yield (axis, "from"), low, "a number > 0 where spacing is log"
-
-
-def _values(given: YamlMapping | list[float]) -> list[float]:
-    if isinstance(given, list):
-        return [float(value) for value in given]
-    spaced = _log_spaced if given.get("spacing") == "log" else _evenly_spaced
-    return spaced(given["from"], given["to"], given["count"])
+    """Yield an error if the ends of an axis are wrong."""
+    if isinstance(given, dict):
+        low, high = given["from"], given["to"]
+        if not low < high:
+            yield (axis, "to"), high, f"a number above from = {low}"
+        elif given.get("spacing") == "log" and not low > 0:
+            yield (axis, "from"), low, "a number > 0 where spacing is log"
 
 
 def _cross_field_errors(sweep: YamlMapping) -> Iterator[CrossFieldError]:
     """Yield errors between the fields of a sweep, each of which is correct by itself."""
-    for i, k in enumerate(sweep["k"]):
-        if not 0 < k <= 1:
-            yield ("k",), k, f"numbers with 0 < k <= 1 (number {i + 1})"
+    k, energy, block, impacts = (sweep[name] for name in ("k", "energy", "block", "impacts"))
+    for i, each in enumerate(k):
+        if not 0 < each <= 1:
+            yield ("k",), each, f"numbers with 0 < k <= 1 (number {i + 1})"
             return
-    yield from _energy_errors(sweep)
-    cells = len(sweep["k"]) * len(sweep["energy"])
+    yield from _energy_errors(energy[0], energy[-1], k, sweep.get("g"))
+    cells = len(k) * len(energy)
     if cells > MOST_CELLS:
-        sizes = f"{len(sweep['k'])} times {len(sweep['energy'])}"
-        words = f"axes with at most {MOST_CELLS} cells, here {sizes}"
-        yield ("energy",), sweep["energy"], words
+        sizes = f"{len(k)} times {len(energy)}"
+        yield ("energy",), energy, f"axes with at most {MOST_CELLS} cells, here {sizes}"
         return
-    if cells * sweep["starts"] * sweep["impacts"] > LARGEST_IMPACTS:
+    if cells * sweep["starts"] * impacts > LARGEST_IMPACTS:
         words = f"at most {LARGEST_IMPACTS} impacts in a sweep, counted over all cells and starts"
-        yield ("impacts",), sweep["impacts"], words
-    if cells > MOST_JOBS * sweep["block"]:
+        yield ("impacts",), impacts, words
+    if cells > MOST_JOBS * block:
         words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
-        yield ("block",), sweep["block"], words
+        yield ("block",), block, words
 
 
-def _energy_errors(sweep: YamlMapping) -> Iterator[CrossFieldError]:
-    first, last = sweep["energy"][0], sweep["energy"][-1]
-    k = max(sweep["k"])
-    lowest = -1 / (2 * exact(k))
+def _energy_errors(
+    first: float, last: float, k: list[float], g: float | None
+) -> Iterator[CrossFieldError]:
+    """Yield an error for the first or last energy, or for g, if a ball could rest or flatten."""
+    lowest = -1 / (2 * exact(k[-1]))
     if not exact(first) > lowest:
-        words = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k} is at rest"
+        words = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k[-1]} is at rest"
         yield ("energy",), first, words
     if not last <= HIGHEST_ENERGY:
         yield ("energy",), last, f"E/g^2 of at most {HIGHEST_ENERGY:g}"
-        return
-    if "g" not in sweep:
-        return
-    least_k, g = exact(min(sweep["k"])), exact(sweep["g"])
-    if not g < least_k:
-        yield ("g",), sweep["g"], f"0 < g < k = {float(least_k)}"
-        return
-    highest = (least_k / 2 - g) / (g * g)
-    if not exact(last) < highest:
-        words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
-        yield ("energy",), last, words
+    elif g is not None and not g < k[0]:
+        yield ("g",), g, f"0 < g < k = {k[0]}"
+    elif g is not None:
+        highest = (exact(k[0]) / 2 - exact(g)) / exact(g) ** 2
+        if not exact(last) < highest:
+            words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
+            yield ("energy",), last, words
 
 
-def _evenly_spaced(low: float, high: float, count: int) -> list[float]:
-    """Return evenly spaced numbers, exact to twelve digits where the ends are decimals."""
-    first, last = exact(low), exact(high)
-    values = [first + (last - first) * i / (count - 1) for i in range(count)]
-    return [
-        float(Context(prec=12).divide(Decimal(value.numerator), Decimal(value.denominator)))
-        for value in values
-    ]
+def _values(given: YamlMapping | list[float]) -> list[float]:
+    """Return the numbers of an axis.
 
-
-def _log_spaced(low: float, high: float, count: int) -> list[float]:
-    """Return numbers in equal ratios, to six digits. Decimals have the same bits everywhere."""
-    first, last = _FORTY_DIGITS.ln(Decimal(str(low))), _FORTY_DIGITS.ln(Decimal(str(high)))
-    step = _FORTY_DIGITS.divide(_FORTY_DIGITS.subtract(last, first), Decimal(count - 1))
-    powers = (_FORTY_DIGITS.fma(step, Decimal(i), first) for i in range(count))
+    Evenly spaced ones are exact to twelve digits where the ends are decimals. Those in equal ratios
+    have six digits; they are computed in decimals, which have the same bits everywhere.
+    """
+    if isinstance(given, list):
+        return [float(value) for value in given]
+    low, high, count = given["from"], given["to"], given["count"]
+    if given.get("spacing") != "log":
+        first, last = exact(low), exact(high)
+        values = [first + (last - first) * i / (count - 1) for i in range(count)]
+        twelve = Context(prec=12)
+        return [float(twelve.divide(Decimal(v.numerator), Decimal(v.denominator))) for v in values]
+    start, end = (_FORTY_DIGITS.ln(Decimal(str(value))) for value in (low, high))
+    step = _FORTY_DIGITS.divide(_FORTY_DIGITS.subtract(end, start), Decimal(count - 1))
+    powers = (_FORTY_DIGITS.fma(step, Decimal(i), start) for i in range(count))
     return [float(Context(prec=6).plus(_FORTY_DIGITS.exp(power))) for power in powers]

@@ -41,11 +41,8 @@ def derive(document: YamlMapping, name: str, given: object) -> tuple[YamlMapping
     for scene, block in document["scenes"].items():
         change = changes.get(scene, {})
         derived = _derived({"ball": document["ball"]} | block, given, change)
-        origins = {
-            key: (*place, key) for key in _OF_ALL_SCENES if key in given and key not in change
-        }
-        if "ball" not in change:
-            origins["ball"] = (*place, "ball")
+        replaced = {"ball"} | (given.keys() & set(_OF_ALL_SCENES))
+        origins = {key: (*place, key) for key in replaced - change.keys()}
         where = (*place, "scenes", scene)
         scenes[scene], mistaken = checked(derived, derived["ball"], where, origins)
         lines += mistaken
@@ -92,20 +89,20 @@ def _merged(old: Any, new: Any) -> Any:
 
 def _scaled(block: YamlMapping, scale: float) -> YamlMapping:
     """Express a complete block in another unit of length."""
-    ball = block["ball"] | {"g": _product(block["ball"]["g"], scale)}
-    block = block | {"ball": ball, "energy": _product(block["energy"], scale, scale)}
-    for name in {"energies", "marks"} & block.keys():
-        block[name] = [_product(energy, scale, scale) for energy in block[name]]
-    if isinstance(block.get("starts"), list):
-        block["starts"] = [
-            {key: _product(value, scale) for key, value in start.items()}
-            if isinstance(start, dict)
-            else start
-            for start in block["starts"]
-        ]
+    ball = block["ball"] | {"g": _times(block["ball"]["g"], scale)}
+    block = block | {"ball": ball}
+    for name in {"energy", "energies", "marks"} & block.keys():
+        block[name] = _times(block[name], scale, scale)
+    if isinstance(block.get("starts"), list):  # fractions of the section stay
+        starts = block["starts"]
+        block["starts"] = [_times(s, scale) if isinstance(s, dict) else s for s in starts]
     return block
 
 
-def _product(*factors: float) -> float:
+def _times(values: Any, *factors: float) -> Any:
     """Multiply decimals as written and round once, so that 3 times 0.01 gives 0.03."""
-    return float(math.prod(map(exact, factors)))
+    if isinstance(values, list):
+        return [_times(value, *factors) for value in values]
+    if isinstance(values, dict):
+        return {key: _times(value, *factors) for key, value in values.items()}
+    return float(math.prod(map(exact, (values, *factors))))

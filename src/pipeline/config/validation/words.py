@@ -35,7 +35,7 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
 
 def meant(name: object, known: Iterable[str]) -> list[str]:
     """Return a question that suggests the known name nearest to `name`; empty if none is near."""
-    return [question] if (question := suggestion(name, known)) else []
+    return [*filter(None, [suggestion(name, known)])]
 
 
 def dotted(place: Place) -> str:
