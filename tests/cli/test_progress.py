@@ -11,7 +11,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
 from pipeline.checks.freshness import Freshness
-from pipeline.cli.progress import plan, states
+from pipeline.cli import progress
 from pipeline.cli.session import UsageError, one_line
 from pipeline.config import build_specs, load
 from pipeline.jobs import server
@@ -59,7 +59,7 @@ def made(tmp_path, monkeypatch):
 
 
 def planned(made):
-    return plan.plan(Freshness(*made), [ORBITS, DRAWING])
+    return progress.plan(Freshness(*made), [ORBITS, DRAWING])
 
 
 def test_a_plan_names_what_changed_by_scene(made):
@@ -105,7 +105,7 @@ def test_a_package_of_another_version_is_named(made):
 
 
 def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
-    monkeypatch.setattr(states, "ROOT", tmp_path)
+    monkeypatch.setattr(progress, "ROOT", tmp_path)
     folder = tmp_path / "figures"
     folder.mkdir()
     for name in ("same.png", "other.png", "new.png"):
@@ -114,7 +114,7 @@ def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
     sums["gone.png"] = sums["same.png"]
     (folder / "SHA256SUMS").write_text("".join(f"{d}  {name}\n" for name, d in sums.items()))
     paths = [f"figures/{name}.png" for name in ("same", "other", "new", "gone")]
-    compared = states.committed("figures", [*paths, "results/x.pdf"])
+    compared = progress.committed("figures", [*paths, "results/x.pdf"])
     words = ("identical", "differs", "not committed", "missing")
     assert compared == dict(zip(paths, words, strict=True))
 

@@ -15,8 +15,8 @@ from runs import rows
 
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import sweep
-from pipeline.cli.running.space import require_space
-from pipeline.cli.session import CommandLineError, UsageError
+from pipeline.cli.running import require_space
+from pipeline.cli.session import UsageError
 from pipeline.config import build_specs, paths
 from pipeline.records.artifacts import load
 from pipeline.records.build_spec import BuildSpec
@@ -39,14 +39,19 @@ def test_a_full_disk_is_reported_before_anything_starts(monkeypatch):
     require_space(each for path, each in specs().items() if path not in blocks)
 
 
-def test_all_sweeps_are_selected_without_a_name():
-    sweeps = {"plane": SMALL, "line": SMALL}
-    assert sweep.selected(sweeps, []) == ["plane", "line"]
-    assert sweep.selected(sweeps, ["line"]) == ["line"]
-    with pytest.raises(CommandLineError, match="no sweep lime: did you mean line"):
-        sweep.selected(sweeps, ["lime"])
-    with pytest.raises(UsageError, match="sweeps: missing, or empty"):
-        sweep.selected({}, [])
+@pytest.mark.parametrize(
+    ("name", "sweeps", "line"),
+    [
+        ("lime", {"plane": SMALL, "line": SMALL}, "no sweep lime: did you mean line"),
+        ("line", {}, "no sweep line"),
+        (None, {}, "sweeps: missing, or empty"),
+    ],
+)
+def test_a_sweep_that_is_not_in_the_config_is_one_line(name, sweeps, line):
+    names = [name] if name else []
+    args = Arguments(sweep=names, slurm=False, options=[], config={"sweeps": sweeps})
+    with pytest.raises(UsageError, match=line):
+        sweep.run(args)
 
 
 def test_progress_shows_rate_and_time_to_finish(monkeypatch):
@@ -191,7 +196,7 @@ def test_the_papers_figures_need_no_sweep(tree):
 
 
 def test_the_start_imports_nothing_heavy():
-    code = "import sys, pipeline.config, pipeline.cli.running.space\n"
+    code = "import sys, pipeline.config, pipeline.cli.running\n"
     code += "print({'numpy', 'pseudorigid.study'} & set(sys.modules))"
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
     result = subprocess.run(

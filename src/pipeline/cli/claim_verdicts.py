@@ -29,20 +29,20 @@ def dataset_paths(checked: dict[str, Any]) -> dict[str, str]:
     return {name: known[name] for name in claims.required_datasets()}
 
 
-def _with_gravity(checked: dict[str, Any], name: str, dataset: xr.Dataset) -> xr.Dataset:
-    """Add the g of a sweep's block, if there is one, to the attributes of a sweep's dataset."""
-    if name.startswith("atlas/"):
-        sweep = checked["sweeps"].get(name.partition("/")[2], {})
-        return dataset.assign_attrs({key: sweep[key] for key in ("g",) if key in sweep})
-    return dataset
+def _load(
+    checked: dict[str, Any], names: Iterable[str], given: dict[str, xr.Dataset]
+) -> dict[str, xr.Dataset]:
+    """Return datasets by their names, those that are not given from their files.
 
-
-def _load(checked: dict[str, Any], names: Iterable[str]) -> dict[str, xr.Dataset]:
-    """Load datasets by their names."""
-    files = dataset_paths(checked)
-    return {
-        name: _with_gravity(checked, name, artifacts.load(ROOT / files[name])) for name in names
-    }
+    A sweep's dataset gets the g of its block, if there is one, as an attribute.
+    """
+    datasets, files = {}, dataset_paths(checked) if set(names) - set(given) else {}
+    for name in names:
+        dataset = given[name] if name in given else artifacts.load(ROOT / files[name])
+        folder, _, sweep = name.partition("/")
+        block = checked["sweeps"].get(sweep, {}) if folder == "atlas" else {}
+        datasets[name] = dataset.assign_attrs({"g": block["g"]} if "g" in block else {})
+    return datasets
 
 
 def _proofs(names: Iterable[str]) -> dict[str, str]:
@@ -54,7 +54,7 @@ def _proofs(names: Iterable[str]) -> dict[str, str]:
 
 def write(checked: dict[str, Any]) -> list[Verdict]:
     """Judge all claims, and write CLAIMS.json and then CLAIMS.md if they differ."""
-    datasets = _load(checked, claims.required_datasets())
+    datasets = _load(checked, claims.required_datasets(), {})
     data = ledger.to_json(claims.judge_claims(datasets, _proofs(claims.required_theorems())))
     verdicts = ledger.read_json(data)
     for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: ledger.render(verdicts)}.items():
@@ -84,9 +84,7 @@ def check(checked: dict[str, Any], number: int, given: str) -> str:
         raise CommandLineError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
     if wrong := soundness.dataset_error(name.rpartition("/")[2], dataset):
         return f"{number}  {UNDECIDED}: {file} is no {name} of its ball and energy: {wrong}"
-    others = [known for known in claim.data if known != name]
-    datasets = _load(checked, others) if others else {}
-    datasets[name] = _with_gravity(checked, name, dataset)
+    datasets = _load(checked, claim.data, {name: dataset})
     try:
         verdict = claim.judge(datasets, _proofs(claim.theorems))
     except (KeyError, IndexError, ValueError) as error:  # soundness checks only a sample

@@ -8,7 +8,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
-from typing import IO
 
 from ..jobs.server import ADDRESS
 from ..records.record import require_loaded_unchanged
@@ -50,30 +49,24 @@ def locked() -> Iterator[None]:
     """
     try:
         # Nothing is written to the lock: a FIFO or a link to another file does no harm.
-        lock = os.fdopen(
-            os.open(ROOT / ".lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
-        )
+        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
+        lock = os.fdopen(os.open(ROOT / ".lock", flags, 0o666))
         (ROOT / "results").mkdir(exist_ok=True)
     except OSError as error:
         raise UsageError(f"cannot write in {ROOT}: {error.strerror}: {error.filename}") from None
     with lock:
         end = time.monotonic() + LOCK_SECONDS
-        while not _is_locked(lock):
-            if time.monotonic() > end:
-                raise UsageError("another ./reproduce is running in this folder")
+        while True:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except OSError:
+                if time.monotonic() > end:
+                    raise UsageError("another ./reproduce is running in this folder") from None
             time.sleep(0.05)
         os.set_inheritable(lock.fileno(), True)
         yield
         require_loaded_unchanged()
-
-
-def _is_locked(lock: IO[str]) -> bool:
-    """Try to take a lock, without waiting for it."""
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True
 
 
 def _end_jobs() -> None:

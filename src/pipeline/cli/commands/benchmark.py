@@ -8,6 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from ...records.sources import ROOT
 from ..arguments import Arguments
@@ -34,27 +35,24 @@ def _runs(folder: Path) -> Iterator[str]:
     from pseudorigid.study.timing import interleaved
 
     for part in PARTS:
-        if (ROOT / part).is_dir():
-            shutil.copytree(ROOT / part, folder / part)
-        else:
-            shutil.copy2(ROOT / part, folder / part)
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
-    pipeline, snakemake = ["pipeline"], ["snakemake", "--cores", "all"]
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
+        copy(ROOT / part, folder / part)
+    options: dict[str, Any] = {"env": os.environ | {"PYTHONPATH": str(folder / "src")}}
+    options |= {"cwd": folder, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
-    def run(words: list[str], *removed: str) -> None:
-        for name in removed:
+    def run(words: str, afresh: bool = False) -> None:
+        for name in ("results", ".snakemake") if afresh else ():
             shutil.rmtree(folder / name, ignore_errors=True)
-        command = [sys.executable, "-P", "-m", *words]
-        result = subprocess.run(
-            command, env=environment, cwd=folder, text=True, capture_output=True, check=False
-        )
+        command = [sys.executable, "-P", "-m", *words.split()]
+        result = subprocess.run(command, text=True, check=False, **options)
         if result.returncode:
-            raise UsageError(f"a run of the benchmark failed: {result.stdout}{result.stderr}")
+            raise UsageError(f"a run of the benchmark failed: {result.stdout}")
 
+    snakemake = "snakemake --cores all"
     calls = {
-        "all figures, warm code": lambda: run(pipeline, "results", ".snakemake"),
-        "the same, a Python for each job": lambda: run(snakemake, "results", ".snakemake"),
-        "nothing to do": lambda: run(pipeline),
+        "all figures, warm code": lambda: run("pipeline", afresh=True),
+        "the same, a Python for each job": lambda: run(snakemake, afresh=True),
+        "nothing to do": lambda: run("pipeline"),
         "nothing to do, snakemake alone": lambda: run(snakemake),
     }
     seconds = interleaved(calls, REPETITIONS, time.perf_counter)

@@ -2,11 +2,8 @@
 
 from collections import Counter
 
-from ...checks.freshness import Freshness
-from ...config import build_specs, paths
+from ...config import paths
 from ...records.artifacts import ArtifactError
-from ...records.files import identity
-from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
 from ..session import CommandLineError, interruptible, locked, one_line
@@ -25,16 +22,10 @@ def run(args: Arguments) -> int:
             print(claim_verdicts.check(checked, args.check, f"{name}{named}{args.start / file}"))
         return 0
     with locked():
-        targets = [*claim_verdicts.dataset_paths(checked).values()]
-        drawings = paths.figures(checked["variants"], "claims").values()
-        # The drawings are made together with the data, before `figures.make` looks at them.
-        before = {results[-1]: identity(results[-1]) for _, results in drawings}
-        targets += before
-        freshness = Freshness(ROOT, build_specs.of_all(checked))
-        status = running.make(checked, freshness, targets, args.options)
+        files = figures.of_scenes(checked, "claims")
+        data = claim_verdicts.dataset_paths(checked).values()
+        status = figures.make(checked, "claims", files, args.options, data)
         if status or running.is_dry_run(args.options):
-            return status
-        if status := figures.make(checked, "claims", args.options, before=before):
             return status
         with interruptible():
             verdicts = claim_verdicts.write(checked)

@@ -30,18 +30,14 @@ _OTHER_FILES = (
 
 def run(args: Arguments) -> int:
     """Delete generated files in some folders of results/, or in all and in .snakemake."""
-    present = sorted(f.name for f in RESULTS.iterdir() if f.is_dir()) if RESULTS.is_dir() else []
+    present = sorted(f.name for f in RESULTS.glob("*/"))
     for name in args.folder:
         if name not in present:
-            list_of_folders = f": there are {', '.join(present) or 'none'}"
-            raise CommandLineError(
-                f"no folder results/{name}{hint(name, present) or list_of_folders}"
-            )
-    names = []
+            meant = hint(name, present) or f": there are {', '.join(present) or 'none'}"
+            raise CommandLineError(f"no folder results/{name}{meant}")
+    names = [name for name in args.folder or present if _is_inside(RESULTS / name / "file")]
     for name in args.folder or present:
-        if _is_inside(RESULTS / name / "file"):
-            names.append(name)
-        else:
+        if name not in names:
             print_error(f"results/{name} links to another folder, where nothing is deleted")
     with locked():
         files = _generated_files(args, names)
@@ -60,11 +56,22 @@ def run(args: Arguments) -> int:
                 file.unlink()
             for folder in folders:
                 shutil.rmtree(folder)
-            _remove_empty_folders(names)
+            below = [folder for name in names for folder in RESULTS.glob(f"{name}/**/")]
+            for folder in sorted(below, reverse=True):
+                if _is_inside(folder / "file") and not any(folder.iterdir()):
+                    folder.rmdir()
         except OSError as error:
             raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
         print(f"deleted {summary}")
     return 0
+
+
+def _confirm(summary: str) -> bool:
+    """Ask whether to delete."""
+    print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
+    answer = sys.stdin.readline().strip().lower()
+    print(end="" if answer else "\n", file=sys.stderr)
+    return answer in ("y", "yes")
 
 
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
@@ -77,37 +84,15 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     for record in RESULTS.glob("*/provenance/*.json"):
         # A record may be forged: its path is only compared with the two possible ones.
         folder = record.parents[1]
-        results = {
-            str(f.relative_to(ROOT)): f
-            for f in (folder / record.stem, folder / "figures" / record.stem)
-        }
+        files = (folder / record.stem, folder / "figures" / record.stem)
+        results = {str(file.relative_to(ROOT)): file for file in files}
         with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             candidates |= {results[json.loads(read_text(record))["output"]["file"]], record}
-    return sorted(
-        file
-        for file in candidates
-        if file.is_file()
-        and _is_inside(file)
-        and file.relative_to(RESULTS).parts[0] in names
-        and str(file.relative_to(ROOT)) not in committed
-    )
+    there = sorted(file for file in candidates if file.is_file() and _is_inside(file))
+    chosen = (file for file in there if file.relative_to(RESULTS).parts[0] in names)
+    return [file for file in chosen if str(file.relative_to(ROOT)) not in committed]
 
 
 def _is_inside(file: Path) -> bool:
     """Return whether no link in a file's path leads elsewhere."""
     return file.parent.resolve() == ROOT.resolve() / file.parent.relative_to(ROOT)
-
-
-def _confirm(summary: str) -> bool:
-    print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
-    answer = sys.stdin.readline().strip().lower()
-    if not answer:
-        print(file=sys.stderr)
-    return answer in ("y", "yes")
-
-
-def _remove_empty_folders(names: list[str]) -> None:
-    for name in names:
-        for folder in sorted(RESULTS.glob(f"{name}/**/"), reverse=True):
-            if _is_inside(folder / "file") and not any(folder.iterdir()):
-                folder.rmdir()

@@ -1,8 +1,6 @@
 """./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
 
 from ... import config
-from ...checks.freshness import Freshness
-from ...config import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
@@ -11,8 +9,7 @@ from ..session import CommandLineError, interruptible, locked, one_line
 
 def run(args: Arguments) -> int:
     """Make the missing results of two variants and print what differs."""
-    checked = args.checked
-    hidden = set(config.PUBLISHED) - {config.PAPER}
+    checked, hidden = args.checked, set(config.PUBLISHED) - {config.PAPER}
     variants = {name: block for name, block in checked["variants"].items() if name not in hidden}
     names = [name for name in (args.a, args.b) if name is not None]
     for name in names:
@@ -20,16 +17,11 @@ def run(args: Arguments) -> int:
             raise CommandLineError(config.unknown("variant", name, list(variants)))
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(variants)}")
-
-    def absent(name: str) -> dict[str, str]:
-        freshness = Freshness(ROOT, build_specs.of_variants(checked["variants"]))
-        return figures.known_absent(freshness, checked["variants"], name)
-
     with locked():
         for name in names:
             files = figures.of_scenes(checked, name, args.figure)
-            status = figures.make(checked, name, args.options, files, brief=not args.all)
-            if status and not (name in config.PUBLISHED and absent(name)):
+            status = figures.make(checked, name, files, args.options, brief=not args.all)
+            if status and not (name in config.PUBLISHED and figures.absent(checked, name)):
                 return status
         if running.is_dry_run(args.options):
             return 0
@@ -38,5 +30,6 @@ def run(args: Arguments) -> int:
         scenes = args.figure or list(checked["scenes"])
         print()
         with interruptible(), one_line():
-            compare(ROOT, variants, names, [*map(absent, names)], scenes, args.all)
+            absent = [figures.absent(checked, name) for name in names]
+            compare(ROOT, variants, names, absent, scenes, args.all)
     return 0

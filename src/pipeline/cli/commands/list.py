@@ -11,8 +11,7 @@ from ...records.differences import columns
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import Arguments
-from ..progress.plan import why
-from ..progress.states import Row, states
+from ..progress import Row, states, why
 
 
 def run(args: Arguments) -> int:
@@ -27,11 +26,11 @@ def run(args: Arguments) -> int:
     rows = []
     for name in (name for name in variants if name not in PUBLISHED):
         drawings = [upstream[-1] for _, upstream in paths.figures(variants, name).values()]
-        absent = figures.known_absent(freshness, variants, name)
-        rows_of_variant = _states(freshness, drawings, absent)
-        for state in dict.fromkeys(state for *_, state in rows_of_variant):
-            files = [PurePath(path).name for _, path, other in rows_of_variant if other == state]
-            rows.append((name, state, " ".join(files)))
+        absent = figures.absent(args.checked, name, freshness)
+        files: dict[str, list[str]] = {}
+        for _, path, state in _states(freshness, drawings, absent):
+            files.setdefault(state, []).append(PurePath(path).name)
+        rows += [(name, state, " ".join(files[state])) for state in files]
     _print("./reproduce variant NAME", rows)
     return 0
 
@@ -53,5 +52,6 @@ def _states(freshness: Freshness, results: Iterable[str], absent: dict[str, str]
 
 
 def _print(title: str, rows: Sequence[Row]) -> None:
+    """Print rows below a title, nothing without rows."""
     if rows:
         print(title, *(f"  {line}" for line in columns(rows)), "", sep="\n")

@@ -1,7 +1,5 @@
 """./reproduce prove: check each theorem from its certificate."""
 
-import os
-
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures
@@ -17,7 +15,8 @@ def run(args: Arguments) -> int:
         raise CommandLineError("prove: --impacts and --pictures take no theorems")
     if args.pictures:
         with locked():
-            return figures.make(args.checked, "proofs", [])
+            wanted = figures.of_scenes(args.checked, "proofs")
+            return figures.make(args.checked, "proofs", wanted, [])
     if args.impacts:
         from ...checks.proved_impacts import impacts
 
@@ -27,21 +26,18 @@ def run(args: Arguments) -> int:
 
     for name in args.theorem:
         if name not in THEOREMS:
-            list_of_theorems = f": there are {', '.join(THEOREMS)}"
-            raise CommandLineError(
-                f"no theorem {name}{hint(name, list(THEOREMS)) or list_of_theorems}"
-            )
-    names = args.theorem or list(THEOREMS)
-    if args.search:
-        for name in names:
-            print_error(f"searching for a certificate of {name}")
-            path = ROOT / CERTIFICATES / THEOREMS[name].certificate
-            write_whole(path, search_certificate(name))
+            meant = hint(name, list(THEOREMS)) or f": there are {', '.join(THEOREMS)}"
+            raise CommandLineError(f"no theorem {name}{meant}")
+    files = {
+        name: f"{CERTIFICATES}/{THEOREMS[name].certificate}" for name in args.theorem or THEOREMS
+    }
+    for name, file in files.items() if args.search else ():
+        print_error(f"searching for a certificate of {name}")
+        write_whole(ROOT / file, search_certificate(name))
     status = 0
-    for name in names:
+    for name in files:
         result = THEOREMS[name].check()
         print(result.line(), flush=True)
         status |= result.verdict != "proved"
-    files = dict.fromkeys(ROOT / CERTIFICATES / THEOREMS[name].certificate for name in names)
-    print("", *(os.path.relpath(file, ROOT) for file in files), sep="\n", flush=True)
+    print("", *dict.fromkeys(files.values()), sep="\n", flush=True)
     return status

@@ -1,8 +1,6 @@
 """./reproduce report: write one HTML page with the figures and their numbers."""
 
-from ... import config
-from ...checks.freshness import Freshness
-from ...config import build_specs
+from ...config import PAPER
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import figures, running
@@ -14,12 +12,12 @@ PAGE = "results/report/report.html"
 
 def run(args: Arguments) -> int:
     """Make missing results, then the page."""
-    checked, variants = args.checked, args.checked["variants"]
+    checked = args.checked
     with locked():
-        status = figures.make(checked, config.PAPER, args.options)
-        freshness = Freshness(ROOT, build_specs.of_variants(variants))
-        absent = {name: figures.known_absent(freshness, variants, name) for name in variants}
-        if running.is_dry_run(args.options) or (status and not absent[config.PAPER]):
+        files = figures.of_scenes(checked, PAPER)
+        status = figures.make(checked, PAPER, files, args.options)
+        absent = {name: figures.absent(checked, name) for name in checked["variants"]}
+        if running.is_dry_run(args.options) or (status and not absent[PAPER]):
             return status
         from ...checks.report import page
 

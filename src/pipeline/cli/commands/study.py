@@ -1,10 +1,6 @@
 """./reproduce study: compare speed and accuracy with other methods."""
 
-from ...checks.freshness import Freshness
-from ...config import build_specs
 from ...config.schema import study as parts
-from ...records.files import identity
-from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
 from ..packages import add_packages
@@ -18,15 +14,10 @@ def run(args: Arguments) -> int:
     """
     if not running.is_dry_run(args.options):
         add_packages("study")
-    results = build_specs.of_study(args.checked["variants"])
+    files = {}
+    for chart, (part, *_) in parts.CHARTS.items():
+        path = parts.published(chart) if part in parts.FIXED else parts.drawn(chart)
+        files[path] = chart, [parts.drawn(chart)]
+    data = map(parts.data, (*parts.FIXED, *parts.MEASURED))
     with locked():
-        before = {file: identity(file) for file in results}
-        freshness = Freshness(ROOT, build_specs.of_all(args.checked))
-        status = running.make(args.checked, freshness, results, args.options)
-        if status == 0 and not running.is_dry_run(args.options):
-            files = {}
-            for chart, (data, *_) in parts.CHARTS.items():
-                drawn = parts.drawn(chart)
-                files[parts.published(chart) if data in parts.FIXED else drawn] = drawn
-            status = figures.publish_and_report(parts.FOLDER, files, before)
-    return status
+        return figures.make(args.checked, "study", files, args.options, [*data])

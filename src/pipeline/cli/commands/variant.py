@@ -16,4 +16,4 @@ def run(args: Arguments) -> int:
         raise CommandLineError(config.unknown("variant", args.variant, variants))
     files = figures.of_scenes(args.checked, args.variant, args.figure)
     with locked():
-        return figures.make(args.checked, args.variant, args.options, files)
+        return figures.make(args.checked, args.variant, files, args.options)

@@ -19,9 +19,8 @@ def run(args: Arguments) -> int:
         return int(status)
     other = args.start / args.against
     if not args.against or not os.path.exists(other):
-        raise CommandLineError(
-            f"verify: no archive or folder {other if args.against else repr('')}"
-        )
+        place = other if args.against else "''"
+        raise CommandLineError(f"verify: no archive or folder {place}")
     from ...checks import archive
 
     with one_line("verify: ", archive.ArchiveError):

@@ -3,6 +3,7 @@
 import argparse
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -14,16 +15,18 @@ from typing import Any, NoReturn
 
 import yaml
 
-from ...checks.freshness import DAMAGED, MISSING, Freshness
-from ...config.build_specs import with_dependencies
-from ...jobs import server
-from ...records.files import obstacle
-from ...records.record import log_path, record_path
-from ...records.sources import ROOT
-from ..arguments import explain
-from ..progress.plan import plan
-from ..session import CommandLineError, UsageError, interruptible, print_error
-from .space import require_space
+from pseudorigid.sweep import grid
+
+from ..checks.freshness import DAMAGED, MISSING, Freshness
+from ..config.build_specs import with_dependencies
+from ..jobs import server
+from ..records.build_spec import BuildSpec
+from ..records.files import obstacle
+from ..records.record import log_path, record_path
+from ..records.sources import ROOT
+from .arguments import explain
+from .progress import plan
+from .session import CommandLineError, UsageError, interruptible, print_error
 
 INTERRUPTED = 130
 # Options that would run another workflow or folder, and what to do instead.
@@ -35,20 +38,12 @@ _REFUSED = {
 _REPORTED = ("its record", "no record", DAMAGED)
 # Options with which snakemake makes nothing.
 _DRY_RUN_OPTIONS = (
-    "dryrun",
-    "dag",
-    "rulegraph",
-    "filegraph",
-    "d3dag",
-    "lint",
-    "summary",
-    "detailed_summary",
-    "touch",
-    "list_rules",
-    "list_target_rules",
-    "list_changes",
-    "unlock",
+    *("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary"),
+    *("touch", "list_rules", "list_target_rules", "list_changes", "unlock"),
 )
+# Bytes on disk, rounded up from measurements: a cell in its block and in the dataset; a block with
+# snakemake's records of it; and snakemake's own files in any run.
+CELL_BYTES, BLOCK_BYTES, RUN_BYTES = 600, 60_000, 10_000_000
 # The options of most runs, which are read without importing snakemake: that takes long.
 _USUAL = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
 _USUAL.add_argument("-n", "--dry-run", "--dryrun", action="store_true", dest="dryrun")
@@ -57,7 +52,7 @@ _USUAL.add_argument("targets", nargs="*")
 
 
 @cache
-def _parser() -> argparse.ArgumentParser:
+def _snakemakes_parser() -> argparse.ArgumentParser:
     """Return snakemake's parser, which raises CommandLineError."""
     from snakemake.cli import get_argument_parser
 
@@ -76,11 +71,10 @@ def options_of(arguments: list[str]) -> argparse.Namespace:
         options, others = _USUAL.parse_known_args(arguments)
         if not others and re.fullmatch("None|all|[1-9][0-9]*", str(options.cores)):
             return options
-    parser = _parser()
     from snakemake.exceptions import CliException, WorkflowError
 
     try:
-        options = parser.parse_args(arguments)
+        options = _snakemakes_parser().parse_args(arguments)
     except (CliException, WorkflowError, ValueError) as error:  # wrong values, as in --cores x
         raise CommandLineError(" ".join(str(error).split())) from None
     for name, instead in _REFUSED.items():
@@ -99,12 +93,13 @@ def _special_options(arguments: list[str]) -> set[str]:
     """Names of the options that differ from the defaults, apart from numbers of cores."""
     options, defaults = vars(options_of(arguments)), vars(options_of([]))
     if options.keys() != defaults.keys():
-        defaults = vars(_parser().parse_args([]))
-
-    def content(value: Any) -> Any:
-        return getattr(value, "__dict__", value)
-
-    different = {name for name in options if content(options[name]) != content(defaults[name])}
+        defaults = vars(_snakemakes_parser().parse_args([]))
+    # Objects without equality are compared by their attributes.
+    given, usual = (
+        {name: getattr(value, "__dict__", value) for name, value in values.items()}
+        for values in (options, defaults)
+    )
+    different = {name for name in given if given[name] != usual[name]}
     return different - {"cores", "jobs", "targets"}
 
 
@@ -123,54 +118,58 @@ def make(
     for path, reason in outdated.items():
         if obstacle(ROOT / path):
             raise UsageError(f"{path}: {reason}")
-        _require_folders(path, record_path(path), log_path(path))
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
-    own = ROOT / ".snakemake"
-    for folder in (own, *(own.iterdir() if own.is_dir() else ())):
-        _require_folder(str(folder.relative_to(ROOT)))
+    _require_folders(outdated)
     options = _special_options(arguments)
     if options == {"dryrun"}:
         print(*plan(freshness, paths), sep="\n")
         return 0
     if not outdated and not options:
         return 0
-    require_space(freshness.build_specs[path] for path in outdated)
+    specs = freshness.build_specs
+    require_space(specs[path] for path in outdated)
 
     # If an input keeps its bytes, what was made from it stays current: that is decided when the
     # job begins. With special options, snakemake decides.
     def current(path: str) -> bool:
-        return not options and Freshness(ROOT, freshness.build_specs).own_reason(path) is None
+        return not options and Freshness(ROOT, specs).own_reason(path) is None
 
-    run = server.Plan(checked, freshness.build_specs, set(outdated))
-    targets = paths if options else [*outdated]
-    return _run(run, targets, outdated, arguments, current)
-
-
-def _require_folders(*files: str) -> None:
-    for folder in dict.fromkeys(folder for file in files for folder in Path(file).parents):
-        _require_folder(str(folder))
-
-
-def _require_folder(folder: str) -> None:
-    """Raise UsageError if a file stands in a folder's place."""
-    if (ROOT / folder).exists() and not (ROOT / folder).is_dir():
-        raise UsageError(f"{folder}: a file stands in a folder's place, move it away")
-
-
-def _run(
-    run: server.Plan,
-    targets: list[str],
-    outdated: dict[str, str],
-    arguments: list[str],
-    current: Callable[[str], bool],
-) -> int:
-    """Run snakemake for the targets and return its exit status."""
     forced = [path for path, reason in outdated.items() if reason != MISSING]
     # ./reproduce has its own lock: a killed snakemake would leave one that stops the next run.
     command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
     command += ["--forcerun", *forced] if forced else []
-    command += ["--nolock", "--workflow-profile", "none", *targets]
+    command += ["--nolock", "--workflow-profile", "none", *(paths if options else outdated)]
+    return _run(command, arguments, server.Plan(checked, specs, set(outdated)), current)
+
+
+def require_space(specs: Iterable[BuildSpec]) -> None:
+    """Raise UsageError if the disk has too little space for the blocks among these results."""
+    swept = [spec for spec in specs if spec.program == "sweep"]
+    blocks = [len(spec.config["cells"]) for spec in swept if "cells" in spec.config]
+    joined = [grid.cells(spec.config) for spec in swept if "cells" not in spec.config]
+    need = RUN_BYTES + CELL_BYTES * max(sum(blocks), sum(joined)) + BLOCK_BYTES * len(blocks)
+    free = shutil.disk_usage(".").free
+    if blocks and free < need:
+        sizes = f"about {need / 1e6:.0f} MB are needed here, {free / 1e6:.0f} are free"
+        raise UsageError(f"the disk is full: {sizes}")
+
+
+def _require_folders(results: Iterable[str]) -> None:
+    """Raise UsageError if a file stands in the place of a folder that a run needs."""
+    files = [place(path) for path in results for place in (str, record_path, log_path)]
+    own = ROOT / ".snakemake"
+    folders = [ROOT / folder for file in files for folder in Path(file).parents]
+    for folder in dict.fromkeys([*folders, own, *(own.iterdir() if own.is_dir() else ())]):
+        if folder.exists() and not folder.is_dir():
+            name = folder.relative_to(ROOT)
+            raise UsageError(f"{name}: a file stands in a folder's place, move it away")
+
+
+def _run(
+    command: list[str], arguments: list[str], run: server.Plan, current: Callable[[str], bool]
+) -> int:
+    """Run snakemake with further arguments and return its exit status."""
     options = options_of(arguments)
     if options.cores is None and getattr(options, "jobs", None) is None:
         command += ["--cores", "all"]
@@ -203,16 +202,11 @@ def _run(
 def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
     """Run a command in a process group of its own, whose stdin closes when this process ends.
 
-    On Ctrl-C, a command with jobs on other machines is asked to cancel them.
+    The command inherits the lock. On Ctrl-C, one with jobs on other machines is asked to cancel
+    them.
     """
-    child = subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        env=environment,
-        process_group=0,
-        close_fds=False,  # the child inherits the lock
-    )
-    with child:
+    options: dict[str, Any] = {"env": environment, "process_group": 0, "close_fds": False}
+    with subprocess.Popen(command, stdin=subprocess.PIPE, **options) as child:
         try:
             return child.wait()
         except KeyboardInterrupt:

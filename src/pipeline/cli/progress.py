@@ -1,0 +1,114 @@
+"""Describe to a user what a run would make and why, and the state of files."""
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+from ..checks.checksums import ChecksumError, known_sums
+from ..checks.freshness import DAMAGED, MISSING, Freshness
+from ..checks.published_sets import PublishedSet
+from ..records.differences import brief, differing_keys
+from ..records.files import file_hash
+from ..records.record import RecordError, read_record, record_path
+from ..records.sources import ROOT
+
+NOT_YET = "not made yet"
+Row = tuple[str, str, str]  # scene, file, state
+IDENTICAL, DIFFERS, NEW = "identical", "differs", "not committed"
+_LISTED = {IDENTICAL: "identical to the committed one", DIFFERS: "not the committed one"}
+
+
+def plan(freshness: Freshness, paths: Iterable[str]) -> list[str]:
+    """Return a line for each scene with outdated results: the reasons and the stages to make.
+
+    Stages after `perhaps` are made only if their input data change.
+    """
+    scenes: dict[str, dict[str, list[str]]] = {}
+    for path in freshness.outdated(paths):
+        spec = freshness.build_specs[path]
+        scenes.setdefault(spec.scene, {}).setdefault(spec.step.split()[0], []).append(path)
+    lines = []
+    for scene, stages in scenes.items():
+        reasons = why(freshness, [path for results in stages.values() for path in results])
+        certain = [name for name, made in stages.items() if any(map(freshness.own_reason, made))]
+        perhaps = [name for name in stages if name not in certain]
+        parts = [", ".join(certain), f"perhaps {', '.join(perhaps)}" if perhaps else ""]
+        lines.append(f"{scene}: {reasons}: {'; '.join(filter(None, parts))}")
+    return lines or ["nothing to make"]
+
+
+def why(freshness: Freshness, paths: list[str]) -> str:
+    """Say why outdated results must be made: key, old -> new, or what else differs."""
+    own = [path for path in paths if freshness.own_reason(path)]
+    causes = dict.fromkeys(_cause(freshness, path) for path in own)
+    if len(causes) > 1:
+        causes.pop(NOT_YET, None)
+    return "; ".join(causes) or str(freshness.reason(paths[0]))
+
+
+def _changes(before: dict[str, Any], after: dict[str, Any]) -> str:
+    """Say which keys of two blocks of config differ: `key old -> new` for each."""
+    keys = differing_keys(before, after)
+    return ", ".join(f"{key} {brief(old)} -> {brief(new)}" for key, old, new in keys)
+
+
+def _cause(freshness: Freshness, path: str) -> str:
+    """Say why a result must be made, apart from its inputs."""
+    spec, reason = freshness.build_specs[path], str(freshness.reason(path))
+    if reason == MISSING:
+        return NOT_YET
+    if reason == DAMAGED:
+        return f"{path} was {reason}"
+    try:
+        record = read_record(freshness.root, record_path(path))
+    except RecordError as error:
+        return f"{path}: {error}"
+    if changed_keys := _changes(record["config"], spec.config):
+        return changed_keys
+    before, after = record["sources"], {file: freshness.syntax_hash(file) for file in spec.sources}
+    files = [f for f in sorted({*before, *after}) if before.get(f) != after.get(f)]
+    if files:
+        others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+        return f"its source changed: {os.path.basename(files[0])}{others}"
+    return reason
+
+
+def committed(folder: str, paths: Iterable[str]) -> dict[str, str]:
+    """Map each of the paths that lie in a published folder to how it compares with the commit."""
+    sums, states = known_sums(ROOT, folder), {}
+    for path in (path for path in paths if path.startswith(f"{folder}/")):
+        name, digest = path.removeprefix(f"{folder}/"), file_hash(ROOT / path)
+        if digest is None:
+            states[path] = MISSING
+        elif name not in sums:
+            states[path] = NEW
+        else:
+            states[path] = IDENTICAL if digest == sums[name] else DIFFERS
+    return states
+
+
+def states(published_set: PublishedSet) -> list[Row]:
+    """State of each file of a published set.
+
+    Whether a file is stale follows from its drawing's record or, without one, from the manifest.
+    """
+    from ..checks import manifest  # takes long to import
+
+    folder, freshness = published_set.folder, Freshness(ROOT, published_set.build_specs)
+    as_committed = committed(folder, [f"{folder}/{name}" for name in published_set.drawn])
+    try:
+        scenes = manifest.read(ROOT, folder)["scenes"]
+    except ChecksumError:
+        scenes = {}
+    rows = []
+    for name, drawing in published_set.drawn.items():
+        scene, path, stale = published_set.scenes[name], f"{folder}/{name}", ""
+        if file_hash(ROOT / drawing):
+            outdated = list(freshness.outdated([*published_set.data[scene].values(), drawing]))
+            stale = why(freshness, outdated) if outdated else ""
+        elif scene in scenes:
+            stale = _changes(scenes[scene]["config"], published_set.config[scene])
+        state = as_committed[path]
+        text = f"stale: {stale}" if stale and state != MISSING else _LISTED.get(state, state)
+        rows.append((scene, path, text))
+    return rows

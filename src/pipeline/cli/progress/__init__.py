@@ -1,1 +1,0 @@
-"""Describe to a user what a run would make and why, and the state of files."""
