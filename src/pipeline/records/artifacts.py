@@ -35,28 +35,18 @@ ABOUT = {
 
 
 def title_of(function: Callable[..., xr.Dataset]) -> str:
-    """Title of the datasets that a function returns: the function's name, in words.
-
-    The title is not taken from the docstring, which must not change any byte of a result.
-    """
+    """Return the title of a function's datasets: its name, since a docstring changes no byte."""
     return function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
 
 
 def save(
     dataset: xr.Dataset, path: str | os.PathLike[str], config: dict[str, Any], **attributes: Any
 ) -> None:
-    """Save a dataset as netCDF-4, whole or not at all.
+    """Save a dataset as netCDF-4, whole or not at all; raises ArtifactError or FileError.
 
     Every variable needs `long_name` and, unless it holds text, units "1" and a scale. NaN is stored
     as it is: no variable has a fill value. The global attributes are the dataset's own, ABOUT,
     `attributes`, and `config` (the block of configuration behind the data) as canonical JSON.
-
-    Raises
-    ------
-    ArtifactError
-        If the dataset does not have this form.
-    FileError
-        If the file cannot be written.
     """
     attributes |= {"config": canonical_json(config)} | ABOUT
     dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
@@ -69,13 +59,7 @@ def save(
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Load a dataset into memory and close its file.
-
-    Raises
-    ------
-    ArtifactError
-        If the file is missing, damaged or not written by `save`: one line that names it.
-    """
+    """Load a dataset into memory; raises ArtifactError if `save` did not write the file."""
     path = Path(path)
     if not path.is_file():
         raise ArtifactError(f"{path}: {obstacle(path) or 'no such artifact'}")
@@ -121,10 +105,7 @@ def canonical_values(variable: xr.Variable) -> tuple[str, npt.NDArray[Any] | lis
 
 
 def plain_attributes(source: xr.Dataset | xr.Variable) -> dict[str, Any]:
-    """Attributes as plain numbers and text, sorted by name.
-
-    A list of one number becomes the number, since netCDF does not distinguish them.
-    """
+    """Return attributes by name as plain numbers and text; netCDF has no lists of one number."""
     arrays = {str(name): np.asarray(value) for name, value in sorted(source.attrs.items())}
     return {
         name: array.item() if array.size == 1 else array.tolist() for name, array in arrays.items()
@@ -155,6 +136,7 @@ def _with_sample_dimension(dataset: xr.Dataset, path: str | os.PathLike[str]) ->
 
 
 def _check(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Raise ArtifactError for a variable that lacks a name or units, or has another dtype."""
     for name, variable in dataset.variables.items():
         text, units = _is_text(variable), variable.attrs.get("units")
         if not text and variable.dtype.kind not in "iuf":

@@ -6,15 +6,10 @@ from typing import Any
 
 
 def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Compare two blocks of config, which may be nested, key by key.
+    """Yield each dotted key, such as `starts[2].x`, whose values differ, and the two values.
 
-    Of a list, only the first differing entry is reported, and both lengths if they differ.
-
-    Yields
-    ------
-    str, object, object
-        The dotted key below `place`, such as `starts[2].x`, and its two values. Values differ if
-        their JSON does: 1 differs from 1.0 and from true.
+    Of a list, only the first differing entry is reported, and both lengths if they differ. Values
+    differ if their JSON does: 1 differs from 1.0 and from true.
     """
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
@@ -37,10 +32,7 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
 def differing_block(
     before: dict[str, Any], after: dict[str, Any], was: str = "then", now: str = "now"
 ) -> str | None:
-    """Describe every key that differs between two blocks of config, or return None.
-
-    `was` and `now` are the words that follow the old and the new value.
-    """
+    """Describe every key that differs between two blocks of config, or return None."""
     different = differing_keys(before, after)
     words = [f"{key}: {brief(old)} {was}, {brief(new)} {now}" for key, old, new in different]
     return "; ".join(words) or None
@@ -62,15 +54,11 @@ def differing_files(
 def differing_package(
     before: Mapping[str, str | None], after: Mapping[str, str | None], was: str = "then"
 ) -> str | None:
-    """Describe every package whose version differs, or return None.
-
-    A package with the version None is not installed.
-    """
+    """Describe every package whose version differs, or return None."""
     words = []
-    for name in sorted({*before, *after}):
-        if before.get(name) != after.get(name):
-            here = f"{after[name]} here" if after.get(name) else "not installed here"
-            words.append(f"{name} {before.get(name)} {was}, {here}")
+    for name in (name for name in sorted({*before, *after}) if before.get(name) != after.get(name)):
+        here = f"{after[name]} here" if after.get(name) else "not installed here"
+        words.append(f"{name} {before.get(name)} {was}, {here}")
     return "; ".join(words) or None
 
 

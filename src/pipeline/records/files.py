@@ -41,14 +41,8 @@ def obstacle(path: _Path) -> str | None:
 def open_regular(path: _Path) -> BufferedReader:
     """Open a regular file to read its bytes.
 
-    Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end.
-
-    Raises
-    ------
-    FileNotFoundError, NotADirectoryError
-        If there is no file.
-    FileError
-        If it is no regular file or cannot be read.
+    Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end. Raises
+    FileNotFoundError or NotADirectoryError without a file, else FileError.
     """
     if words := obstacle(path):
         raise FileError(f"{path}: {words}")
@@ -87,12 +81,8 @@ def replacing(path: _Path) -> Iterator[Path]:
     """Yield a temporary path that replaces `path` if the body succeeds, and is removed otherwise.
 
     A reader sees the old file or the new one, never a part. A killed process can leave the
-    temporary file, whose name begins with a dot and ends in .part.
-
-    Raises
-    ------
-    FileError
-        If the system or the netCDF library cannot write.
+    temporary file, whose name begins with a dot and ends in .part. Raises FileError if the system
+    or the netCDF library cannot write.
     """
     path = Path(path)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -118,10 +108,7 @@ def write_whole(path: _Path, data: str | bytes) -> None:
 
 
 def file_hash(path: _Path) -> str | None:
-    """SHA-256 of a file's bytes in hex, None if there is no regular file.
-
-    Raises FileError if a regular file cannot be read.
-    """
+    """SHA-256 of a file's bytes in hex, None if there is no regular file; raises FileError."""
     if obstacle(path):
         return None
     try:

@@ -11,7 +11,7 @@ import platform
 import subprocess
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -25,16 +25,8 @@ from .sources import ROOT, syntax_hash
 SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
 PACKAGES = (
-    "deflate",
-    "fonttools",
-    "llvmlite",
-    "matplotlib",
-    "netCDF4",
-    "numba",
-    "numpy",
-    "pyparsing",
-    "python-flint",
-    "xarray",
+    *("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4"),
+    *("numba", "numpy", "pyparsing", "python-flint", "xarray"),
 )
 
 
@@ -70,18 +62,13 @@ def failure(result: str | os.PathLike[str]) -> str | None:
 
 
 def _beside(result: str | os.PathLike[str], folder: str, suffix: str) -> str:
+    """Return the path of a result's file in another folder of its variant."""
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
 def read_record(root: Path, path: str) -> dict[str, Any]:
-    """Read a record of a result or of a refusal, with the keys of SHAPE.
-
-    Raises
-    ------
-    RecordError
-        If there is none, or it cannot be read.
-    """
+    """Read a record of a result or of a refusal, with the keys of SHAPE; raises RecordError."""
     try:
         record: dict[str, Any] = json.loads(read_text(root / path))
         for name, kind in SHAPE.items():
@@ -100,12 +87,8 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
     """Write the record of a result once the body has made it; the current folder is the root.
 
     A ValueError with the attribute `lasting` says that the result cannot exist. It is recorded
-    instead, so that the job is not repeated before its config, sources or inputs change.
-
-    Raises
-    ------
-    ChangedError
-        If a source or an input changed since it was loaded; no record is written.
+    instead, so that the job is not repeated before its config, sources or inputs change. If a
+    source or an input changed since it was loaded, ChangedError is raised and no record written.
     """
     source_hashes = {path: file_hash(path) for path in sorted(spec.sources)}
     commit, dirty = _commit()
@@ -134,6 +117,7 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
 
 
 def _write(path: str, record: dict[str, Any], output: dict[str, str | None]) -> None:
+    """Write a record."""
     write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 
 
@@ -157,14 +141,11 @@ def require_loaded_unchanged() -> None:
 
 def versions() -> dict[str, str | None]:
     """Installed version of each package that decides bits, None if it is not installed."""
-    return {package: _version(package) for package in PACKAGES}
-
-
-def _version(package: str) -> str | None:
-    try:
-        return metadata.version(package)
-    except metadata.PackageNotFoundError:
-        return None
+    found: dict[str, str | None] = dict.fromkeys(PACKAGES)
+    for package in PACKAGES:
+        with suppress(metadata.PackageNotFoundError):
+            found[package] = metadata.version(package)
+    return found
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:

@@ -17,10 +17,7 @@ def compute_stage(
     fields: dict[str, Any],
     method: dict[str, Any],
 ) -> xr.Dataset:
-    """Return the dataset of a stage.
-
-    If `method` is a scan, the dataset's attributes count the impacts and the missed impacts.
-    """
+    """Return the dataset of a stage; with a scan, its attributes count (missed) impacts."""
     if "scan" not in method:
         return function(ball, energy, *inputs, **fields)
     root_finder = ImpactMap((method["scan"], method["tolerance"]))
