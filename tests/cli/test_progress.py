@@ -63,45 +63,40 @@ def planned(made):
 
 
 def test_a_plan_names_what_changed_by_scene(made):
-    root, build_specs = made
+    root, specs = made
     assert planned(made) == ["nothing to make"]
-    view = {"view": {"elevation": 30}}
-    now = dict(build_specs)
-    now[DRAWING] = build_specs[DRAWING]._replace(config=build_specs[DRAWING].config | view)
-    assert planned((root, now)) == ["fig2: view.elevation 40 -> 30: drawing"]
-    for path in now:
-        now[path] = build_specs[path]._replace(config=build_specs[path].config | {"energy": 0.008})
-    assert planned((root, now)) == ["fig2: energy 0.01 -> 0.008: orbits, drawing"]
+
+    def with_config(*paths, **fields):
+        new = {path: specs[path]._replace(config=specs[path].config | fields) for path in paths}
+        return root, specs | new
+
+    changed = with_config(DRAWING, view={"elevation": 30})
+    assert planned(changed) == ["fig2: view.elevation 40 -> 30: drawing"]
+    changed = with_config(*specs, energy=0.008)
+    assert planned(changed) == ["fig2: energy 0.01 -> 0.008: orbits, drawing"]
     (root / "b.py").write_text("other")
     assert planned(made) == ["fig2: its source changed: b.py: orbits, drawing"]
     (root / "a.py").write_text("other")
-    assert planned(made) == [
-        "fig2: its source changed: a.py and 1 more; its source changed: b.py: orbits, drawing"
-    ]
+    both = "its source changed: a.py and 1 more; its source changed: b.py"
+    assert planned(made) == [f"fig2: {both}: orbits, drawing"]
 
 
 def test_a_plan_names_damaged_and_missing_results(made):
-    root, _ = made
-    (root / DRAWING).unlink()
-    assert planned(made) == ["fig2: not made yet: drawing"]
-    (root / ORBITS).write_text("other")
-    changed = f"{ORBITS} was changed after it was made"
-    assert planned(made) == [f"fig2: {changed}: orbits, drawing"]
-    record = root / record_path(ORBITS)
-    record.write_text("{")
-    assert planned(made)[0].startswith(f"fig2: {ORBITS}: its record ")
-    for path in (record, root / ORBITS):
-        path.unlink()
-    assert planned(made) == ["fig2: not made yet: orbits, drawing"]
-
-
-def test_a_package_of_another_version_is_named(made):
     root, _ = made
     path = root / record_path(DRAWING)
     record = json.loads(path.read_text())
     here, record["environment"]["numpy"] = record["environment"]["numpy"], "1.0"
     path.write_text(json.dumps(record))
     assert planned(made) == [f"fig2: made with numpy 1.0 then, {here} here: drawing"]
+    (root / DRAWING).unlink()
+    assert planned(made) == ["fig2: not made yet: drawing"]
+    (root / ORBITS).write_text("other")
+    assert planned(made) == [f"fig2: {ORBITS} was changed after it was made: orbits, drawing"]
+    (root / record_path(ORBITS)).write_text("{")
+    assert planned(made)[0].startswith(f"fig2: {ORBITS}: its record ")
+    for name in (record_path(ORBITS), ORBITS):
+        (root / name).unlink()
+    assert planned(made) == ["fig2: not made yet: orbits, drawing"]
 
 
 def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
@@ -119,32 +114,38 @@ def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
     assert compared == dict(zip(paths, words, strict=True))
 
 
-def event(kind, created, **about):
-    record = logging.makeLogRecord({"msg": about.pop("msg", ""), "created": created})
-    vars(record).update(about, event=kind)
-    return record
-
-
 @pytest.fixture
 def handler(tmp_path, monkeypatch):
+    """A handler of the events of a run with two jobs: 0 makes orbits, and 1 draws them."""
     monkeypatch.chdir(tmp_path)
-    specs = {
-        path: spec(path, step, {}, [])
-        for path, step in ((ORBITS, "orbits"), (DRAWING, "drawing png"))
-    }
+    specs = {ORBITS: spec(ORBITS, "orbits", {}, []), DRAWING: spec(DRAWING, "drawing png", {}, [])}
     monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, specs, set()))
     return steps.LogHandler(None, None)
 
 
+def emit(handler, *events):
+    """Send events to a handler: the kind, the time and what snakemake says about it."""
+    for kind, created, about in events:
+        record = logging.makeLogRecord({"msg": "", "created": created} | about)
+        record.event = kind
+        handler.emit(record)
+
+
+def begin(*results):
+    """Return the events of jobs that start at the same time."""
+    jobs = [(LogEvent.JOB_INFO, 9.0, {"jobid": i, "output": [r]}) for i, r in enumerate(results)]
+    return [*jobs, (LogEvent.JOB_STARTED, 10.0, {"jobs": [*range(len(results))]})]
+
+
+def end(job, time, done, total=22):
+    """Return the events at the end of a job."""
+    progress = LogEvent.PROGRESS, time, {"done": done, "total": total}
+    return (LogEvent.JOB_FINISHED, time, {"job_id": job}), progress
+
+
 def test_a_step_is_a_line_with_its_seconds_and_the_count_of_steps(handler, capsys):
-    for job, path in enumerate((ORBITS, DRAWING)):
-        handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
-    handler.emit(event(LogEvent.JOB_STARTED, 10.0, jobs=[0, 1]))
-    handler.emit(event(None, 10.5, msg="Select jobs to execute..."))
-    handler.emit(event(LogEvent.JOB_FINISHED, 11.06, job_id=0))
-    handler.emit(event(LogEvent.PROGRESS, 11.2, done=3, total=22))
-    handler.emit(event(LogEvent.JOB_FINISHED, 75.0, job_id=1))
-    handler.emit(event(LogEvent.PROGRESS, 75.0, done=4, total=22))
+    emit(handler, *begin(ORBITS, DRAWING), (None, 10.5, {"msg": "Select jobs to execute..."}))
+    emit(handler, *end(0, 11.06, 3), *end(1, 75.0, 4))
     err = capsys.readouterr().err.splitlines()
     assert [line.split() for line in err] == [
         ["fig2", "orbits", "1.1", "s", "3", "of", "22"],
@@ -156,13 +157,9 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
     log.parent.mkdir(parents=True)
     log.write_text("Traceback\n  ...\npseudorigid: fig2: the disk is full: 0.1 MB\n")
-    for job, path in enumerate((ORBITS, DRAWING)):
-        handler.emit(event(LogEvent.JOB_INFO, 9.0, jobid=job, output=[path]))
-        handler.emit(event(LogEvent.JOB_STARTED, 9.0, jobs=[job]))
-        handler.emit(
-            event(LogEvent.ERROR, 9.0, msg="In file x:\nCommand died with SIGKILL.\n  File y")
-        )
-        handler.emit(event(LogEvent.JOB_ERROR, 9.0, jobid=job))
+    message = {"msg": "In file x:\nCommand died with SIGKILL.\n  File y"}
+    emit(handler, *begin(ORBITS, DRAWING), (LogEvent.ERROR, 9.0, message))
+    emit(handler, *((LogEvent.JOB_ERROR, 9.0, {"jobid": job}) for job in range(2)))
     first, second = capsys.readouterr().err.splitlines()
     assert first.split(maxsplit=2)[2] == "not made: the disk is full: 0.1 MB"
     assert second.endswith("not made: Command died with SIGKILL.")
@@ -170,23 +167,18 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
 
 
 def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
-    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[ORBITS]))
     block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10}, [])
     monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
-    handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
-    handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
-    handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
+    emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
     assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
 
 
 def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
     (tmp_path / DRAWING).parent.mkdir(parents=True)
     (tmp_path / DRAWING).touch()
-    handler.emit(event(LogEvent.JOB_INFO, 1.0, jobid=0, output=[f"{DRAWING} (update)"]))
-    handler.emit(event(LogEvent.JOB_STARTED, 1.0, jobs=[0]))
+    emit(handler, *begin(f"{DRAWING} (update)"))
     os.utime(tmp_path / DRAWING)
-    handler.emit(event(LogEvent.JOB_FINISHED, 2.0, job_id=0))
-    handler.emit(event(LogEvent.PROGRESS, 2.0, done=1, total=2))
+    emit(handler, *end(0, 11.0, 1, 2))
     assert "as it was" in capsys.readouterr().err
 
 

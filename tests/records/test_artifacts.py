@@ -12,7 +12,7 @@ from content import content_hash
 from project import ROOT
 
 from pipeline.records import artifacts
-from pipeline.records.artifacts import ArtifactError, load, save
+from pipeline.records.artifacts import ArtifactError, canonical_values, load, save
 from pipeline.records.files import FileError
 
 CONFIG = {"starts": [0.5], "ball": {"k": 0.2, "g": 0.04}}
@@ -48,19 +48,13 @@ def test_round_trip_keeps_values_types_and_attributes(tmp_path):
     path.unlink()  # the dataset is in memory
     for name, before in dataset().variables.items():
         after = back[name]
-        assert after.dims == before.dims
-        if name == "type":
-            assert after.values.tolist() == before.values.tolist()
-        else:
-            assert after.dtype == before.dtype
-            assert after.values.tobytes() == before.values.tobytes()
-        assert "_FillValue" not in after.attrs
-    assert back.attrs["config"] == '{"ball":{"g":0.04,"k":0.2},"starts":[0.5]}'
-    assert (back.attrs["stage"], back.attrs["k"], back.attrs["g"]) == ("orbits", 0.2, 0.04)
-    assert (back.attrs["energy"], back.attrs["period"]) == (0.01, 6)
-    assert back.attrs["resolution"] == 1e-3
-    assert {name: back.attrs[name] for name in artifacts.ABOUT} == artifacts.ABOUT
-    assert back.attrs["Conventions"] == "CF-1.11" and "Papadopoulos" in back.attrs["references"]
+        assert (after.dims, "_FillValue" in after.attrs) == (before.dims, False)
+        assert canonical_values(after.variable)[0] == canonical_values(before)[0]
+        assert after.values.tolist() == before.values.tolist() or name == "x"
+    assert back["x"].values.tobytes() == dataset()["x"].values.tobytes()
+    config = '{"ball":{"g":0.04,"k":0.2},"starts":[0.5]}'
+    expected = artifacts.ABOUT | ABOUT | {"config": config, "period": 6, "resolution": 1e-3}
+    assert expected.items() <= back.attrs.items()
     assert back["row_size"].attrs["sample_dimension"] == "point"
     assert list(back.attrs["window_x"]) == [0.21, 0.2116]
 
@@ -79,11 +73,9 @@ def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
     code = "import sys; from test_artifacts import *; saved(dataset(), sys.argv[1])"
     folders = [os.path.dirname(__file__), ROOT / "tests", ROOT / "src"]
     environment = {"PYTHONPATH": os.pathsep.join(map(str, folders)), "TZ": "Asia/Tokyo"}
-    subprocess.run(
-        [sys.executable, "-c", code, tmp_path / "d.nc"],
-        env=os.environ | environment | {"PYTHONHASHSEED": "1"},
-        check=True,
-    )
+    environment |= {"PYTHONHASHSEED": "1"}
+    command = [sys.executable, "-c", code, tmp_path / "d.nc"]
+    subprocess.run(command, env=os.environ | environment, check=True)
     assert (tmp_path / "d.nc").read_bytes() == first
 
 
@@ -122,35 +114,25 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == [path]
 
 
-def damaged(tmp_path, kind):
-    path = tmp_path / f"{kind}.nc"
-    if kind == "missing":
-        return path
-    if kind == "foreign":
-        with netCDF4.Dataset(path, "w") as file:
-            file.title = "something else"
-        return path
-    whole = saved(dataset(), path).read_bytes()
-    path.write_bytes({"empty": b"", "text": b"hello", "truncated": whole[: len(whole) // 2]}[kind])
-    return path
-
-
-@pytest.mark.parametrize("kind", ["missing", "empty", "text", "truncated", "foreign"])
-def test_a_bad_file_gives_one_line_that_names_it(tmp_path, kind):
-    path = damaged(tmp_path, kind)
+def refusal(path):
+    """Return the one line about a file that is no artifact."""
     with pytest.raises(ArtifactError) as error:
         load(path)
-    assert str(path) in str(error.value)
-    assert "\n" not in str(error.value)
+    assert str(path) in str(error.value) and "\n" not in str(error.value)
+    return str(error.value)
 
 
-def test_any_truncation_is_noticed(tmp_path):
+def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
+    assert refusal(tmp_path / "missing.nc").endswith("no such artifact")
+    with netCDF4.Dataset(tmp_path / "foreign.nc", "w") as file:
+        file.title = "something else"
+    assert refusal(tmp_path / "foreign.nc").endswith("no attribute config")
     path = saved(dataset(), tmp_path / "a.nc")
     whole = path.read_bytes()
-    for length in range(0, len(whole), len(whole) // 40):
-        path.write_bytes(whole[:length])
-        with pytest.raises(ArtifactError):
-            load(path)
+    cut = [whole[:length] for length in range(0, len(whole), len(whole) // 40)]
+    for content in (b"hello", *cut):
+        path.write_bytes(content)
+        assert "damaged" in refusal(path)
 
 
 def test_the_content_hash_of_the_tests_sees_content_and_only_content(tmp_path):
@@ -179,13 +161,7 @@ def test_importing_the_module_imports_no_stage():
         "ours = ('pseudorigid', 'pipeline.', 'numba', 'matplotlib');"
         "print(*[m for m in sys.modules if m.startswith(ours)])"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    expected = {"pipeline.records", "pipeline.records.artifacts", "pipeline.records.files"}
-    expected |= {"pseudorigid"}  # its loader
-    assert set(run.stdout.split()) == expected, run.stderr
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    out = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)
+    records = {"pipeline.records", "pipeline.records.artifacts", "pipeline.records.files"}
+    assert set(out.split()) == records | {"pseudorigid"}  # its loader
