@@ -1,7 +1,6 @@
 """Progress of the sweeps of a run, in cells."""
 
 import time
-from typing import Any
 
 from pipeline.records.build_spec import BuildSpec
 
@@ -16,13 +15,13 @@ class Cells:
 
     def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
         blocks = {path: spec for path, spec in specs.items() if spec.step.startswith("block")}
-        self.left = {
-            path: (len(block.config["cells"]), _impacts(block.config))
-            for path, block in blocks.items()
-            if path in outdated
-        }
+        cells = {path: len(block.config["cells"]) for path, block in blocks.items()}
+        self.left: dict[str, tuple[int, int]] = {}  # block -> its cells and impacts
+        for path in blocks.keys() & outdated:
+            config = blocks[path].config
+            self.left[path] = cells[path], cells[path] * config["starts"] * config["impacts"]
         scenes = {blocks[path].scene for path in self.left}
-        self.total = sum(len(b.config["cells"]) for b in blocks.values() if b.scene in scenes)
+        self.total = sum(cells[path] for path in blocks if blocks[path].scene in scenes)
         self.first: tuple[float, int, int] | None = None  # time, cells and impacts left
         self.printed = -PAUSE
 
@@ -42,10 +41,7 @@ class Cells:
 
 
 def line(
-    total: int,
-    left: tuple[int, int],
-    now: float,
-    first: tuple[float, int, int] | None = None,
+    total: int, left: tuple[int, int], now: float, first: tuple[float, int, int] | None = None
 ) -> str:
     """Describe the progress of sweeps of `total` cells.
 
@@ -62,7 +58,3 @@ def line(
     minutes, rest = divmod(round(left[1] * seconds / (first[2] - left[1])), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{text}, {f'{hours} h {minutes} min' if hours else f'{minutes} min {rest} s'} to go"
-
-
-def _impacts(block: dict[str, Any]) -> int:
-    return int(len(block["cells"]) * block["starts"] * block["impacts"])

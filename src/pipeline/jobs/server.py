@@ -122,20 +122,16 @@ def job_server(
 
 def _start_forkserver(plan: Plan) -> None:
     """Start the process that forks jobs; it imports what the outdated results need."""
+    steps = [plan.specs[path].step for path in plan.outdated if path in plan.specs]
+    wanted = ["data"] if any(path.endswith(".nc") for path in plan.outdated) else []
+    wanted += ["sweep"] if any(step.startswith("block") for step in steps) else []
     before = dict(os.environ)
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+    os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": " ".join(wanted)})
     # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        modules = ["loaded_sources"]
-        if any(path.endswith(".nc") for path in plan.outdated):
-            modules.append("compiled")
-        if any(
-            spec.step.startswith("block") for spec in map(plan.specs.get, plan.outdated) if spec
-        ):
-            modules.append("compiled_sweep")
         jobs = multiprocessing.get_context("forkserver")
-        jobs.set_forkserver_preload([f"{__package__}.{name}" for name in modules])
+        jobs.set_forkserver_preload([f"{__package__}.preload"])
         forkserver.ensure_running()
     finally:
         signal.signal(signal.SIGINT, handler)
