@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from documents import complaint
 from project import ROOT
 
 from pipeline.cli import arguments
@@ -49,10 +50,8 @@ def old_pythons():
     folders = [*map(str, Path.home().glob(".pyenv/versions/*/bin")), os.environ["PATH"]]
     for minor in range(6, 11):
         python = shutil.which(f"python3.{minor}", path=os.pathsep.join(folders))
-        if (
-            python
-            and not subprocess.run([python, "-V"], capture_output=True, check=False).returncode
-        ):
+        run = subprocess.run([python or "false", "-V"], capture_output=True, check=False)
+        if run.returncode == 0:
             yield python
 
 
@@ -124,25 +123,23 @@ def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line):
     assert answer(capsys, *line.split()) == (2, "", f"reproduce{MISTAKES[line]}\n")
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "",
-        "fig3 fig5 --cores 2",
-        "-n",
-        "paper_figures/fig3.png --dag",
-        "horseshoe clusters",
-        "all",
-        "variant",
-        "variant thin-shell fig4 -n",
-        "compare paper doubled fig2 --cores 2",
-        "sweep line --slurm -j 5",
-        "claims --check 3 --data=x --cores 2",
-        "clean --yes study gone",
-        "test -x --no-such-option",
-        "prove horseshoe-outer",
-    ],
-)
+RIGHT = """
+fig3 fig5 --cores 2
+-n
+paper_figures/fig3.png --dag
+horseshoe clusters
+all
+variant
+variant thin-shell fig4 -n
+compare paper doubled fig2 --cores 2
+sweep line --slurm -j 5
+claims --check 3 --data=x --cores 2
+clean --yes study gone
+test -x --no-such-option
+prove horseshoe-outer"""
+
+
+@pytest.mark.parametrize("line", RIGHT.split("\n"))
 def test_a_line_that_may_be_right_goes_on(capsys, line):
     assert answer(capsys, *line.split()) == (arguments.VALID_SO_FAR, "", "")
 
@@ -196,7 +193,4 @@ def test_no_scene_has_the_name_of_a_command():
     block = {"picture": "motion", "energy": 0.01, "period": 1, "type": "elliptic", "duration": 3}
     for key in ("scenes", "proofs"):
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
-        with pytest.raises(document.ConfigError) as caught:
-            document.check(given)
-        (line,) = caught.value.lines
-        assert line.startswith(f"{key}: 'verify' is not allowed")
+        assert complaint(given).startswith(f"{key}: 'verify' is not allowed")

@@ -13,6 +13,7 @@ from pipeline import config
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import clean
 from pipeline.cli.session import CommandLineError, UsageError
+from pipeline.records.record import record_path
 
 DOCUMENT = of_scenes("fig3", variants={"near": {"energy": 0.009}})
 RECORDED = ["results/paper/motion_fig3.nc", "results/gone/figures/fig9.png"]
@@ -41,12 +42,10 @@ def write_files(root):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text("made")
     for name in RECORDED:
-        _, folder, *_, file = name.split("/")
-        write_record(root, folder, file, name)
+        write_record(root / record_path(name), name)
 
 
-def write_record(root, folder, name, output):
-    record = root / "results" / folder / "provenance" / f"{name}.json"
+def write_record(record, output):
     record.parent.mkdir(exist_ok=True)
     record.write_text(json.dumps({"output": {"file": output}}))
 
@@ -118,21 +117,14 @@ def test_no_path_in_a_record_is_followed(root):
     victim = root.parent / "victim.nc"
     victim.write_text("mine")
     outputs = [
-        "results/paper/../../../victim.nc",
-        "results/paper/../../../../victim.nc",
-        "../victim.nc",
-        "results/paper/notes.txt/../../../../victim.nc",
-        "results/paper/figures/../notes.txt",
-        str(victim),
-        ["results/paper/victim.nc"],
-        {},
-        None,
-        "\0",
+        *("results/paper/../../../victim.nc", "results/paper/../../../../victim.nc"),
+        *("../victim.nc", "results/paper/notes.txt/../../../../victim.nc", str(victim)),
+        *("results/paper/figures/../notes.txt", ["results/paper/victim.nc"], {}, None, "\0"),
     ]
     for output in outputs:
         write_files(root)
         for name in ("victim.nc", "notes.txt"):
-            write_record(root, "paper", name, output)
+            write_record(root / record_path(f"results/paper/{name}"), output)
         assert run(root) == 0
         assert victim.read_text() == "mine", output
         assert left(root) == KEPT, output

@@ -1,4 +1,4 @@
-"""Bounds of memory: a value beyond one is refused before the work, a value at it is accepted."""
+"""Bounds: a value beyond one is refused before the work, a value at it is accepted."""
 
 import pytest
 import yaml
@@ -29,6 +29,9 @@ TANGLE = (
      "resolution": {"distance": 0.01, "bend": 10}},
 )  # fmt: skip
 PLANE = ("sweeps", None, SWEEP)
+SHELL = {"k": 0.3333333333333333, "g": 0.02}
+TWIST, HORSESHOE = ("proofs", "twist", {"marks": []}), ("proofs", "horseshoe", {})
+ROTATION, SPREAD = ("claims", "rotation", {}), ("claims", "spread", {})
 
 
 def refusals(part, block):
@@ -59,6 +62,13 @@ def refusals(part, block):
          "24 branches = 4166.666666666667"),
         (PLANE, {"k": {"from": 0.01, "to": 0.3, "count": 1001}}, "energy: [1.0, ",
          "at most 1000000 cells"),
+        # What a kind cannot show.
+        (TWIST, {"ball": SHELL, "energies": [0.01, 0.016]}, "energies[1]", "0.0138241"),
+        (ROTATION, {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),
+        (LAST_CURVE, {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),
+        (LAST_CURVE, {"between": [0.2, 0.2]}, "between: [0.2, 0.2]", "two fractions that differ"),
+        (HORSESHOE, {"type": "inverse hyperbolic"}, "type: 'inverse hyperbolic'", "hyperbolic"),
+        (SPREAD, {"blocks": 30}, "blocks: 30", "a divisor of length = 2000"),
     ],
 )  # fmt: skip
 def test_beyond_its_bound(bounded, change, key, bound):

@@ -9,7 +9,7 @@ import yaml
 from legible import assert_text_is_whole_and_apart
 
 from pipeline.checks.report.captions import caption_of
-from pipeline.config import ConfigError, check
+from pipeline.config import check
 from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES, upstream
@@ -118,25 +118,6 @@ def test_the_examples_are_blocks_of_a_config(name):
 
 
 SHELL = {"k": 0.3333333333333333, "g": 0.02}
-REFUSED = [
-    ("twist", {"ball": SHELL, "energies": [0.01, 0.016], "marks": []}, "energies[1]", "0.0138241"),
-    ("rotation", {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),
-    ("last_curve", {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),
-    ("last_curve", {"between": [0.2, 0.2]}, "between: [0.2, 0.2]", "two fractions that differ"),
-    ("horseshoe", {"type": "inverse hyperbolic"}, "type: 'inverse hyperbolic'", "hyperbolic"),
-    ("spread", {"blocks": 30}, "blocks: 30", "a divisor of length = 2000"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("name", "change", "where", "allowed"), REFUSED)
-def test_what_a_kind_cannot_show_is_refused(name, change, where, allowed):
-    block = yaml.safe_load(example(name)) | change
-    with pytest.raises(ConfigError) as error:
-        checked(block)
-    (line,) = error.value.lines
-    assert line.startswith(f"scenes.one.{where}") and allowed in line
-
-
 UNUSUAL = [
     ("portrait", {"ball": PAPER, "energy": -0.003999, "starts": [0.1], "impacts": 1, "sea": []}),
     ("motion", {"ball": PAPER, "energy": 0.05, "period": 1, "type": "elliptic"}),
