@@ -186,11 +186,9 @@ class BothBranches(Block):
     """a mapping with the keys outer and inner, or one of them"""
 
     outer: Branch = ABSENT
-    """Branches that leave the periodic points away from the fixed point. They fold in the chaotic
-    sea."""
+    """Branches on the far side of the fixed point, which fold in the chaotic sea."""
     inner: Branch = ABSENT
-    """Branches that leave the periodic points on the fixed point's side. They enclose the main
-    island."""
+    """Branches on the fixed point's side, which enclose the main island."""
 
 
 Branches = Annotated[BothBranches, Predicate(lambda given: given.model_fields_set)]

@@ -17,8 +17,7 @@ class Closeup(OfManifolds):
     studied = "closeup"
 
     point: int = whole(0, 11)
-    """Which point of the orbit the window surrounds, from 0 to period - 1, in the order of the
-    dataset `periodic`."""
+    """Point that the window surrounds, from 0 to period - 1, in the order of dataset `periodic`."""
     window: Window
     """Part of the section that is drawn, relative to the point."""
     length: float = allowed("a number above 0, in section radii", gt=0)

@@ -30,8 +30,7 @@ class Clusters(Scene):
     lags: int = whole(1, 100)
     """A cluster is compared with this many later ones: the next, the next but one, and so on."""
     resamples: int = whole(10, 100_000)
-    """Number of bootstrap samples of whole orbits behind each 95 % confidence interval. A few
-    hundred suffice."""
+    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
     seed: int = whole(0, 2**31)
     """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
     shifts their ends a little, and nothing else. Any number will do."""

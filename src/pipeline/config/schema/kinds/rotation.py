@@ -13,8 +13,7 @@ class Rotation(Scene):
     headline = "at the fixed point"
 
     energies: Energies
-    """Further energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of
-    `energy`."""
+    """Energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of `energy`."""
     starts: int = whole(2, 100_000)
     """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
     rim of the section. More starts resolve narrower plateaus."""
