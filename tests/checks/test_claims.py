@@ -12,7 +12,7 @@ import pytest
 from pipeline.checks import claims
 from pipeline.checks.claims import VERDICTS, chaos, ledger, schema
 from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
-from pipeline.cli import claim_verdicts
+from pipeline.cli.commands import claims as claim_verdicts
 from pipeline.cli.session import UsageError
 from pipeline.config import ConfigError
 from pipeline.records.sources import ROOT

@@ -10,7 +10,7 @@ from claim_data import made
 from pipeline.checks import claims
 from pipeline.checks.claims import soundness
 from pipeline.checks.claims.schema import CORRECTED, HOLDS, UNDECIDED
-from pipeline.cli import claim_verdicts
+from pipeline.cli.commands import claims as claim_verdicts
 from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics import motion

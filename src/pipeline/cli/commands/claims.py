@@ -1,34 +1,118 @@
-"""./reproduce claims: every statement of the paper, checked."""
+"""./reproduce claims: every statement of the paper, checked, in CLAIMS.json and CLAIMS.md."""
 
+import re
 from collections import Counter
+from collections.abc import Iterable
+from typing import Any
 
-from ...config import paths
-from ...records.artifacts import ArtifactError
+import xarray as xr
+
+from ...checks import claims
+from ...checks.claims import ledger, soundness
+from ...checks.claims.schema import UNDECIDED, Verdict
+from ...config import PAPER, paths
+from ...records import artifacts
+from ...records.files import write_whole
+from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
-from ..session import CommandLineError, interruptible, locked, one_line
+from ..session import CommandLineError, UsageError, interruptible, locked, one_line
 
 
 def run(args: Arguments) -> int:
     """Compute missing data, draw the pictures and write the verdicts; or judge one claim."""
     if (args.check is None) != (args.data is None):
         raise CommandLineError("claims: --check ID and --data FILE go together")
-    from .. import claim_verdicts
-
     checked = args.checked
     if args.check is not None:
         name, named, file = args.data.rpartition("=")
-        with one_line(kind=ArtifactError):
-            print(claim_verdicts.check(checked, args.check, f"{name}{named}{args.start / file}"))
+        with one_line(kind=artifacts.ArtifactError):
+            print(check(checked, args.check, f"{name}{named}{args.start / file}"))
         return 0
     with locked():
         files = figures.of_scenes(checked, "claims")
-        data = claim_verdicts.dataset_paths(checked).values()
+        data = dataset_paths(checked).values()
         status = figures.make(checked, "claims", files, args.options, data)
         if status or running.is_dry_run(args.options):
             return status
         with interruptible():
-            verdicts = claim_verdicts.write(checked)
+            verdicts = write(checked)
     counts = Counter(verdict.verdict for verdict in verdicts)
     print(f"\n{paths.LEDGER}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
     return 0
+
+
+def dataset_paths(checked: dict[str, Any]) -> dict[str, str]:
+    """Return name -> path of each dataset that the checks need."""
+    known = {"derivations": paths.DERIVATIONS}
+    known |= {f"atlas/{name}": paths.sweep_dataset(name) for name in checked["sweeps"]}
+    for (variant, scene, stage), path in paths.artifact_paths(checked["variants"]).items():
+        own = variant in (PAPER, "claims")
+        known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
+    for name in claims.required_datasets():
+        if name not in known:
+            raise UsageError(f"config.yaml: no scene makes {name}, which claims need")
+    return {name: known[name] for name in claims.required_datasets()}
+
+
+def _load(
+    checked: dict[str, Any], names: Iterable[str], given: dict[str, xr.Dataset]
+) -> dict[str, xr.Dataset]:
+    """Return datasets by their names, those that are not given from their files.
+
+    A sweep's dataset gets the g of its block, if there is one, as an attribute.
+    """
+    datasets, files = {}, dataset_paths(checked) if set(names) - set(given) else {}
+    for name in names:
+        dataset = given[name] if name in given else artifacts.load(ROOT / files[name])
+        folder, _, sweep = name.partition("/")
+        block = checked["sweeps"].get(sweep, {}) if folder == "atlas" else {}
+        datasets[name] = dataset.assign_attrs({"g": block["g"]} if "g" in block else {})
+    return datasets
+
+
+def _proofs(names: Iterable[str]) -> dict[str, str]:
+    """Check theorems now: theorem -> its verdict."""
+    from pseudorigid.proofs import THEOREMS
+
+    return {name: THEOREMS[name].check().verdict for name in names}
+
+
+def write(checked: dict[str, Any]) -> list[Verdict]:
+    """Judge all claims, and write CLAIMS.json and then CLAIMS.md if they differ."""
+    datasets = _load(checked, claims.required_datasets(), {})
+    data = ledger.to_json(claims.judge_claims(datasets, _proofs(claims.required_theorems())))
+    verdicts = ledger.read_json(data)
+    for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: ledger.render(verdicts)}.items():
+        path = ROOT / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            write_whole(path, text)
+    return verdicts
+
+
+def check(checked: dict[str, Any], number: int, given: str) -> str:
+    """Return the verdict on one claim, in a line, with a file instead of one of its datasets.
+
+    `given` is FILE or NAME=FILE. Without a name, the file's stage decides which dataset it is.
+    """
+    claim = claims.CLAIMS.get(number)
+    if claim is None:
+        raise CommandLineError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
+    if not claim.data:
+        raise CommandLineError(f"claim {number} rests on no dataset")
+    name, named, file = given.rpartition("=")
+    dataset = artifacts.load(file)
+    if not named:
+        stage = re.sub(r"\d+$", "", str(dataset.attrs.get("stage", "")))
+        fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
+        name = (fitting or claim.data)[0]
+    if name not in claim.data:
+        raise CommandLineError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
+    if wrong := soundness.dataset_error(name.rpartition("/")[2], dataset):
+        return f"{number}  {UNDECIDED}: {file} is no {name} of its ball and energy: {wrong}"
+    datasets = _load(checked, claim.data, {name: dataset})
+    try:
+        verdict = claim.judge(datasets, _proofs(claim.theorems))
+    except (KeyError, IndexError, ValueError) as error:  # soundness checks only a sample
+        return f"{number}  {UNDECIDED}: {file} cannot be read as {name}: {error.args[0]}"
+    return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
