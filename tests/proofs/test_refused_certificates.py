@@ -118,10 +118,7 @@ def test_boxes_without_an_orbit_are_refused():
 
 def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period():
     surface = Surface("1/3", "1/25", "1/10")
-    near = approximate_orbits.ball(surface)
-    orbits = symmetric_orbits(near, 0.1, 3)
-    saddle = next(i for i, kind in enumerate(orbits["type"].values) if "hyper" in kind)
-    points = approximate_orbits.chart_points(near, orbits.isel(orbit=saddle))
+    points = approximate_orbits.points(surface, 3, "hyperbolic")
     centres = [[Fraction(a) for a in point] for point in points]
     radius = Fraction(1, 10**9)
     assert len(periodic.prove(surface, centres, radius).points) == 3
@@ -262,10 +259,9 @@ def test_a_longer_chain_is_refused_for_its_entropy():
     theorem = THEOREMS["horseshoe-outer"]
     surface = theorem.bounds["surface"]
     weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(0)})
-    ball = approximate_orbits.ball(surface)
     points = approximate_orbits.points(surface, 6, "hyperbolic")
     plan = horseshoe_search.Plan(side=1, steps=72, size=3e-5, room=1.06)
-    text = horseshoe_search.propose(surface, ball, points, plan, weaker.prove)
+    text = horseshoe_search.propose(surface, points, plan, weaker.prove)
     assert weaker.check(text).verdict == "proved"
     assert "entropy is not proved" in refused("horseshoe-outer", text)
 

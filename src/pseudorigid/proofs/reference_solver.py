@@ -1,7 +1,8 @@
 """Proved flight times, orbits and errors of impacts, of states given as doubles.
 
-A state of three doubles need not lie on a given energy surface; it is taken exactly as it is. Where
-the precision does not decide which impact is the first, it is raised.
+A state of three doubles need not lie on a given energy surface; it is taken exactly as it is, and
+so are the doubles k and g of a ball. Where the precision does not decide which impact is the first,
+it is raised.
 """
 
 from collections.abc import Sequence
@@ -24,20 +25,9 @@ Number = float | arb
 def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
     """Prove the time of the next impact: the smallest t > 0 with f(t) = 0, eq. (21) with (26).
 
-    Parameters
-    ----------
-    k, g, x, v, w
-        The ball, and a state just before an impact with v + w >= 0.
-
-    Returns
-    -------
-    arb
-        With a relative radius of at most 2**-150; 0 where the ball is pressed onto the floor.
-
-    Raises
-    ------
-    ArithmeticError
-        A root is double, as far as the last bits can tell.
+    x, v, w are a state just before an impact with v + w >= 0. The result has a relative radius of
+    at most 2**-150; it is 0 where the ball is pressed onto the floor. Raises ArithmeticError if a
+    root is double, as far as the last bits can tell.
     """
     bits = _START_BITS
     while bits <= _MOST_BITS:
@@ -62,11 +52,7 @@ def _impact(k: arb, g: arb, x: arb, v: arb, w: arb) -> tuple[arb, arb, arb, arb]
 
 
 def flight_times(ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> list[float]:
-    """Return the proved flight time of each state, rounded to a double.
-
-    The doubles k and g of the ball are taken as exact. Raises ArithmeticError where a touch of the
-    floor cannot be told from a miss.
-    """
+    """Return the time of `first_root` for each state, rounded to a double."""
     states = zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
     return [float(first_root(ball.k, ball.g, *state)) for state in states]
 
@@ -74,8 +60,8 @@ def flight_times(ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> lis
 def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float, float]]:
     """Compute the orbit of a state to 512 bits.
 
-    The doubles k and g of the ball are taken as exact. Returns x, xdot, udot of each impact without
-    the start, rounded to doubles. Raises UndecidedError where a flight may graze.
+    Returns x, xdot, udot of each impact without the start, rounded to doubles. Raises
+    UndecidedError where a flight may graze.
     """
     rows = []
     with ctx.workprec(_ORBIT_BITS):
@@ -90,41 +76,25 @@ def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float
 def impact_errors(
     k: Exact, g: Exact, before: np.ndarray, after: np.ndarray, tau: np.ndarray
 ) -> np.ndarray:
-    """Bound the errors of impacts that were computed in doubles.
+    """Bound the errors of impacts that were computed in doubles, for an exact ball.
 
-    Parameters
-    ----------
-    k, g
-        The ball, exact.
-    before, after : ndarray, shape (3, n)
-        x, xdot, udot just before an impact and just before the next one, as computed.
-    tau : ndarray, shape (n,)
-        Durations of the flights, as computed.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Upper bounds of the largest error of x', xdot', udot' and tau, with `before` taken as exact;
-        infinite where the next impact is not proved.
-
-    Raises
-    ------
-    ValueError
-        k or g is not an exact number.
+    `before` and `after`, shape (3, n), have x, xdot, udot just before an impact and just before the
+    next one, and `tau` the durations of the flights. Returns upper bounds (n,) of the largest error
+    of x', xdot', udot' and tau, with `before` taken as exact; infinite where the next impact is not
+    proved. Raises ValueError if k or g is not an exact number.
     """
-    exact_k, exact_g = exact("k", k), exact("g", g)
+    ball = exact("k", k), exact("g", g)
     bounds = np.full(tau.size, np.inf)
-    columns = (*before.tolist(), *after.tolist(), tau.tolist())
-    for i, (x, v, w, *computed) in enumerate(zip(*columns, strict=True)):
+    for i, (*state, x, v, w, t) in enumerate(np.vstack((before, after, tau)).T.tolist()):
         bits = _IMPACT_BITS
         while bits <= _MOST_BITS:
             with ctx.workprec(bits):
                 try:
-                    proved = _impact(ball_of(exact_k), ball_of(exact_g), arb(x), arb(v), arb(w))
+                    proved = _impact(*map(ball_of, ball), *map(arb, state))
                 except UndecidedError:
                     bits *= 2
                     continue
-                error = max(abs(a - b).upper() for a, b in zip(proved, computed, strict=True))
+                error = max(abs(a - b).upper() for a, b in zip(proved, (x, v, w, t), strict=True))
                 bounds[i] = np.nextafter(float(error), np.inf)
                 break
     return bounds

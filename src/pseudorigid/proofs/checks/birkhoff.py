@@ -6,14 +6,14 @@ z + sum h_ij z^i conj(z)^j, degree by degree, leaves only the terms that commute
 
     z -> lambda z exp(i (tau_1 I + tau_2 I^2 + ...)),   I = |z|^2/2,
 
-if lambda^j != 1 for j up to the order plus one. The twist tau_1 is the rate at which the angle of
-rotation grows with the action I (Siegel and Moser, Lectures on Celestial Mechanics, sections 23 and
-31). tau_2 depends on how the changes of variables are chosen, but not where tau_1 = 0.
+if lambda^j != 1 for j up to the order plus one (Siegel and Moser, Lectures on Celestial Mechanics,
+sections 23 and 31). tau_2 depends on how the changes of variables are chosen, but not where
+tau_1 = 0.
 """
 
 from dataclasses import dataclass
 
-from flint import acb, arb, arb_mat
+from flint import acb, arb
 
 from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet, algebra
@@ -39,14 +39,7 @@ def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
     may not be elliptic, a power of the multiplier may be 1, the form drifts, or a flight from the
     orbit's boxes may touch the floor earlier.
     """
-    plane = algebra(2, order)
-    x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))
-    try:
-        for _ in orbit.points:
-            x, y, *_ = surface.impact(x, y)
-    except UndecidedError as error:
-        raise NotProvedError(f"a flight from the orbit: {error}") from None
-    multiplier, map_ = _complex_map(x, y, orbit.matrix)
+    multiplier, map_ = complex_map(surface, orbit, order)
     powers = [multiplier]
     while len(powers) < order + 1:
         powers.append(powers[-1] * multiplier)
@@ -57,10 +50,16 @@ def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
     return NormalForm(_twists(multiplier, map_, order), nonresonance)
 
 
-def _complex_map(x: Jet, y: Jet, matrix: arb_mat) -> tuple[acb, Jet]:
-    """Return lambda, and the map's jet in z and conj(z)."""
-    plane = x.algebra
-    (a, b), cosine = matrix.table()[0], (matrix[0, 0] + matrix[1, 1]) / 2
+def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
+    """Return lambda, and the jet of P^n in z and conj(z); the errors are those of `normal_form`."""
+    plane = algebra(2, order)
+    x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))
+    try:
+        for _ in orbit.points:
+            x, y, *_ = surface.impact(x, y)
+    except UndecidedError as error:
+        raise NotProvedError(f"a flight from the orbit: {error}") from None
+    (a, b), cosine = orbit.matrix.table()[0], orbit.trace / 2
     if not (abs(cosine) < 1 and abs(b) > 0):
         raise NotProvedError("the point is not proved to be elliptic")
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)

@@ -8,7 +8,7 @@ from math import inf
 
 from flint import arb
 
-from ..enclosure.surface import Exact, Surface, ball_of, exact
+from ..enclosure.surface import Surface, ball_of, exact
 
 MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
 
@@ -19,20 +19,14 @@ class NotProvedError(Exception):
 
 @dataclass
 class Finding:
-    """The result of a checker.
+    """The result of a checker: enclosures, margins, and proved objects that later steps use.
 
-    Attributes
-    ----------
-    digits : dict of str to arb
-        Enclosures.
-    margins : dict of str to float
-        By how much inequalities hold: positive and finite.
-    parts : dict
-        Proved objects that later steps use.
+    A margin is by how much an inequality holds; NotProvedError is raised for one that is not
+    positive and finite.
     """
 
-    digits: dict = field(default_factory=dict)
-    margins: dict = field(default_factory=dict)
+    digits: dict[str, arb] = field(default_factory=dict)
+    margins: dict[str, float] = field(default_factory=dict)
     parts: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -42,17 +36,9 @@ class Finding:
 
 
 class Certificate:
-    """The fields of a certificate, read by name and shape.
+    """The fields of a certificate, a TOML text with the required value of the field `kind`.
 
-    Every method raises NotProvedError for text that is not TOML, and for a field that is missing,
-    misshapen or not as expected.
-
-    Parameters
-    ----------
-    text : str
-        TOML.
-    kind : str
-        The required value of the field `kind`.
+    Every method raises NotProvedError for a field that is missing, misshapen or not as expected.
     """
 
     def __init__(self, text: str, kind: str):
@@ -91,14 +77,18 @@ class Certificate:
     def numbers(self, name: str, width: int) -> list[list[Fraction]]:
         """Return a list of rows of `width` numbers each."""
         rows = self._take(name, list)
-        if not rows or any(not isinstance(row, list) or len(row) != width for row in rows):
-            raise NotProvedError(f"the certificate's {name} is no list of rows of {width} numbers")
-        return [[self._exact(name, value) for value in row] for row in rows]
+        if not rows:
+            raise NotProvedError(f"the certificate's {name} has no rows")
+        return [self._row(name, row, width) for row in rows]
 
     def row(self, name: str, width: int) -> list[Fraction]:
         """Return one row of `width` numbers."""
-        self._fields |= {name: [self._fields.get(name)]}
-        return self.numbers(name, width)[0]
+        return self._row(name, self._take(name, list), width)
+
+    def _row(self, name, row, width):
+        if not isinstance(row, list) or len(row) != width:
+            raise NotProvedError(f"the certificate's {name} is no row of {width} numbers")
+        return [self._exact(name, value) for value in row]
 
     def _take(self, name, kind):
         value = self._fields.get(name)
@@ -107,7 +97,7 @@ class Certificate:
         return value
 
     @staticmethod
-    def _exact(name: str, value: Exact) -> Fraction:
+    def _exact(name, value):
         try:
             number = exact(name, value)
         except ValueError as error:

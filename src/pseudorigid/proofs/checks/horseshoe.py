@@ -1,16 +1,8 @@
 """A horseshoe: h-sets at the points of a hyperbolic orbit and along a connection between them.
 
 Sets S_0 ... S_(n-1) at the saddles cover each other in turn. A chain M_-K ... M_K leaves from S_a
-and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. An orbit of P follows every
-bi-infinite path in that graph (Zgliczynski and Gidea 2004). By the cone condition on every relation
-there is only one, and the set of these orbits is compact, invariant and uniformly hyperbolic
-(Kokubu, Wilczak and Zgliczynski 2007; Zgliczynski 2009).
-
-M_0 is disjoint from all other sets, so that different paths have different orbits, and P on the
-invariant set is conjugate to the shift on paths. From M_0 back to M_0 a path takes L + m n impacts,
-m = 0, 1, ..., where L is the length of the loop through the chain. So the topological entropy is
-ln x, x^-n + x^-L = 1, and the shift is mixing if n and L have no common divisor. docs/proofs.md has
-the details.
+and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. docs/proofs.md ("Horseshoe") has the
+theorems, and what follows for the orbits of P.
 """
 
 from fractions import Fraction
@@ -24,47 +16,28 @@ from ..enclosure.surface import Surface, ball_of
 from . import hsets, periodic
 from .certificate import Certificate, Finding, NotProvedError
 from .hsets import HSet
+from .periodic import Window
 
 BITS = 128  # the smallest sets are 1e-10 wide: 1e-38 is far finer than their margins
 
 
 def check(
-    text: str, surface: Surface, *, period: int, radius: Fraction, window, crossing, entropy
+    text: str,
+    surface: Surface,
+    *,
+    period: int,
+    radius: Fraction,
+    window: Window | None,
+    crossing: tuple[Fraction, Fraction] | None,
+    entropy: Fraction,
 ) -> Finding:
-    """Prove a certificate's horseshoe.
+    """Prove a certificate's horseshoe on an orbit of a prime period, with a point in the window.
 
-    Parameters
-    ----------
-    text : str
-        The certificate.
-    surface : Surface
-    period : int
-        Of the saddles.
-    radius : Fraction
-        The saddles' orbit must be the only one within this of the centres of the S.
-    window : ((x low, x high), (xdot low, xdot high)) or None
-        Fractions: one of the saddles must lie in this window.
-    crossing : (Fraction, Fraction) or None
-        M_0 must lie between these x. This tells one connection from another.
-    entropy : Fraction
-        A lower bound to be proved, nats per impact.
-
-    Returns
-    -------
-    Finding
-        digits: entropy, crossing x and crossing angle (radians). margins: beyond, room and cones,
-        the least over all relations. parts: saddles and chain (lists of HSet), edges (pairs of
-        HSet), margins (of each edge) and loop (impacts).
-
-    Raises
-    ------
-    NotProvedError
-
-    References
-    ----------
-    Zgliczynski and Gidea, Covering relations for multidimensional dynamical systems, J.
-    Differential Equations 202 (2004). Kokubu, Wilczak and Zgliczynski, Rigorous verification of
-    cocoon bifurcations in the Michelson system, Nonlinearity 20 (2007).
+    The orbit must be the only one within the radius of the centres of the S. M_0 must lie between
+    the x of the crossing, which tells one connection from another, and the entropy, in nats per
+    impact, be above the given one. The margins are the least over all relations. The parts are
+    saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and loop
+    (impacts).
     """
     certificate = Certificate(text, "horseshoe")
     certificate.check_surface(surface)
@@ -113,27 +86,21 @@ def check(
 
 def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
     """Return saddles, chain, a and b; the second half of the chain mirrors the first."""
-    rows = certificate.numbers("saddles", 6)
-    saddles = [_hset(f"S_{i}", row) for i, row in enumerate(rows)]
-    indices = [certificate.number(name) for name in ("leaves", "enters")]
-    if not all(index in range(len(saddles)) for index in indices):
+    rows, approach = (certificate.numbers(name, 6) for name in ("saddles", "approach"))
+    leaves, enters = (certificate.number(name) for name in ("leaves", "enters"))
+    if not {leaves, enters} <= set(range(len(rows))):
         raise NotProvedError("the certificate's chain does not begin and end at its saddles")
-    leaves, enters = map(int, indices)
-    _check_symmetry(rows, leaves + enters)
-    approach = certificate.numbers("approach", 6)
+    leaves, enters = int(leaves), int(enters)
+    for i, (x, y, ux, uy, sx, sy) in enumerate(rows):  # the reversor maps the connection to itself
+        if rows[(leaves + enters - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
+            raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
     steps = len(approach)
     chain = [_hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
     x, ux, uy = certificate.row("middle", 3)
     middle = _hset("M_0", [x, 0, ux, uy, ux, -uy])
     back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
+    saddles = [_hset(f"S_{i}", row) for i, row in enumerate(rows)]
     return saddles, [*chain, middle, *reversed(back)], leaves, enters
-
-
-def _check_symmetry(rows: list[list[Fraction]], total: int) -> None:
-    """Check that the reversor maps set i to set `total` - i, and so the connection to itself."""
-    for i, (x, y, ux, uy, sx, sy) in enumerate(rows):
-        if rows[(total - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
-            raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
 
 
 def _hset(name: str, row: list[Fraction]) -> HSet:

@@ -1,15 +1,8 @@
 """Parallelograms in the plane, covering relations between them, and the cone condition.
 
 An h-set is a parallelogram c + p u + q s, |p|, |q| <= 1, with one expanding and one contracting
-direction. Its exit set are the two edges p = -1 and p = 1. N covers M, N => M, if the image of N
-stays within |q'| < 1 in the coordinates (p', q') of M, and the images of N's two exit edges lie
-beyond p' = -1 and p' = 1, on opposite sides. With one expanding direction this suffices for the
-covering relation of Zgliczynski and Gidea (2004). The pair satisfies the cone condition if
-
-    Q(z1' - z2') > Q(z1 - z2),   Q = p^2 - q^2,   for all z1 != z2 of N with images z1', z2'.
-
-For this it suffices that D^T Q D - Q is positive definite for every D in the interval hull of the
-derivatives on N, in these coordinates (Kokubu, Wilczak and Zgliczynski 2007).
+direction. Its exit set are the two edges p = -1 and p = 1. docs/proofs.md ("Horseshoe") defines the
+relations, after Zgliczynski and Gidea (2004) and Kokubu, Wilczak and Zgliczynski (2007).
 """
 
 from dataclasses import dataclass
@@ -29,14 +22,7 @@ Vector = tuple[arb, arb]
 
 @dataclass(frozen=True)
 class HSet:
-    """The parallelogram c + p u + q s, |p|, |q| <= 1, in the chart.
-
-    Parameters
-    ----------
-    name : str
-    centre, u, s : (arb, arb)
-        c, the expanding and the contracting vector.
-    """
+    """A named parallelogram: its centre, expanding vector u and contracting vector s in (x, y)."""
 
     name: str
     centre: Vector
@@ -77,7 +63,7 @@ class HSet:
 
 @dataclass(frozen=True)
 class LocalMap:
-    """P on a whole h-set, to second order, in its coordinates and those of a target.
+    """P on a whole h-set, to second order, in its coordinates (p, q) and those of a target.
 
     P(p, q) = centre + slopes (p, q) + curvatures (p^2, p q, q^2), for some curvatures in these
     balls; slopes and curvatures have a row for p' and one for q'.
@@ -110,8 +96,12 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
 
     Raises UndecidedError where a flight from the set may touch the floor earlier.
     """
-    at_centre = _image(surface, source, target, algebra(2, 1), arb(0))
-    over_set = _image(surface, source, target, algebra(2, 2), UNIT)
+
+    def image(plane: Algebra, value: arb) -> tuple[Jet, Jet]:
+        p, q = (Jet.variable(plane, i, value) for i in (0, 1))
+        return target.coordinates(*surface.impact(*source.box(p, q))[:2])
+
+    at_centre, over_set = image(algebra(2, 1), arb(0)), image(algebra(2, 2), UNIT)
     return LocalMap(
         tuple(jet.constant for jet in at_centre),
         tuple(tuple(jet.coefficients[1:]) for jet in at_centre),
@@ -119,17 +109,11 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
     )
 
 
-def _image(surface: Surface, source: HSet, target: HSet, plane: Algebra, value: arb):
-    p, q = (Jet.variable(plane, i, value) for i in (0, 1))
-    image = surface.impact(*source.box(p, q))
-    return target.coordinates(image.x, image.y)
-
-
 def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]:
-    """Prove that source covers target.
+    """Prove that source covers target; raises NotProvedError.
 
     Returns how far beyond the target's edges the exit edges land, and how much room is left within
-    |q'| < 1, both in units of the target's half widths. Raises NotProvedError.
+    |q'| < 1, both in units of the target's half widths.
     """
     low, high = local.exit_edge(-1), local.exit_edge(1)
     if high < 0:
@@ -144,9 +128,10 @@ def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]
 
 
 def cones(local: LocalMap, source: HSet, target: HSet) -> float:
-    """Prove the cone condition: return a lower bound of the least eigenvalue of D^T Q D - Q.
+    """Prove the cone condition; raises NotProvedError.
 
-    Raises NotProvedError.
+    Returns a lower bound of the least eigenvalue of D^T Q' D - Q, Q = p^2 - q^2, over all D in the
+    hull.
     """
     (a, b), (c, d) = local.hull()
     first, mixed, last = a * a - c * c - 1, a * b - c * d, b * b - d * d + 1

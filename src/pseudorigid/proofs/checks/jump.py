@@ -1,18 +1,8 @@
 """The curve S+ on which the map jumps, and the energy below which the map is a diffeomorphism.
 
 A flight may touch the floor, f = f' = 0, without landing. The state there is a point r of the rim,
-s = 0, with x < -g, since f'' = g + x < 0. Backwards from r the ball comes from the point R P(r).
-These points, for all r on the rim with x < -g, form S+, a smooth curve, if every flight from that
-arc ends at its first root with s > 0. At each point of S+ the map has two one-sided limits: R r
-where the flight just reaches the floor, and P(R r) where it just misses it. One end of S+ is on the
-rim, where x = -g and flights shrink to nothing; at the other end the tangency is cubic.
-
-On the rim E = (1+k) xdot^2/2 + k x^2/2 - g x. By the identity
-
-    k x^2/2 - g x - g^2 (1 + k/2) = (k/2) (x + g) (x - g - 2 g/k),
-
-whose factors are both negative for x < -g, no flight touches the floor for E < g^2 (1 + k/2), and P
-is analytic with an analytic inverse. docs/proofs.md has the arguments.
+s = 0, with x < -g. Backwards from r the ball comes from the point R P(r); these points form S+.
+docs/proofs.md ("Jumps") has the arguments.
 """
 
 from fractions import Fraction
@@ -37,27 +27,9 @@ def check(
 ) -> Finding:
     """Prove a certificate's point of the jump set with its two images, and the set's two ends.
 
-    Parameters
-    ----------
-    text : str
-        The certificate.
-    surface : Surface
-    radius : Fraction
-        The largest error of a certificate's point.
-    length : Fraction
-        A lower bound of the curve's length in (x, y), to be proved.
-    jump : Fraction
-        A lower bound of the distance of the one-sided images in x or in y, to be proved.
-
-    Returns
-    -------
-    Finding
-        digits: x and y of the point, its near and far image and the outer and inner end. margins:
-        jump and length, by which the bounds are exceeded; transversality.
-
-    Raises
-    ------
-    NotProvedError
+    `radius` is the largest error of a certificate's point. `length` and `jump` are lower bounds, to
+    be proved, of the curve's length in (x, y), and of the distance of the one-sided images in x or
+    in y.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "jump set")
@@ -67,34 +39,25 @@ def check(
             raise NotProvedError(f"the radius is {float(size):g}, not at most {float(radius):g}")
         speed = ball_of(certificate.number("speed"))
         try:
-            x, impact, transversality = _touch(surface, speed)
-            points = {
-                "point": (impact.x, -impact.y),
-                "near image": (x, -(1 + surface.constants()[0]) * speed),
-                "far image": _flight_from_rim(surface, -speed)[1][:2],
-                **_ends(surface),
-            }
+            points = stated_points(surface, speed)
+            transversality = _transversality(surface, speed)
             _check_no_second_touch(surface)
             excess = _polygon(surface) - ball_of(length)
         except UndecidedError as error:
             raise NotProvedError(f"a flight that touches the floor: {error}") from None
         if not excess > 0:
             raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
+        digits = {}
         for name, point in points.items():
-            for value, stated in zip(
-                point, certificate.row(name.replace(" ", "_"), 2), strict=True
-            ):
-                if not abs(value - ball_of(stated)) < ball_of(size):
+            stated = certificate.row(name.replace(" ", "_"), 2)
+            for axis, value, near in zip("xy", point, stated, strict=True):
+                if not abs(value - ball_of(near)) < ball_of(size):
                     raise NotProvedError(f"the {name} is not within the radius of the stated one")
+                digits[f"{name} {axis}"] = value
         images = zip(points["near image"], points["far image"], strict=True)
         apart = max(lowest(abs(near - far) - ball_of(jump)) for near, far in images)
         if not apart > 0:
             raise NotProvedError(f"the one-sided images may be within {float(jump):g}")
-        digits = {
-            f"{name} {axis}": value
-            for name, point in points.items()
-            for axis, value in zip("xy", point, strict=True)
-        }
         margins = {"jump": apart, "transversality": transversality, "length": lowest(excess)}
         return Finding(digits, margins)
 
@@ -102,8 +65,7 @@ def check(
 def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
     """Prove that no flight touches the floor below an energy, so that P is a diffeomorphism there.
 
-    Returns a Finding with digits energy below, and margins above least, the distance from the least
-    energy, -g^2/(2k). Raises NotProvedError.
+    The margin is the distance from the least energy, -g^2/(2k).
     """
     certificate = Certificate(text, "no touch")
     certificate.check_ball(k, g)
@@ -126,16 +88,44 @@ def _polynomial(*coefficients: Fraction | int) -> fmpq_poly:
     return fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients])
 
 
+def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
+    """Return a point of the jump set with its one-sided images, and the set's ends, in the chart.
+
+    `speed` is xdot on the rim where the flight from the point touches. Raises NotProvedError if
+    there is no such point of the rim with x < -g.
+    """
+    if not abs(speed) < _fastest(surface):
+        raise NotProvedError("the speed is not one of a rim point with x < -g")
+    inner, outer = _ends(surface)
+    return {
+        "point": _mirrored(_flight_from_rim(surface, speed)),
+        "near image": (_rim_x(surface, speed), -(1 + surface.constants()[0]) * speed),
+        "far image": _flight_from_rim(surface, -speed)[:2],
+        "outer end": outer,
+        "inner end": inner,
+    }
+
+
+def _ends(surface: Surface) -> tuple[Point, Point]:
+    """Return the inner and the outer end of the jump set in the chart."""
+    k, g, _ = surface.constants()
+    fastest = _fastest(surface)
+    return _mirrored(_flight(surface, -g, -fastest)), (-g, -(1 + k) * fastest)
+
+
+def _mirrored(impact: Impact) -> Point:
+    return impact.x, -impact.y
+
+
 def _rim_x(surface: Surface, xdot: arb) -> arb:
     """Return x <= -g of the rim point with a given xdot."""
     k, g, energy = surface.constants()
     return (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
 
 
-def _flight_from_rim(surface: Surface, xdot: arb) -> tuple[arb, Impact]:
-    """Return x <= -g of the rim point with a given xdot, and its next impact."""
-    x = _rim_x(surface, xdot)
-    return x, _flight(surface, x, xdot)
+def _flight_from_rim(surface: Surface, xdot: arb) -> Impact:
+    """Return the next impact of the rim point, x <= -g, with a given xdot."""
+    return _flight(surface, _rim_x(surface, xdot), xdot)
 
 
 def _flight(surface: Surface, x: arb, xdot: arb) -> Impact:
@@ -157,40 +147,30 @@ def _fastest(surface: Surface) -> arb:
     return square.sqrt()
 
 
-def _ends(surface: Surface) -> dict[str, Point]:
-    """Return the two ends of the jump set in the chart."""
-    k, g, _ = surface.constants()
-    fastest = _fastest(surface)
-    impact = _flight(surface, -g, -fastest)
-    return {"outer end": (-g, -(1 + k) * fastest), "inner end": (impact.x, -impact.y)}
+def _transversality(surface: Surface, speed: arb) -> float:
+    """Prove that the gap's maximum changes sign across S+, and return a lower bound of its slope.
 
-
-def _touch(surface: Surface, xdot: arb) -> tuple[arb, Impact, float]:
-    """Return x of the rim point, its next impact, and the slope of the gap's maximum across S+."""
-    if not abs(xdot) < _fastest(surface):
-        raise NotProvedError("the speed is not one of a rim point with x < -g")
-    x, impact = _flight_from_rim(surface, xdot)
+    The point of S+ is the one from which the flight touches the rim with the given xdot.
+    """
     k, g, _ = surface.constants()
-    plane = algebra(2, 1)
-    a, y = Jet.variable(plane, 0, impact.x), Jet.variable(plane, 1, -impact.y)
-    s = surface.speed(a, y)
-    height = Gap(a, -(y + s) / (1 + k), s, g).height(Jet.constant_of(plane, impact.tau))
+    impact, plane = _flight_from_rim(surface, speed), algebra(2, 1)
+    x, y = (Jet.variable(plane, i, value) for i, value in enumerate(_mirrored(impact)))
+    s = surface.speed(x, y)
+    gap = Gap(x, -(y + s) / (1 + k), s, g)
+    height = gap.derivatives(Jet.constant_of(plane, impact.tau))[0]
     if not height.constant.contains(0):
         raise NotProvedError("the flight does not touch the floor where it should")
     slope = max(lowest(abs(part)) for part in height.coefficients[1:])
     if not slope > 0:
         raise NotProvedError("the gap's maximum may not change sign across the curve")
-    return x, impact, slope
+    return slope
 
 
 def curve(surface: Surface, count: int) -> list[Point]:
     """Return points of the jump set from its inner to its outer end, at `count` even xdot steps."""
-    fastest, ends = _fastest(surface), _ends(surface)
-    inner = []
-    for i in range(1, count):
-        impact = _flight_from_rim(surface, fastest * arb(2 * i - count) / count)[1]
-        inner.append((impact.x, -impact.y))
-    return [ends["inner end"], *inner, ends["outer end"]]
+    fastest, (inner, outer) = _fastest(surface), _ends(surface)
+    speeds = [fastest * arb(2 * i - count) / count for i in range(1, count)]
+    return [inner, *(_mirrored(_flight_from_rim(surface, speed)) for speed in speeds), outer]
 
 
 def _check_no_second_touch(surface: Surface) -> None:
@@ -221,7 +201,7 @@ def _check_no_second_touch(surface: Surface) -> None:
 def _lands(surface: Surface, xdot: arb) -> bool:
     """Whether all flights from the rim with these xdot are proved to land with s > 0."""
     try:
-        return _flight_from_rim(surface, xdot)[1].s > 0
+        return _flight_from_rim(surface, xdot).s > 0
     except UndecidedError:
         return False
 

@@ -3,9 +3,6 @@
 Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990): let X be a box with
 midpoint c and A a regular interval matrix that contains DF on X. If N = c - A^-1 F(c) lies in the
 interior of X, then F has exactly one zero in X, and it is in N.
-
-That a map has one fixed point only is proved by hand in docs/proofs.md, given two inequalities that
-`check_only_fixed_point` verifies.
 """
 
 from collections.abc import Sequence
@@ -22,8 +19,8 @@ from .certificate import Certificate, Finding, NotProvedError, box, lowest
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
 
-Window = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]
-Centre = Sequence[Fraction]
+Window = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]  # of x and of xdot
+Points = Sequence[Sequence[arb]]  # (x, y) of each
 
 
 @dataclass(frozen=True)
@@ -56,23 +53,24 @@ class Orbit:
 def check(text: str, surface: Surface, **bounds) -> Finding:
     """Prove a certificate's orbit; the bounds are those of `prove_stated`.
 
-    Returns a Finding with digits x, xdot, udot of the first point, period (the sum of the flight
-    times) and trace; margins radius, and the distance of the trace from 2 and -2; parts orbit, an
-    Orbit. Raises NotProvedError.
+    The digits are of the first point and of the period, which is the sum of the flight times.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "periodic orbit")
         certificate.check_surface(surface)
         orbit = prove_stated(certificate, surface, **bounds)
+        x, y = orbit.points[0]
+        xdot, udot = surface.velocities(x, y)
+        period = sum((impact.tau for impact in orbit.impacts), arb(0))
+        digits = {"x": x, "xdot": xdot, "udot": udot, "period": period, "trace": orbit.trace}
         margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
-        return Finding(_digits(surface, orbit), margins, {"orbit": orbit})
+        return Finding(digits, margins, {"orbit": orbit})
 
 
 def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
     """Prove that the map has one fixed point at each energy from -g^2/(2k) up to a given one.
 
-    Returns a Finding with digits energies up to, and margins theta and earlier of the two
-    inequalities. Raises NotProvedError.
+    This verifies the two inequalities of the argument in docs/proofs.md.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "only fixed point")
@@ -83,13 +81,10 @@ def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction
         square = (2 * k * highest / (g * g) + 1) / (1 + k)  # theta^2 is at most this
         if not (theta - Fraction(1, 100)) ** 2 < square <= theta**2:
             raise NotProvedError("theta is not proved to be below the stated one")
-        bound = ball_of(theta)
-        if not (bound < 3 * arb.pi() / 2 and theta * k < 2):
+        room = 3 * arb.pi() / 2 - ball_of(theta)
+        if not (room > 0 and theta * k < 2):
             raise NotProvedError("a second fixed point is not excluded")
-        margins = {
-            "theta": lowest(3 * arb.pi() / 2 - bound),
-            "earlier": lowest(ball_of(2 - theta * k)),
-        }
+        margins = {"theta": lowest(room), "earlier": lowest(ball_of(2 - theta * k))}
         return Finding({"energies up to": ball_of(highest)}, margins)
 
 
@@ -100,25 +95,13 @@ def prove_stated(
     period: int,
     type: str,
     radius: Fraction,
-    window=None,
+    window: Window | None = None,
 ) -> Orbit:
-    """Prove that an orbit meets its certificate, is of a type, and is alone in its boxes.
+    """Prove that an orbit meets its certificate, has a prime period and a type, and is alone.
 
-    The boxes are larger than the certificate's by CLOSE, so that they contain the stated boxes
-    around the orbit's own points. Raises NotProvedError.
-
-    Parameters
-    ----------
-    certificate : Certificate
-        Its fields points and radius.
-    surface : Surface
-    period : int
-        The prime period.
-    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
-    radius : Fraction
-        The least radius of the boxes.
-    window : ((x low, x high), (xdot low, xdot high)), optional
-        Must contain one of the orbit's points.
+    It is alone in boxes of at least the radius, and has a point in the window. The boxes are larger
+    than the certificate's by CLOSE, so that they contain the stated boxes around the orbit's own
+    points. Raises NotProvedError.
     """
     centres, size = certificate.numbers("points", 2), certificate.number("radius")
     if len(centres) != period:
@@ -128,12 +111,15 @@ def prove_stated(
     orbit = prove(surface, centres, size + CLOSE)
     if orbit.type != type:
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
-    _check_points(orbit, centres)
+    for point, centre in zip(orbit.points, centres, strict=True):
+        for value, stated in zip(point, centre, strict=True):
+            if not abs(value - ball_of(stated)) < ball_of(CLOSE):
+                raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
     check_window(surface, orbit, window)
     return replace(orbit, radius=size)
 
 
-def prove(surface: Surface, centres: Sequence[Centre], radius: Fraction) -> Orbit:
+def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction) -> Orbit:
     """Prove that one orbit has a point within `radius` of each centre (x, y), per coordinate.
 
     Raises NotProvedError where no orbit, more than one, or a shorter one cannot be excluded.
@@ -142,11 +128,11 @@ def prove(surface: Surface, centres: Sequence[Centre], radius: Fraction) -> Orbi
         raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
     boxes = [box(centre, radius) for centre in centres]
     try:
-        image = _newton(surface, boxes)
+        image = newton_image(surface, boxes)
         for inner, outer in zip(image, boxes, strict=True):
             if not all(o.contains_interior(i) for i, o in zip(inner, outer, strict=True)):
                 raise NotProvedError("the Newton image of the boxes does not lie inside them")
-        orbit = _enclose(surface, _narrow(surface, image), radius)
+        orbit = enclose(surface, _narrow(surface, image), radius)
     except (UndecidedError, ZeroDivisionError) as error:
         raise NotProvedError(f"the boxes around the orbit: {error}") from None
     for first, second in combinations(orbit.points, 2):
@@ -155,48 +141,38 @@ def prove(surface: Surface, centres: Sequence[Centre], radius: Fraction) -> Orbi
     return orbit
 
 
-def _check_points(orbit: Orbit, centres: Sequence[Centre]) -> None:
-    """Check that the orbit's points are the stated ones, to CLOSE."""
-    for point, centre in zip(orbit.points, centres, strict=True):
-        for value, stated in zip(point, centre, strict=True):
-            if not abs(value - ball_of(stated)) < ball_of(CLOSE):
-                raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
-
-
-def _newton(surface: Surface, boxes: list[list[arb]]) -> list[list[arb]]:
-    """Return the Newton image of boxes (x, y)."""
+def newton_image(surface: Surface, boxes: Points) -> list[list[arb]]:
+    """Return the image N of boxes (x, y) under interval Newton on the shooting map."""
     n = len(boxes)
-    slopes = arb_mat(2 * n, 2 * n)
-    rest = arb_mat(2 * n, 1)
+    slopes, residuals = arb_mat(2 * n, 2 * n), arb_mat(2 * n, 1)
     centres = [[a.mid() for a in box_] for box_ in boxes]
-    for i in range(n):
+    for i, centre in enumerate(centres):
         after = (i + 1) % n
         rows, _ = surface.jacobian(*boxes[i])
-        image = surface.impact(*centres[i])
+        image = surface.impact(*centre)
         for r in range(2):
             for c in range(2):
                 slopes[2 * i + r, 2 * i + c] += rows[r][c]
             slopes[2 * i + r, 2 * after + r] -= 1
-            rest[2 * i + r, 0] = image[r] - centres[after][r]
-    step = slopes.solve(rest, algorithm="precond")
+            residuals[2 * i + r, 0] = image[r] - centres[after][r]
+    step = slopes.solve(residuals, algorithm="precond")
     return [[centres[i][r] - step[2 * i + r, 0] for r in range(2)] for i in range(n)]
 
 
 def _narrow(surface: Surface, boxes: list[list[arb]]) -> list[list[arb]]:
     """Narrow the boxes around the orbit's points as far as the precision allows."""
     while True:
-        image = _newton(surface, boxes)
         narrow = [
             [a.intersection(b) for a, b in zip(*pair, strict=True)]
-            for pair in zip(image, boxes, strict=True)
+            for pair in zip(newton_image(surface, boxes), boxes, strict=True)
         ]
         if not narrow[0][0].rad() < boxes[0][0].rad() / 2:
             return narrow
         boxes = narrow
 
 
-def _enclose(surface: Surface, points: list[list[arb]], radius: Fraction) -> Orbit:
-    """Return the Orbit through enclosed points."""
+def enclose(surface: Surface, points: Points, radius: Fraction = Fraction(0)) -> Orbit:
+    """Return the Orbit through enclosed points; raises NotProvedError if its type is undecided."""
     matrix = arb_mat([[1, 0], [0, 1]])
     impacts = []
     for point in points:
@@ -206,17 +182,15 @@ def _enclose(surface: Surface, points: list[list[arb]], radius: Fraction) -> Orb
     trace = matrix[0, 0] + matrix[1, 1]
     if abs(trace) < 2:
         kind = "elliptic"
-    elif trace > 2:
-        kind = "hyperbolic"
-    elif trace < -2:
-        kind = "inverse hyperbolic"
+    elif abs(trace) > 2:
+        kind = "hyperbolic" if trace > 2 else "inverse hyperbolic"
     else:
         raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
     return Orbit(tuple(map(tuple, points)), tuple(impacts), matrix, kind, radius)
 
 
 def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
-    """Check that one of the orbit's points lies in a window of x and xdot, if one is given.
+    """Check that one of the orbit's points lies in a window, if one is given.
 
     Raises NotProvedError.
     """
@@ -227,10 +201,3 @@ def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
         if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
             return
     raise NotProvedError("no point of the orbit is proved to lie in the statement's window")
-
-
-def _digits(surface: Surface, orbit: Orbit) -> dict[str, arb]:
-    x, y = orbit.points[0]
-    xdot, udot = surface.velocities(x, y)
-    total = sum((impact.tau for impact in orbit.impacts), arb(0))
-    return {"x": x, "xdot": xdot, "udot": udot, "period": total, "trace": orbit.trace}

@@ -1,11 +1,8 @@
 """One flight in ball arithmetic: the gap, its first root with a proof, and the state at its end.
 
 After an impact the gap is f(t) = -s t + g t^2/2 + c (sin t - t) + x (1 - cos t), which is eq. (21)
-with (26) and s = -(b + c); every parameter enters once. With A = sqrt(x^2 + c^2), |f'''| <= A and
-f'' <= g + A, so from any time on a parabola lies above f. The march goes from root to root of such
-parabolas. Each parabola is convex and negative at both ends of its step (the later end is rounded
-down), so f stays negative. The march ends where f' > 0 up to a time with f > 0: one root lies there
-and none before.
+with (26) and s = -(b + c); every parameter enters once. The march steps from root to root of
+parabolas that lie above f, as docs/proofs.md explains ("The map over a ball").
 """
 
 import math
@@ -40,28 +37,14 @@ class Gap:
     s: arb | Jet
     g: arb
 
-    def height(self, t: arb | Jet) -> arb | Jet:
-        """f(t)."""
-        sine, cosine = t.sin_cos()
-        return t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * (1 - cosine)
-
-    def slope(self, t: arb | Jet) -> arb | Jet:
-        """f'(t)."""
-        sine, cosine = t.sin_cos()
-        return self.g * t - self.s + self.c * (cosine - 1) + self.x * sine
-
-    def derivatives(self, t: arb) -> tuple[arb, arb, arb]:
-        """f, f' and f'' at t."""
+    def derivatives(self, t: arb | Jet) -> tuple:
+        """f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
         x, c, gt = self.x, self.c, self.g * t
         versine = 1 - cosine
         height = t * (gt / 2 - self.s) + c * (sine - t) + x * versine
-        return height, gt - self.s - c * versine + x * sine, self.g + x * cosine - c * sine
-
-    def third_derivative(self, t: arb) -> arb:
-        """f'''(t)."""
-        sine, cosine = t.sin_cos()
-        return -self.x * sine - self.c * cosine
+        slope = gt - self.s - c * versine + x * sine
+        return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
     def rounded(self) -> "Gap":
         """The same flights in balls of the context's precision."""
@@ -75,10 +58,10 @@ def rebound(k: arb, v: arb | Jet, w: arb | Jet) -> tuple:
 
 
 def fly(x: arb | Jet, b: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: arb | None = None):
-    """Follow the flight after an impact with x, xdot = b and udot = c to the next one, eq. (28).
+    """Return x, xdot, udot just before the next impact, and the duration tau, eq. (28).
 
-    Returns x, xdot and udot just before the next impact, and the duration tau. The arguments s, g
-    and start, and the errors, are those of `first_root`.
+    The flight begins with x, xdot = b and udot = c. The other arguments, and the errors, are those
+    of `first_root`.
     """
     tau = first_root(x, c, s, g, start)
     sine, cosine = tau.sin_cos()
@@ -88,25 +71,12 @@ def fly(x: arb | Jet, b: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: a
 def first_root(
     x: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: arb | None = None
 ) -> arb | Jet:
-    """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
+    """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0, f as in `Gap`.
 
-    Parameters
-    ----------
-    x, c, s, g
-        Parameters of the `Gap`.
-    start : arb, optional
-        A time up to which f < 0 is known, for impacts that graze.
-
-    Returns
-    -------
-    arb or Jet
-        It contains the first root, which is simple, for every choice of parameters in the balls.
-        For jets it is the Taylor series of that root.
-
-    Raises
-    ------
-    UndecidedError
-        An earlier touch of the floor cannot be excluded, or s may be zero.
+    The ball contains the first root, which is simple, for every choice of parameters in the balls;
+    for jets it is the Taylor series of that root. `start` is a time up to which f < 0 is known, for
+    impacts that graze. Raises UndecidedError where an earlier touch of the floor cannot be
+    excluded, or s may be zero.
     """
     gap = Gap(x, c, s, g)
     if isinstance(x, Jet):
@@ -137,13 +107,14 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
         with ctx.workprec(bits):
             at_level = gap.rounded()
             while True:
-                slope = at_level.slope(root)
+                slope = at_level.derivatives(root)[1]
                 if not slope > 0:
                     if bits < levels[0]:
                         break  # the next level has more bits to decide
                     raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
                 middle = root.mid()
-                narrow = (middle - at_level.height(middle) / slope).intersection(root)
+                height = at_level.derivatives(middle)[0]
+                narrow = (middle - height / slope).intersection(root)
                 better = narrow.rad() < root.rad() * 0.75
                 root = narrow
                 if not better or root.rel_accuracy_bits() > bits - 16:
@@ -155,32 +126,30 @@ def _expand(gap: Gap, root: arb) -> Jet:
     """Expand the root in a series: Newton steps on jets, whose constant term solves f = 0."""
     time, order = Jet.constant_of(gap.x.algebra, root), 0
     while order < gap.x.algebra.order:
-        height = gap.height(time)
+        height, slope, *_ = gap.derivatives(time)
         height.coefficients[0] = arb(0)
-        time = time - height / gap.slope(time)
+        time = time - height / slope
         order = 2 * order + 1
     return time
 
 
 def _march(gap: Gap, start: arb | None) -> tuple[arb, arb]:
     """Isolate the first root at the context's precision."""
-    x, c, s, g = gap.x, gap.c, gap.s, gap.g
-    amplitude = (x * x + c * c).sqrt()
-    curvature_bound = (g + amplitude).upper()
-    jerk_bound = amplitude.upper()
-    t = _first_step(x, c, s, g, jerk_bound) if start is None else start
+    amplitude = (gap.x * gap.x + gap.c * gap.c).sqrt()
+    curvature_bound, jerk_bound = (gap.g + amplitude).upper(), amplitude.upper()
+    t = _first_step(gap, jerk_bound) if start is None else start
     negative = _long_flight(gap, amplitude)
     for count in range(_MOST_STEPS):
         if negative is not None and negative[0] < t < negative[1]:
             t = negative[1]
-        height, slope, curvature = gap.derivatives(t)
+        height, slope, curvature, jerk = gap.derivatives(t)
         if not height < 0:
             break
         if slope > 0:
             high = (t - 2 * height.lower() / slope.lower()).mid()
-            if gap.slope(t.union(high)) > 0 and gap.height(high) > 0:
+            if gap.derivatives(t.union(high))[1] > 0 and gap.derivatives(high)[0] > 0:
                 return t, high
-        jerk = None if count < _PLAIN_STEPS else gap.third_derivative(t).upper()
+        jerk = None if count < _PLAIN_STEPS else jerk.upper()
         step = _step(height, slope, curvature, curvature_bound, jerk_bound, jerk)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
@@ -221,15 +190,15 @@ def _parabola_root(f: float, d: float, m: float) -> float:
     return (root - d) / m if m > 0.0 else math.inf
 
 
-def _first_step(x, c, s, g, jerk_bound):
+def _first_step(gap: Gap, jerk_bound: arb) -> arb:
     """Return a time up to which f < 0.
 
     f/t <= -s + (g + x) t/2 + A t^2/6; where s = 0 = g + x, f/t^3 <= -c/6 + A t/24.
     """
-    curvature = g + x
+    s, curvature = gap.s, gap.g + gap.x
     if s == 0 and curvature == 0:
-        t = arb(_STEP_FACTOR) * (4 * c / jerk_bound).lower()
-        if not (c > 0 and t > 0):
+        t = arb(_STEP_FACTOR) * (4 * gap.c / jerk_bound).lower()
+        if not (gap.c > 0 and t > 0):
             raise UndecidedError("the ball may rest on the floor")
         return t.lower()
     if not (s > 0 or (s == 0 and curvature < 0)):

@@ -21,10 +21,6 @@ class Algebra:
     monomials: tuple
     products: tuple
 
-    def index(self, *powers: int) -> int:
-        """Index of the monomial with these powers."""
-        return self.monomials.index(powers)
-
 
 @cache
 def algebra(variables: int, order: int) -> Algebra:
@@ -42,18 +38,9 @@ def algebra(variables: int, order: int) -> Algebra:
 
 
 class Jet:
-    """Truncated Taylor series with + - * /, sqrt and sin_cos.
+    """Truncated Taylor series: coefficients, arb or acb, of the algebra's monomials in order."""
 
-    Parameters
-    ----------
-    algebra : Algebra
-    coefficients : list of arb or acb
-        In the order of the algebra's monomials.
-    """
-
-    __slots__ = ("algebra", "coefficients")
-
-    def __init__(self, algebra, coefficients):
+    def __init__(self, algebra: Algebra, coefficients: list):
         self.algebra, self.coefficients = algebra, coefficients
 
     @classmethod
@@ -74,7 +61,7 @@ class Jet:
         return self.coefficients[0]
 
     def __getitem__(self, powers):
-        return self.coefficients[self.algebra.index(*powers)]
+        return self.coefficients[self.algebra.monomials.index(powers)]
 
     def __add__(self, other):
         mine = self.coefficients

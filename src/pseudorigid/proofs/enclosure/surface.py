@@ -134,22 +134,10 @@ class Surface:
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
     def impact(self, x: arb | Jet, y: arb | Jet) -> Impact:
-        """Enclose the impact map P, eq. (28).
+        """Enclose the next impact of every point of the balls x and y, eq. (28).
 
-        Parameters
-        ----------
-        x, y
-            A ball stands for all points in it.
-
-        Returns
-        -------
-        Impact
-            It contains the next impact of every point.
-
-        Raises
-        ------
-        UndecidedError
-            A point may lie on the rim, or the flight may touch the floor earlier.
+        Raises UndecidedError where a point may lie on the rim, or a flight may touch the floor
+        earlier.
         """
         k, g, _ = self.constants()
         s = self.speed(x, y)

@@ -1,4 +1,4 @@
 """Searches in floating point: they propose certificates, and prove nothing.
 
-They use the ball map, for its midpoints, and the dynamics. The checkers do not use the searches.
+They use the checkers' formulas, for their midpoints, and the dynamics. No checker uses a search.
 """

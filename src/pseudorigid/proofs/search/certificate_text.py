@@ -6,18 +6,14 @@ from flint import arb
 
 from ..enclosure.surface import Surface
 
-_HEADER = """\
-# Proposed by a search in floating point; every number is meant as the exact decimal that it is.
-kind = "{kind}"
-k = "{surface.k}"
-g = "{surface.g}"
-energy = "{surface.energy}"
-"""
-
 
 def header(kind: str, surface: Surface) -> str:
     """Return the first lines of a certificate."""
-    return _HEADER.format(kind=kind, surface=surface)
+    return (
+        "# Proposed by a search in floating point; "
+        "every number is meant as the exact decimal that it is.\n"
+        f'kind = "{kind}"\nk = "{surface.k}"\ng = "{surface.g}"\nenergy = "{surface.energy}"\n'
+    )
 
 
 def decimal(value: arb, digits: int) -> str:
@@ -26,12 +22,11 @@ def decimal(value: arb, digits: int) -> str:
     return text if "." in text or "e" in text else text + ".0"
 
 
-def decimals(values: Iterable[Iterable[arb]], digits: int) -> list[list[str]]:
-    """Format the midpoints of rows of balls."""
-    return [[decimal(value, digits) for value in row] for row in values]
+def row(values: Iterable[arb], digits: int) -> str:
+    """Format the midpoints of balls as a row of decimals."""
+    return f"[{', '.join(decimal(value, digits) for value in values)}]"
 
 
-def rows(name: str, values: Iterable[Iterable[str]]) -> str:
-    """Return the field of this name, a list of rows of formatted decimals."""
-    lines = "".join(f"  [{', '.join(row)}],\n" for row in values)
-    return f"{name} = [\n{lines}]\n"
+def rows(name: str, lines: Iterable[str]) -> str:
+    """Return the field of this name, a list of formatted rows."""
+    return f"{name} = [\n" + "".join(f"  {line},\n" for line in lines) + "]\n"

@@ -15,9 +15,11 @@ import numpy as np
 from flint import arb, ctx
 
 from ...dynamics.ball import Ball
+from ...dynamics.variables import chart
 from ..checks.certificate import Finding, NotProvedError
 from ..enclosure.surface import Surface
-from .certificate_text import decimal, decimals, header, rows
+from . import approximate_orbits
+from .certificate_text import header, row, rows
 from .periodic import polished
 
 _BITS = 320  # for an orbit that starts _EXTRA_ROUNDS nearer to its saddle than a double can tell
@@ -77,75 +79,41 @@ class _Connection:
         """Index of the saddle near which a chain of so many steps begins."""
         return (self.middle - steps) % len(self.saddles)
 
+    def contracting(self, saddle: int) -> list[arb]:
+        """Contracting side of a saddle's set."""
+        return _mirrored(self.expanding[self.mirror[saddle]])
+
     def distance(self, steps: int) -> arb:
         """Distance of the chain's beginning from its saddle, in units of the expanding side."""
-        first = self.first(steps)
-        contracting = _mirrored(self.expanding[self.mirror[first]])
-        point = self.points[self.middle - steps]
-        return abs(_along(point, self.saddles[first], self.expanding[first], contracting))
+        first, point = self.first(steps), self.points[self.middle - steps]
+        from_saddle = [p - s for p, s in zip(point, self.saddles[first], strict=True)]
+        return self.along(from_saddle, first)
+
+    def along(self, vector: Vector, saddle: int) -> arb:
+        """Length of a vector along the expanding side of a saddle's set, in its units."""
+        (ux, uy), (sx, sy) = self.expanding[saddle], self.contracting(saddle)
+        return abs((vector[0] * sy - vector[1] * sx) / (ux * sy - uy * sx))
 
 
-def _connect(surface: Surface, ball: Ball, points, side: int, steps: int) -> _Connection:
-    """Follow the branches of a side, up to `steps` points after y = 0."""
-    saddles = polished(surface, points, _NEWTON_STEPS)
-    mirror = _mirror_images(saddles)
-    rho, expanding = _directions(surface, saddles, side)
-    multiplier = rho ** len(points)
-    saddle, vector = ([float(a) for a in pair] for pair in (saddles[0], expanding[0]))
-    sigma, impacts = _crossing(
-        ball, float(surface.energy), saddle, vector, float(multiplier), len(points)
-    )
-    extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
-    impacts += len(points) * extra
-    sigma = arb(sigma) / multiplier**extra
-    track = _follow_to_axis(surface, saddles[0], expanding[0], sigma, impacts, steps)
-    return _Connection(surface, saddles, expanding, mirror, rho, *track, impacts)
+def propose(surface: Surface, points: Sequence, plan: Plan, prove: Callable[[str], Finding]) -> str:
+    """Return a certificate of a horseshoe on the hyperbolic orbit through points (x, y).
 
-
-def propose(
-    surface: Surface,
-    ball: Ball,
-    points: Sequence[tuple[float, float]],
-    plan: Plan,
-    prove: Callable[[str], Finding],
-) -> str:
-    """Return a certificate of a horseshoe.
-
-    Parameters
-    ----------
-    surface, ball : Surface, Ball
-        The ball has the doubles nearest to the surface's k and g.
-    points : list of (float, float)
-        (x, y) of the hyperbolic orbit, which must be its own mirror image.
-    plan : Plan
-    prove : callable
-        Returns a checker's Finding of a text, with the margins of the coverings among its parts.
-
-    Raises
-    ------
-    ValueError
-        The orbit is not its own mirror image, the branch does not meet y = 0, or the chain does not
-        begin at its saddle.
+    `prove` returns a checker's Finding of a text, with the margins of the coverings among its
+    parts. Raises ValueError if the orbit is not its own mirror image, the branch does not meet
+    y = 0, or the chain does not begin at its saddle.
     """
     with ctx.workprec(_BITS):
-        connection = _connect(surface, ball, points, plan.side, plan.steps)
-        return _with_margins(connection, plan, prove)
+        return _with_margins(_connect(surface, points, plan.side, plan.steps), plan, prove)
 
 
-def search(
-    surface: Surface,
-    ball: Ball,
-    points: Sequence[tuple[float, float]],
-    prove: Callable[[str], Finding],
-    side: int,
-) -> str:
+def search(surface: Surface, points: Sequence, side: int, prove: Callable[[str], Finding]) -> str:
     """Return a certificate of a horseshoe with the largest sets that a checker accepts.
 
     The parameters are those of `propose`, and the side of `Plan`. Raises ValueError as `propose`
     does, or if no size proves it: with the reason at the smallest.
     """
     with ctx.workprec(_BITS):
-        connection = _connect(surface, ball, points, side, _MOST_STEPS)
+        connection = _connect(surface, points, side, _MOST_STEPS)
         rho = connection.rho
         room = float(rho.sqrt())
         most = min(_MOST_STEPS, connection.middle)
@@ -162,24 +130,42 @@ def search(
     raise ValueError(f"no size of its sets from {_SIZES[0]:g} to {size:.2g} proves it: {reason}")
 
 
+def _connect(surface: Surface, points: Sequence, side: int, steps: int) -> _Connection:
+    """Follow the branches of a side, up to `steps` points after y = 0."""
+    saddles = polished(surface, points, _NEWTON_STEPS)
+    mirror = _mirrors(saddles)
+    rho, expanding = _directions(surface, saddles, side)
+    multiplier, period = rho ** len(points), len(points)
+    sigma, impacts = _crossing(surface, saddles[0], expanding[0], float(multiplier), period)
+    extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
+    impacts += period * extra
+    sigma = arb(sigma) / multiplier**extra
+    track = _follow_to_axis(surface, saddles[0], expanding[0], sigma, impacts, steps)
+    return _Connection(surface, saddles, expanding, mirror, rho, *track, impacts)
+
+
 def _with_margins(connection: _Connection, plan: Plan, prove: Callable[[str], Finding]) -> str:
     """Return the certificate of a plan, with the margins that its checker measures."""
     text = _text(connection, plan)
-    zeros = [["0.0", "0.0"]] * (len(connection.saddles) + 2 * plan.steps + 2)
+    zeros = ["[0.0, 0.0]"] * (len(connection.saddles) + 2 * plan.steps + 2)
     measured = prove(text + rows("margins", zeros)).parts["margins"]
-    margins = [[f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair] for pair in measured]
-    return text + rows("margins", margins)
+    margins = (", ".join(f"{np.floor(m * 1e7) / 1e7:.7f}" for m in pair) for pair in measured)
+    return text + rows("margins", (f"[{pair}]" for pair in margins))
 
 
 def _times(matrix: Sequence[Vector], vector: Vector) -> list[arb]:
-    return [(row[0] * vector[0] + row[1] * vector[1]).mid() for row in matrix]
+    return [(a * vector[0] + b * vector[1]).mid() for a, b in matrix]
 
 
 def _length(vector: Vector) -> arb:
     return (vector[0] * vector[0] + vector[1] * vector[1]).sqrt().mid()
 
 
-def _mirror_images(saddles: list[Vector]) -> list[int]:
+def _mirrored(vector: Vector) -> list[arb]:
+    return [vector[0], -vector[1]]
+
+
+def _mirrors(saddles: list[Vector]) -> list[int]:
     """Return the index of the mirror image of each point; ValueError if there is none."""
     indices = []
     for x, y in saddles:
@@ -212,41 +198,42 @@ def _directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb
     return rho, vectors
 
 
-def _crossing(ball, energy, saddle, vector, multiplier, period) -> tuple[float, int]:
+def _crossing(surface, saddle, vector, multiplier, period) -> tuple[float, int]:
     """Find sigma and impacts: saddle + sigma vector is the first to meet y = 0 at an x > 0."""
+    ball = approximate_orbits.ball(surface)
+
+    def segment(low, high):
+        """Sigma from low to high, and the states at saddle + sigma vector."""
+        sigma = np.linspace(low, high, 1001)
+        x, y = (float(a) + sigma * float(v) for a, v in zip(saddle, vector, strict=True))
+        return sigma, [np.array(a) for a in ball.state_xy(x, y, float(surface.energy))]
+
+    def advance(state, impacts):
+        ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(state[0].size))
+
+    def refined(ends, impacts):
+        """Refine the sigma that meets y = 0; None where y jumps across 0."""
+        for _ in range(4):
+            sigma, state = segment(*ends)
+            advance(state, impacts)
+            changes = _sign_changes(ball, state)
+            if not changes.size:
+                return None
+            ends = sigma[changes[0]], sigma[changes[0] + 1]
+        return ends[0]
+
     ends = _START, _START * multiplier
-    _, state = _segment(ball, energy, saddle, vector, *ends)
+    _, state = segment(*ends)
     for impacts in range(_MOST_IMAGES * period):
-        if _sign_changes(ball, state).size:
-            sigma = _refined(ball, energy, saddle, vector, ends, impacts)
-            if sigma is not None:
-                return sigma, impacts
-        ball.map.steps(*state, ball.k, ball.g, 1, np.empty(state[0].size))
+        if _sign_changes(ball, state).size and (sigma := refined(ends, impacts)) is not None:
+            return sigma, impacts
+        advance(state, 1)
     raise ValueError("no branch of the orbit is seen to meet y = 0")
-
-
-def _refined(ball, energy, saddle, vector, ends, impacts) -> float | None:
-    """Refine the sigma that meets y = 0 after so many impacts; None where y jumps across 0."""
-    for _ in range(4):
-        sigma, state = _segment(ball, energy, saddle, vector, *ends)
-        ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(sigma.size))
-        changes = _sign_changes(ball, state)
-        if not changes.size:
-            return None
-        ends = sigma[changes[0]], sigma[changes[0] + 1]
-    return ends[0]
-
-
-def _segment(ball, energy, saddle, vector, low, high) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Return sigma from low to high, and the states at saddle + sigma vector."""
-    sigma = np.linspace(low, high, 1001)
-    x, y = (origin + sigma * slope for origin, slope in zip(saddle, vector, strict=True))
-    return sigma, [np.array(a) for a in ball.state_xy(x, y, energy)]
 
 
 def _sign_changes(ball: Ball, state: list[np.ndarray]) -> np.ndarray:
     """Return the indices after which y changes its sign, at x > 0 and without a jump."""
-    x, y = state[0], state[1] - ball.k * state[2]
+    x, y = chart(ball.k, *state)
     near = (np.abs(np.diff(x)) < _JUMP) & (x[1:] > 0.0)
     return np.flatnonzero((y[:-1] * y[1:] <= 0.0) & near)
 
@@ -273,21 +260,14 @@ def _follow_to_axis(surface, saddle, vector, sigma, before, after):
     return _follow(surface, saddle, vector, sigma, before + after)
 
 
-def _mirrored(vector: Vector) -> list[arb]:
-    return [vector[0], -vector[1]]
-
-
 def _text(connection: _Connection, plan: Plan) -> str:
     """Return the certificate without its margins."""
     surface, saddles, expanding = connection.surface, connection.saddles, connection.expanding
     points, tangents, middle = connection.points, connection.tangents, connection.middle
-    count, steps, first = len(saddles), plan.steps, connection.first(plan.steps)
-    chain = range(middle - steps, middle + steps + 1)
-    directions = {i: [a / _length(tangents[i]) for a in tangents[i]] for i in chain}
-    begin, end = chain[0], chain[-1]
-    leaves = (first - 1) % count
+    steps, first = plan.steps, connection.first(plan.steps)
+    begin, end = middle - steps, middle + steps
+    leaves = (first - 1) % len(saddles)
     enters = connection.mirror[leaves]
-    contracting = [_mirrored(expanding[i]) for i in connection.mirror]
     size, start = arb(plan.size), connection.distance(steps)
     widest = (size * connection.rho - start) / plan.room * _length(expanding[first])
     if not widest > 0:
@@ -295,36 +275,30 @@ def _text(connection: _Connection, plan: Plan) -> str:
             f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "
             f"{float(start):.2g} from its saddle, beyond the saddle's set"
         )
+    lengths = {i: _length(tangents[i]) for i in range(begin, end + 1)}
+    directions = {i: [a / length for a in tangents[i]] for i, length in lengths.items()}
     # the last set's image is to be wider than the saddle's set by the factor `room`
     last = _times(surface.jacobian(*points[end])[0], directions[end])
-    reach = _along(last, (0, 0), expanding[enters], contracting[enters])
-    stretch = _length(tangents[end]) / _length(tangents[begin])
-    kappa = ((widest * stretch * abs(reach) / (plan.room * size)).log() / (2 * steps)).exp()
-    widths = {
-        i: widest * _length(tangents[i]) / _length(tangents[begin]) / kappa ** (i - begin)
-        for i in chain
+    reach, stretch = connection.along(last, enters), lengths[end] / lengths[begin]
+    kappa = ((widest * stretch * reach / (plan.room * size)).log() / (2 * steps)).exp()
+    sides = {
+        i: [widest * length / lengths[begin] / kappa ** (i - begin) * a for a in directions[i]]
+        for i, length in lengths.items()
     }
-    sides = {i: [widths[i] * a for a in directions[i]] for i in chain}
     at_saddles = [
-        [*z, *(size * a for a in u), *(size * a for a in s)]
-        for z, u, s in zip(saddles, expanding, contracting, strict=True)
+        [*z, *(size * a for a in u), *(size * a for a in connection.contracting(i))]
+        for i, (z, u) in enumerate(zip(saddles, expanding, strict=True))
     ]
-    approach = [[*points[i], *sides[i], *_mirrored(sides[2 * middle - i])] for i in chain[:steps]]
-    half = [decimal(a, _DIGITS) for a in (points[middle][0], *sides[middle])]
+    approach = [
+        [*points[i], *sides[i], *_mirrored(sides[2 * middle - i])] for i in range(begin, middle)
+    ]
     return (
         header("horseshoe", surface)
         + f"leaves = {leaves}\nenters = {enters}\n"
         + "# a row: centre, expanding side, contracting side\n"
-        + rows("saddles", decimals(at_saddles, _DIGITS))
+        + rows("saddles", (row(values, _DIGITS) for values in at_saddles))
         + "# up to y = 0; the rest of the chain is the mirror image\n"
-        + rows("approach", decimals(approach, _DIGITS))
-        + f"middle = [{', '.join(half)}]\n"
+        + rows("approach", (row(values, _DIGITS) for values in approach))
+        + f"middle = {row((points[middle][0], *sides[middle]), _DIGITS)}\n"
         + "# of each covering: how far beyond its target's edges, and the room within the others\n"
     )
-
-
-def _along(point: Vector, origin: Vector, expanding: Vector, contracting: Vector) -> arb:
-    """Return the distance of a point from the origin along the expanding side, in its units."""
-    (ux, uy), (sx, sy) = expanding, contracting
-    dx, dy = (p - o for p, o in zip(point, origin, strict=True))
-    return (dx * sy - dy * sx) / (ux * sy - uy * sx)

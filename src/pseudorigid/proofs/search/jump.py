@@ -1,14 +1,13 @@
-"""Certificates of the jump set: one of its points with its two images, and the set's two ends."""
+"""Certificates of the jump set, and of the energies at which there is none."""
 
 from fractions import Fraction
 
-from flint import arb, ctx
+from flint import ctx
 
-from ..enclosure.flight import fly
+from ..checks.jump import BITS, stated_points
 from ..enclosure.surface import Surface, ball_of
-from .certificate_text import decimal, header
+from .certificate_text import header, row
 
-_BITS = 160
 _DIGITS = 30  # points are to be good to 1e-28
 
 
@@ -17,23 +16,10 @@ def propose(surface: Surface, speed: str, radius: str) -> str:
 
     `speed` is xdot on the rim where the flight touches, `radius` the largest error of its points.
     """
-    with ctx.workprec(_BITS):
-        k, g, energy = surface.constants()
-        fastest = ((2 * energy - g * g * (2 + k)) / (1 + k)).sqrt().mid()
-        xdot = ball_of(Fraction(speed))
-        x = (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
-        point, far_image = _next_impact(surface, x, xdot), _next_impact(surface, x, -xdot)
-        inner_end = _next_impact(surface, -g, -fastest)
-        points = {
-            "point": (point[0], -point[1]),
-            "near_image": (x, -(1 + k) * xdot),
-            "far_image": far_image,
-            "outer_end": (-g, -(1 + k) * fastest),
-            "inner_end": (inner_end[0], -inner_end[1]),
-        }
+    with ctx.workprec(BITS):
+        points = stated_points(surface, ball_of(Fraction(speed)))
         lines = [
-            f"{name} = [{', '.join(decimal(a, _DIGITS) for a in point)}]\n"
-            for name, point in points.items()
+            f"{name.replace(' ', '_')} = {row(point, _DIGITS)}\n" for name, point in points.items()
         ]
     return header("jump set", surface) + f"radius = {radius}\nspeed = {speed}\n" + "".join(lines)
 
@@ -45,13 +31,3 @@ def propose_smooth(k: Fraction, g: Fraction) -> str:
         f'kind = "no touch"\nk = "{k}"\ng = "{g}"\n'
         f'energy_below = "{threshold}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'
     )
-
-
-def _next_impact(surface: Surface, x: arb, xdot: arb) -> tuple[arb, arb]:
-    """Return (x, y) of the impact after a point of the rim, rounded."""
-    k, g, _ = surface.constants()
-    start = None
-    if xdot < 0:
-        start = (-3.9 * xdot / (x * x + xdot * xdot).sqrt()).mid()
-    x, v, w, _ = fly(x, xdot, -xdot, arb(0), g, start)
-    return x.mid(), (v - k * w).mid()

@@ -5,10 +5,11 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import ceil, sqrt
 
-from flint import arb, arb_mat, ctx
+from flint import arb, ctx
 
+from ..checks.periodic import newton_image
 from ..enclosure.surface import Surface
-from .certificate_text import decimals, header, rows
+from .certificate_text import header, row, rows
 
 BITS = 160
 DIGITS = 36  # the checker compares thirty of them with the orbit
@@ -18,22 +19,9 @@ _LARGEST, _SMALLEST = 2, 12  # minus the decimal exponents of the radii that are
 def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[arb]]:
     """Improve points (x, y) near a periodic orbit, by Newton's method on midpoints."""
     points = [[arb(a).mid() for a in point] for point in points]
-    n = len(points)
     for _ in range(steps):
-        slopes, residuals = arb_mat(2 * n, 2 * n), arb_mat(2 * n, 1)
-        for i, point in enumerate(points):
-            j = (i + 1) % n
-            matrix, image = surface.jacobian(*point)
-            for r in range(2):
-                for c in range(2):
-                    slopes[2 * i + r, 2 * i + c] += matrix[r][c].mid()
-                slopes[2 * i + r, 2 * j + r] -= 1
-                residuals[2 * i + r, 0] = (image[r] - points[j][r]).mid()
-        step = slopes.solve(residuals)
-        points = [
-            [_without_rounding(p - step[2 * i + r, 0]) for r, p in enumerate(point)]
-            for i, point in enumerate(points)
-        ]
+        image = newton_image(surface, points)
+        points = [[_without_rounding(a) for a in point] for point in image]
     return points
 
 
@@ -49,8 +37,13 @@ def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) ->
     Its radius is the largest for which the checker `holds` accepts the text.
     """
     with ctx.workprec(BITS):
-        centres = rows("points", decimals(polished(surface, points), DIGITS))
+        centres = centre_rows(polished(surface, points))
     return with_largest_radius(header("periodic orbit", surface), centres, holds)
+
+
+def centre_rows(points: Sequence) -> str:
+    """Return the field with an orbit's points."""
+    return rows("points", (row(point, DIGITS) for point in points))
 
 
 def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -> str:
@@ -60,12 +53,8 @@ def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -
     for smaller ones.
     """
     sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]
-
-    def text(size):
-        return f"{before}radius = {size}\n{after}"
-
-    first = bisect_left(sizes, True, hi=len(sizes) - 1, key=lambda size: holds(text(size)))
-    return text(sizes[first])
+    texts = [f"{before}radius = {size}\n{after}" for size in sizes]
+    return texts[bisect_left(texts, True, hi=len(texts) - 1, key=holds)]
 
 
 def propose_only_fixed_point(k: Fraction, g: Fraction, energy: Fraction) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import states_of
+from ...dynamics.variables import chart, states_of
 from ..checks import horseshoe, periodic
 from ..checks.certificate import Finding, NotProvedError
 from ..enclosure.surface import Exact, Surface
@@ -87,7 +87,9 @@ def prove_horseshoe(
 
     References
     ----------
-    See `checks.horseshoe.check`.
+    Zgliczynski and Gidea, Covering relations for multidimensional dynamical systems, J.
+    Differential Equations 202 (2004). Kokubu, Wilczak and Zgliczynski, Rigorous verification of
+    cocoon bifurcations in the Michelson system, Nonlinearity 20 (2007).
     """
     if side not in ("outer", "inner"):
         raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
@@ -104,15 +106,15 @@ def prove_horseshoe(
     }
     name = f"the horseshoe at {surface}"
     theorem = Theorem(name, name, horseshoe.check, bounds)
-    near, sign = approximate_orbits.ball(surface), 1 if side == "outer" else -1
     try:
-        text = horseshoe_search.search(surface, near, points, theorem.prove, sign)
+        sign = 1 if side == "outer" else -1
+        text = horseshoe_search.search(surface, points, sign, theorem.prove)
         return text, theorem.prove(text)
     except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
-def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, Any, str]:
+def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, list[list[float]], str]:
     """Return the surface, the points (x, y) and the type of a requested orbit."""
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
@@ -121,9 +123,8 @@ def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, Any, str]:
     else:
         energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
         surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
-    near = approximate_orbits.ball(surface)
-    actual = float(np.ravel(near.energy(*states_of(orbit)))[0])
-    expected = float(surface.energy)
+    near, states = approximate_orbits.ball(surface), states_of(orbit)
+    actual, expected = float(np.ravel(near.energy(*states))[0]), float(surface.energy)
     if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
         raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")
-    return surface, approximate_orbits.chart_points(near, orbit), str(orbit["type"].item())
+    return surface, chart(near.k, *states).T.tolist(), str(orbit["type"].item())

@@ -1,15 +1,28 @@
-"""Stages behind the pictures of the proofs, for any ball and energy."""
+"""Stages behind the pictures of the proofs; their data are doubles, rounded from balls."""
 
 from fractions import Fraction
+from itertools import pairwise
 
+import numpy as np
 import xarray as xr
+from flint import arb, ctx
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import of_type
-from ..enclosure.surface import Surface
-from .pictures import horseshoe_data, twist_data
+from ...dynamics.variables import ENERGY, LENGTH, SPEED, described, of_type
+from ..checks import horseshoe
+from ..checks.birkhoff import normal_form
+from ..checks.certificate import NotProvedError
+from ..checks.hsets import HSet
+from ..checks.periodic import BITS, prove
+from ..checks.twist import falling_twist
+from ..enclosure.surface import Surface, ball_of
+from ..search import approximate_orbits
+from ..search.twist import bisect_zero
 from .requests import prove_horseshoe
 from .statements import THEOREMS
+
+_EDGE_POINTS = 33  # along each edge of a set whose image is drawn
+_RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at every energy
 
 
 def scene_horseshoe(
@@ -34,7 +47,10 @@ def scene_horseshoe(
     Returns
     -------
     xarray.Dataset
-        As from `horseshoe_data`.
+        x, y (set): centres; corner_x, corner_y (set, corner): around each; chain (set): the index
+        along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
+        of the set before the middle one, in units of the middle one's half widths, its two exit
+        edges first.
 
     Raises
     ------
@@ -61,7 +77,42 @@ def scene_horseshoe(
         finding = theorem.prove(theorem.text())
     else:
         _, finding = prove_horseshoe(surface, orbit, side=connection)
-    return horseshoe_data(surface, finding)
+    saddles, chain = finding.parts["saddles"], finding.parts["chain"]
+    sets, steps = [*saddles, *chain], len(chain) // 2
+    index = [np.nan] * len(saddles) + [float(n) for n in range(-steps, steps + 1)]
+    with ctx.workprec(horseshoe.BITS):
+        signs = [(1, 1), (1, -1), (-1, -1), (-1, 1)]
+        corners = _doubles([[hset.box(arb(p), arb(q)) for p, q in signs] for hset in sets])
+        image = _doubles(_image_of_edges(surface, *chain[steps - 1 : steps + 1]))
+        centres = _doubles([hset.centre for hset in sets])
+    corner, edge = ("set", "corner"), ("edge", "point")
+    across = "image of a set, across the next one's"
+    data = {
+        "x": ("set", centres[:, 0], "centre of the set, position at impact", LENGTH),
+        "y": ("set", centres[:, 1], "centre of the set, y = xdot - k udot", SPEED),
+        "chain": ("set", np.array(index), "index along the chain; NaN at the saddles"),
+        "corner_x": (corner, corners[:, :, 0], "corners of the set, x", LENGTH),
+        "corner_y": (corner, corners[:, :, 1], "corners of the set, y", SPEED),
+        "image_p": (edge, image[:, :, 0], f"{across} expanding direction"),
+        "image_q": (edge, image[:, :, 1], f"{across} contracting direction"),
+    }
+    return _dataset(data, surface)
+
+
+def _doubles(balls: list) -> np.ndarray:
+    """Round nested lists of balls to an array of doubles."""
+    return np.array(balls, dtype=object).astype(float)
+
+
+def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list:
+    """Return images, in the target's coordinates, of points of the edges p = -1, 1, q = -1, 1."""
+    last = _EDGE_POINTS - 1
+    line, sides = [arb(2 * i - last) / last for i in range(_EDGE_POINTS)], (arb(-1), arb(1))
+    edges = [*([(p, q) for q in line] for p in sides), *([(p, q) for p in line] for q in sides)]
+    return [
+        [target.coordinates(*surface.impact(*source.box(*point))[:2]) for point in edge]
+        for edge in edges
+    ]
 
 
 def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
@@ -74,12 +125,14 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     energy : float
         Not used.
     energies : list of float
-        Taken as the decimals that they print as.
+        In rising order, taken as the decimals that they print as. The fixed point must be elliptic
+        there, and no power of its multiplier up to the fourth be 1.
 
     Returns
     -------
     xarray.Dataset
-        As from `twist_data`.
+        energy, twist (energy) and zero, the middle of a band of width 1e-13 in which the twist is
+        proved to fall through zero, NaN without one between two of the energies.
 
     Raises
     ------
@@ -97,9 +150,49 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     >>> bool(twist[0] > twist[1] > 0)
     True
     """
-    return twist_data(*_exact(ball.k, ball.g), _exact(*energies))
+    surfaces = [Surface(*_exact(ball.k, ball.g, energy)) for energy in energies]
+    twists, points = [], []
+    for surface in surfaces:
+        try:
+            points.append(approximate_orbits.points(surface, 1, "elliptic"))
+            centre = [tuple(map(Fraction, z)) for z in points[-1]]
+            with ctx.workprec(BITS):
+                orbit = prove(surface, centre, _RADIUS)
+                twists.append(float(normal_form(surface, orbit).twists[0]))
+        except (NotProvedError, ValueError, ArithmeticError) as error:
+            raise ValueError(f"no twist is proved at {surface}: {error}") from None
+    zeros = (
+        _zero(*surfaces[i : i + 2], points[i])
+        for i, (low, high) in enumerate(pairwise(twists))
+        if low > 0.0 >= high
+    )
+    with ctx.workprec(64):
+        axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
+    zero = next((zero for zero in zeros if zero is not None), float("nan"))
+    data = {
+        "energy": ("energy", axis, "total energy", ENERGY),
+        "twist": ("energy", np.array(twists), "twist of the elliptic fixed point", "1/(omega R^2)"),
+        "zero": ((), zero, "energy at which the twist vanishes", ENERGY),
+    }
+    return _dataset(data, surfaces[0])
+
+
+def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None:
+    """Return the energy between two surfaces at which the twist is proved to be zero, or None."""
+    with ctx.workprec(BITS):
+        try:
+            band, point = bisect_zero(low.k, low.g, low.energy, high.energy, point)
+            centre = [tuple(Fraction(float(a)) for a in z) for z in point]
+            falling_twist(band, centre, _RADIUS, order=3)
+        except (NotProvedError, ArithmeticError):
+            return None
+        return float(band.constants()[2])
 
 
 def _exact(*values: float) -> list[Fraction]:
     """Convert floats to the decimals that they print as."""
     return [Fraction(str(value)) for value in values]
+
+
+def _dataset(variables: dict, surface: Surface) -> xr.Dataset:
+    return xr.Dataset(described(variables), attrs={"k": float(surface.k), "g": float(surface.g)})

@@ -19,30 +19,29 @@ _SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump
 _JUMP_RADIUS = "1e-28"  # error of the jump set's points
 
 
-def _points(theorem, kind: str) -> list[tuple[float, float]]:
-    return approximate_orbits.points(theorem.bounds["surface"], theorem.bounds["period"], kind)
+def _near(theorem, kind: str) -> tuple[Surface, list]:
+    surface = theorem.bounds["surface"]
+    return surface, approximate_orbits.points(surface, theorem.bounds["period"], kind)
 
 
 def _orbit(theorem) -> str:
-    points = _points(theorem, theorem.bounds["type"])
-    return orbit_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
+    near = _near(theorem, theorem.bounds["type"])
+    return orbit_search.propose(*near, theorem.holds_for_any_radius)
 
 
 def _twist(theorem) -> str:
-    points = _points(theorem, "elliptic")
-    return twist_search.propose(theorem.bounds["surface"], points, theorem.holds_for_any_radius)
+    return twist_search.propose(*_near(theorem, "elliptic"), theorem.holds_for_any_radius)
 
 
 def _zero(theorem) -> str:
     ball = theorem.bounds["k"], theorem.bounds["g"]
-    (start,) = approximate_orbits.points(Surface(*ball, _ZERO[0]), 1, "elliptic")
+    start = approximate_orbits.points(Surface(*ball, _ZERO[0]), 1, "elliptic")
     return twist_search.propose_zero(*ball, *_ZERO, start, theorem.holds_for_any_radius)
 
 
 def _horseshoe(theorem) -> str:
-    surface, points = theorem.bounds["surface"], _points(theorem, "hyperbolic")
-    ball = approximate_orbits.ball(surface)
-    return horseshoe_search.propose(surface, ball, points, _PLANS[theorem.name], theorem.prove)
+    near = _near(theorem, "hyperbolic")
+    return horseshoe_search.propose(*near, _PLANS[theorem.name], theorem.prove)
 
 
 def _jump(theorem) -> str:

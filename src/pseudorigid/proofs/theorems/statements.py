@@ -20,35 +20,20 @@ from ..enclosure.surface import Surface
 
 K, G = (Fraction(str(paper.BALL[name])) for name in "kg")
 HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
-_FIGURE_6 = [str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]]
 MOST_DIGITS = 30  # of an enclosure as text: as many as certificates state
 
 
 @dataclass(frozen=True)
 class Result:
-    """The result of checking a theorem's certificate.
-
-    Attributes
-    ----------
-    name, statement, certificate : str
-        Of the theorem, and its certificate's file.
-    reason : str
-        Why it is not proved; empty if it is.
-    digits : dict of str to str
-        Enclosures, with as many digits as are proved.
-    margins : dict of str to float
-        By how much the inequalities hold.
-    seconds : float
-        Duration of the check.
-    """
+    """The result of checking a theorem's certificate."""
 
     name: str
     statement: str
-    certificate: str
-    reason: str
-    digits: dict[str, str]
-    margins: dict[str, float]
-    seconds: float
+    certificate: str  # its file
+    reason: str  # why it is not proved; empty if it is
+    digits: dict[str, str]  # enclosures, with as many digits as are proved
+    margins: dict[str, float]  # by how much the inequalities hold
+    seconds: float  # duration of the check
 
     @property
     def verdict(self) -> str:
@@ -67,20 +52,11 @@ class Result:
 
 @dataclass(frozen=True)
 class Theorem:
-    """A statement, and its checker with the statement's numbers.
-
-    Attributes
-    ----------
-    name, statement : str
-    checker : callable
-        Takes a certificate's text and the bounds, returns a Finding.
-    bounds : dict
-        The statement's numbers, exact.
-    """
+    """A statement, and its checker with the statement's numbers, which are exact."""
 
     name: str
     statement: str
-    checker: Callable[..., Finding]
+    checker: Callable[..., Finding]  # takes a certificate's text and the bounds
     bounds: dict
 
     @property
@@ -162,79 +138,75 @@ def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
     return (Fraction(x_low), Fraction(x_high)), (Fraction(xdot_low), Fraction(xdot_high))
 
 
-_WINDOW = _window(*_FIGURE_6)
+_FIGURE_6 = _window(*(str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]))
 
 
-@dataclass(frozen=True)
-class _Orbit:
-    """A periodic orbit of the statements, the only one near its points, with one in the window."""
-
-    surface: Surface
-    period: int
-    type: str
-    radius: Fraction
-    window: Window
-
-    def existence(self, name: str) -> Theorem:
-        """State that the orbit exists."""
-        article = "an" if self.type[0] in "ei" else "a"
-        statement = (
-            f"at E = {self.surface.energy} there is {article} {self.type} orbit of period "
-            f"{self.period} with a point in {_region(self.window)}; no other of this period "
-            f"has its points, in order, within {float(self.radius):g} of these in x and in y"
-        )
-        return Theorem(name, statement, periodic.check, vars(self))
-
-    def invariant_curves(self, name: str) -> Theorem:
-        """State that invariant curves surround the orbit."""
-        kind = "fixed point" if self.period == 1 else f"orbit of period {self.period}"
-        power = "P" if self.period == 1 else f"P^{self.period}"
-        statement = (
-            f"at E = {self.surface.energy} closed curves, invariant under {power}, surround the "
-            f"elliptic {kind} with a point in {_region(self.window)} in each of its "
-            "neighbourhoods: it is stable for all time, and they fill a positive area"
-        )
-        bounds = {name: value for name, value in vars(self).items() if name != "type"}
-        return Theorem(name, statement, twist.check, bounds)
-
-
-_ORBITS = {
-    name: _Orbit(surface, period, kind, Fraction(radius), _window(*window))
-    for name, surface, period, kind, radius, *window in (
-        ("fixed-point", HIGH, 1, "elliptic", "4e-3", "0.0212", "0.0213", "0.06", "0.0601"),
-        ("fixed-point-low", LOW, 1, "elliptic", "2e-3", "0.1325", "0.1326", "0.0389", "0.039"),
-        ("six-elliptic", HIGH, 6, "elliptic", "1e-4", "-0.1519", "-0.1518", "0.0232", "0.0233"),
-        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", *_FIGURE_6),
-        ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4", "0.3869", "0.387", "0.0877",
-         "0.0878"),
-        ("ten-elliptic", LOW, 10, "elliptic", "6e-6", "0.0141", "0.0142", "0.0226", "0.0227"),
-        ("twelve-elliptic", LOW, 12, "elliptic", "6e-6", "-0.0059", "-0.0058", "0.0159", "0.016"),
+def _existence(name: str, orbit: dict) -> Theorem:
+    """State that an orbit exists, is the only one near its points, and has one in the window."""
+    kind = orbit["type"]
+    article = "an" if kind[0] in "ei" else "a"
+    statement = (
+        f"at E = {orbit['surface'].energy} there is {article} {kind} orbit of period "
+        f"{orbit['period']} with a point in {_region(orbit['window'])}; no other of this period "
+        f"has its points, in order, within {float(orbit['radius']):g} of these in x and in y"
     )
-}  # fmt: skip
+    return Theorem(name, statement, periodic.check, orbit)
 
 
-def _horseshoe_theorem(side: str, crossing: tuple[str, str], entropy: str) -> Theorem:
-    low, high = map(Fraction, crossing)
+def _invariant_curves(name: str, orbit: dict) -> Theorem:
+    """State that invariant curves surround an elliptic orbit."""
+    period = orbit["period"]
+    kind, power = (
+        ("fixed point", "P") if period == 1 else (f"orbit of period {period}", f"P^{period}")
+    )
+    statement = (
+        f"at E = {orbit['surface'].energy} closed curves, invariant under {power}, surround the "
+        f"elliptic {kind} with a point in {_region(orbit['window'])} in each of its "
+        "neighbourhoods: it is stable for all time, and they fill a positive area"
+    )
+    bounds = {bound: value for bound, value in orbit.items() if bound != "type"}
+    return Theorem(name, statement, twist.check, bounds)
+
+
+def _horseshoe(side: str, low: str, high: str, entropy: str) -> Theorem:
+    """State that there is a horseshoe whose connection passes y = 0 between two x."""
     statement = (
         f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in "
-        f"{_region(_WINDOW)} has a transversal connection, {side}, that passes y = 0 at "
-        f"{float(low):g} < x < {float(high):g}, and P has a uniformly hyperbolic "
-        "invariant set that contains both, conjugate to a mixing subshift of entropy above "
-        f"{float(entropy):g}"
+        f"{_region(_FIGURE_6)} has a transversal connection, {side}, that passes y = 0 at "
+        f"{low} < x < {high}, and P has a uniformly hyperbolic invariant set that contains both, "
+        f"conjugate to a mixing subshift of entropy above {entropy}"
     )
     bounds = {
-        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _WINDOW,
-        "crossing": (low, high), "entropy": Fraction(entropy),
+        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6,
+        "crossing": (Fraction(low), Fraction(high)), "entropy": Fraction(entropy),
     }  # fmt: skip
     return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
 
 
+_ORBITS = {
+    name: dict(surface=surface, period=period, type=kind, radius=Fraction(radius), window=window)
+    for name, surface, period, kind, radius, window in (
+        ("fixed-point", HIGH, 1, "elliptic", "4e-3", _window("0.0212", "0.0213", "0.06", "0.0601")),
+        ("fixed-point-low", LOW, 1, "elliptic", "2e-3",
+         _window("0.1325", "0.1326", "0.0389", "0.039")),
+        ("six-elliptic", HIGH, 6, "elliptic", "1e-4",
+         _window("-0.1519", "-0.1518", "0.0232", "0.0233")),
+        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", _FIGURE_6),
+        ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4",
+         _window("0.3869", "0.387", "0.0877", "0.0878")),
+        ("ten-elliptic", LOW, 10, "elliptic", "6e-6",
+         _window("0.0141", "0.0142", "0.0226", "0.0227")),
+        ("twelve-elliptic", LOW, 12, "elliptic", "6e-6",
+         _window("-0.0059", "-0.0058", "0.0159", "0.016")),
+    )
+}  # fmt: skip
 _JUMPS = {
     "surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
     "jump": Fraction("0.27"),
 }  # fmt: skip
+_THRESHOLD = G * G * (1 + K / 2)
 _THEOREMS = (
-    *(orbit.existence(name) for name, orbit in _ORBITS.items()),
+    *(_existence(name, orbit) for name, orbit in _ORBITS.items()),
     Theorem(
         "one-fixed-point",
         "at each energy above the least, -g^2/(2k), up to k/2 - g, eq. (31), the map has exactly "
@@ -242,13 +214,13 @@ _THEOREMS = (
         periodic.check_only_fixed_point,
         {"k": K, "g": G, "energy": K / 2 - G},
     ),
-    _horseshoe_theorem("outer", ("0.326", "0.327"), "0.0185"),
-    _horseshoe_theorem("inner", ("0.187", "0.188"), "0.0083"),
-    _ORBITS["fixed-point"].invariant_curves("twist-fixed-point"),
-    _ORBITS["fixed-point-low"].invariant_curves("twist-fixed-point-low"),
-    _ORBITS["six-elliptic"].invariant_curves("twist-six"),
-    _ORBITS["ten-elliptic"].invariant_curves("twist-ten"),
-    _ORBITS["twelve-elliptic"].invariant_curves("twist-twelve"),
+    _horseshoe("outer", "0.326", "0.327", "0.0185"),
+    _horseshoe("inner", "0.187", "0.188", "0.0083"),
+    _invariant_curves("twist-fixed-point", _ORBITS["fixed-point"]),
+    _invariant_curves("twist-fixed-point-low", _ORBITS["fixed-point-low"]),
+    _invariant_curves("twist-six", _ORBITS["six-elliptic"]),
+    _invariant_curves("twist-ten", _ORBITS["ten-elliptic"]),
+    _invariant_curves("twist-twelve", _ORBITS["twelve-elliptic"]),
     Theorem(
         "twist-zero",
         "as E rises through the band below, the fixed point's twist changes from positive to "
@@ -269,10 +241,10 @@ _THEOREMS = (
     ),
     Theorem(
         "diffeomorphism",
-        f"at every E below g^2 (1 + k/2) = {float(G * G * (1 + K / 2)):g} P is analytic on the "
+        f"at every E below g^2 (1 + k/2) = {float(_THRESHOLD):g} P is analytic on the "
         "open disk of the section, with the analytic inverse R P R",
         jump.check_smooth,
-        {"k": K, "g": G, "energy": G * G * (1 + K / 2)},
+        {"k": K, "g": G, "energy": _THRESHOLD},
     ),
 )
 THEOREMS = {theorem.name: theorem for theorem in _THEOREMS}

@@ -11,12 +11,14 @@ where the columns of C follow the tangent map and are made orthogonal again at e
 """
 
 import json
+import os
+import zipfile
+from pathlib import Path
 
 import numpy as np
 from flint import arb, arb_mat, ctx
 
 from ..enclosure.flight import UndecidedError
-from ..enclosure.surface import Surface
 from .start import Start
 
 FRAME_BITS = 64  # of the frame and the bound, which includes their own roundings
@@ -33,43 +35,25 @@ class ShortOfBitsError(Exception):
 class Run:
     """The orbit up to `count` impacts: z, C, r and the results so far.
 
-    Parameters
-    ----------
-    surface : Surface
-    start : Start
-    impacts : int
-        How many in all.
-    bits : int
-        The precision at the start.
-
-    Attributes
-    ----------
-    count : int
-        Impacts done.
-    precision : int
-        The precision now, in bits.
-    values : ndarray, shape (impacts, 4)
-        x, xdot, udot, tau of the impacts done, correctly rounded.
-
-    Raises
-    ------
-    ValueError
-        More bits than MOST_BITS are needed.
+    `bits` is the precision at the start, `precision` the one now. `values`, (impacts, 4), has x,
+    xdot, udot, tau of the impacts done, correctly rounded. Raises ValueError if more bits than
+    MOST_BITS are needed.
     """
 
-    def __init__(self, surface: Surface, start: Start, impacts: int, bits: int):
+    def __init__(self, start: Start, impacts: int, bits: int):
         if bits > MOST_BITS:
             raise ValueError(
                 f"{impacts} impacts of this orbit need {bits} bits, more than {MOST_BITS}"
             )
-        self.surface, self.start, self.impacts, self.bits = surface, start, impacts, bits
+        self.surface, self.start, self.impacts, self.bits = start.surface, start, impacts, bits
         self.values = np.empty((impacts, 4))
         self.count, self.precision = 0, bits
         with ctx.workprec(bits):
             self.centre = [a.mid() for a in start.balls()]
-            errors = [a - m for a, m in zip(start.balls(), self.centre, strict=True)]
+            self.radii = [
+                abs(a - m).upper() for a, m in zip(start.balls(), self.centre, strict=True)
+            ]
         self.frame = arb_mat([[1, 0], [0, 1]])
-        self.radii = [abs(a).upper() for a in errors]
 
     def step(self) -> None:
         """Advance by one impact.
@@ -134,24 +118,37 @@ class Run:
     def _undecided(self, error):
         return ValueError(f"the orbit cannot be followed beyond impact {self.count}: {error}")
 
-    def state(self) -> str:
-        """Serialize everything but the results."""
-        numbers = [*self.centre, *self.frame.entries(), *self.radii]
-        pairs = [[int(part) for part in number.man_exp()] for number in numbers]
-        return json.dumps([self.bits, self.count, self.precision, [[hex(m), e] for m, e in pairs]])
+    def save(self, path: Path) -> None:
+        """Write a checkpoint, whole or not at all."""
+        numbers = (*self.centre, *self.frame.entries(), *self.radii)
+        pairs = [[hex(int(m)), int(e)] for m, e in (number.man_exp() for number in numbers)]
+        state = json.dumps([self.bits, self.count, self.precision, pairs])
+        values, identity = self.values[: self.count], _identity(self.start, self.impacts)
+        part = path.with_name(path.name + ".writing")
+        with open(part, "wb") as file:
+            np.savez(file, identity=identity, state=state, values=values)
+        os.replace(part, path)
 
     @classmethod
-    def restored(
-        cls, surface: Surface, start: Start, impacts: int, state: str, values: np.ndarray
-    ) -> "Run":
-        """Restore the run with a `state` and the results up to it."""
-        bits, count, precision, pairs = json.loads(state)
-        run = cls(surface, start, impacts, bits)
-        numbers = [arb((int(m, 16), e)) for m, e in pairs]
-        run.count, run.precision = count, precision
-        run.values[:count] = values
+    def load(cls, path: Path, start: Start, impacts: int) -> "Run | None":
+        """Return the run of a checkpoint; None if it is missing, damaged or of another orbit."""
+        try:
+            with np.load(path) as file:
+                if str(file["identity"]) != _identity(start, impacts):
+                    return None
+                bits, count, precision, pairs = json.loads(str(file["state"]))
+                values = file["values"]
+        except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
+            return None
+        run, numbers = cls(start, impacts, bits), [arb((int(m, 16), e)) for m, e in pairs]
+        run.count, run.precision, run.values[:count] = count, precision, values
         run.centre, run.frame, run.radii = numbers[:2], arb_mat(2, 2, numbers[2:6]), numbers[6:]
         return run
+
+
+def _identity(start: Start, impacts: int) -> str:
+    """Return a text that identifies an orbit."""
+    return json.dumps([str(start.surface), str(start), impacts])
 
 
 def _orthogonal_frame(columns, radii):

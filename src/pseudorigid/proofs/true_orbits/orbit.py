@@ -2,6 +2,7 @@
 
 import math
 import os
+import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -15,11 +16,11 @@ from ...dynamics.lyapunov import lyapunov_spectrum
 from ...dynamics.variables import attributes_of, variables
 from ...kernel.arithmetic import log
 from ..enclosure.surface import Exact, Surface
-from . import checkpoints
 from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError
 from .start import Start
 
 _BYTES_PER_IMPACT = 200  # doubles in the run, the Dataset and a checkpoint
+CHECKPOINT_SECONDS = 15.0  # between two checkpoints
 
 
 def true_orbit(
@@ -78,42 +79,53 @@ def true_orbit(
         raise ValueError("give either x and y, or start")
     exact_start = Start(surface, {"x": x, "y": y} if start is None else start)
     checkpoint = None if checkpoint is None else Path(checkpoint)
+    run = follow(exact_start, impacts, progress, checkpoint)
+    if checkpoint is not None:
+        checkpoint.unlink()
+    data = variables("impact", run.values.T)
+    impact = "impact", np.arange(1, run.impacts + 1), attributes_of("number of impacts")
+    return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})
+
+
+def follow(
+    start: Start, impacts: int, progress: Callable | None = None, checkpoint: Path | None = None
+) -> Run:
+    """Return the finished run of an orbit, which resumes from a checkpoint and leaves one there.
+
+    `progress` is called as by `true_orbit`, at most once a second and at the end.
+    """
     impacts = whole_number("impacts", impacts)
-    _check_memory(impacts)
-    run = _resumed(checkpoint, surface, exact_start, impacts)
-    if run is None:
-        run = Run(surface, exact_start, impacts, _bits_needed(surface, exact_start, impacts))
-    monitor = checkpoints.Monitor(run, progress, checkpoint)
+    needed = _BYTES_PER_IMPACT * impacts
+    if needed > os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2:
+        raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
+    run = checkpoint and Run.load(checkpoint, start, impacts)
+    run = run or Run(start, impacts, _bits_needed(start, impacts))
+    begin = reported = saved = time.monotonic()
+    total = _work_left(run)
     while run.count < impacts:
         try:
             run.step()
         except ShortOfBitsError:
-            run = Run(surface, exact_start, impacts, run.bits + run.bits // 4 + 100)
-            monitor = checkpoints.Monitor(run, progress, checkpoint)
-        monitor.after_impact(run)
-    if checkpoint is not None:
-        checkpoint.unlink(missing_ok=True)
-    data = variables("impact", run.values.T)
-    impact = "impact", np.arange(1, impacts + 1), attributes_of("number of impacts")
-    return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})
+            run = Run(start, impacts, run.bits + run.bits // 4 + 100)
+            begin, total = time.monotonic(), _work_left(run)
+        now, finished = time.monotonic(), run.count == impacts
+        if progress is not None and (finished or now - reported > 1.0):
+            reported, left = now, _work_left(run)
+            progress(run.count / impacts, (now - begin) * left / max(total - left, 1e-9))
+        if checkpoint is not None and (finished or now - saved > CHECKPOINT_SECONDS):
+            saved = now
+            run.save(checkpoint)
+    return run
 
 
-def _check_memory(impacts: int) -> None:
-    """Raise ValueError if the results would take more than half of the memory."""
-    needed = _BYTES_PER_IMPACT * impacts
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    if needed > memory // 2:
-        raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
+def _work_left(run: Run) -> float:
+    """Work left, in impacts of 64 bits: an impact of b bits costs about 1 + (b/6000)^1.6."""
+    return (run.impacts - run.count) * (1.0 + (run.precision / 6000.0) ** 1.6 / 2.6)
 
 
-def _resumed(checkpoint, surface, start, impacts) -> Run | None:
-    """Return the run of a checkpoint of this very orbit, if there is one."""
-    saved = checkpoint and checkpoints.load(checkpoint, start.identity(impacts))
-    return saved and Run.restored(surface, start, impacts, str(saved["state"]), saved["values"])
-
-
-def _bits_needed(surface: Surface, start: Start, impacts: int) -> int:
+def _bits_needed(start: Start, impacts: int) -> int:
     """Estimate the precision to start with, from the stretch along the orbit in doubles."""
+    surface = start.surface
     ball = Ball(k=float(surface.k), g=float(surface.g))
     with ctx.workprec(FRAME_BITS):
         x, y = (float(a) for a in start.balls())

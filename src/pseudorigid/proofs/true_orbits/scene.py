@@ -5,15 +5,13 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
 from ...dynamics.starts import start_state
 from ..enclosure.surface import Exact, Surface
-from . import checkpoints
-from .orbit import true_orbit
+from .orbit import follow
 from .start import Start
 
 
@@ -40,7 +38,7 @@ def true_scene_orbits(
     progress : callable, optional
         Called with the share done and the seconds left of the current orbit, and its index.
     folder : path, optional
-        Holds finished orbits and the checkpoint of the current one while the run lasts.
+        Holds checkpoints of the finished orbits and the current one while the run lasts.
 
     Returns
     -------
@@ -61,37 +59,16 @@ def true_scene_orbits(
     surface = Surface(k, g, energy)
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
     exact_starts = [Start(surface, start) for start in starts]
-    pieces = [
-        _orbit_or_saved(folder, index, exact_start, start, count, progress)
-        for index, (exact_start, start, count) in enumerate(
-            zip(exact_starts, starts, impacts, strict=True)
-        )
-    ]
+    if folder is not None:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+    pieces = []
+    for i, (start, count) in enumerate(zip(exact_starts, impacts, strict=True)):
+        report = None if progress is None else lambda *done, orbit=i: progress(*done, orbit)
+        checkpoint = None if folder is None else Path(folder) / f"orbit_{i}.npz"
+        pieces.append(follow(start, count, report, checkpoint).values.T)
     if folder is not None:
         shutil.rmtree(folder, ignore_errors=True)
     ball = Ball(k=float(surface.k), g=float(surface.g))
     floats = [start.floats() for start in exact_starts]
     states = [start_state(ball, float(surface.energy), start) for start in floats]
     return ragged_orbits(pieces, floats, states, impacts)
-
-
-def _orbit_or_saved(folder, index, exact_start, start, count, progress):
-    """Return one orbit of a scene, (4, count), from the folder if it is there."""
-    report = None if progress is None else lambda *done: progress(*done, index)
-    surface = exact_start.surface
-    exact = (surface.k, surface.g, surface.energy)
-    if folder is None:
-        return _columns(true_orbit(*exact, count, start=start, progress=report))
-    Path(folder).mkdir(parents=True, exist_ok=True)
-    file = Path(folder) / f"orbit_{index}.npz"
-    identity = exact_start.identity(count)
-    if saved := checkpoints.load(file, identity):
-        return saved["values"]
-    part = Path(folder) / f"orbit_{index}.part.npz"
-    values = _columns(true_orbit(*exact, count, start=start, progress=report, checkpoint=part))
-    checkpoints.save(file, identity=identity, values=values)
-    return values
-
-
-def _columns(dataset):
-    return np.array([dataset[name].values for name in ("x", "xdot", "udot", "tau")])

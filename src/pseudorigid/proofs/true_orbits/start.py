@@ -1,6 +1,5 @@
 """Exact starts of orbits."""
 
-import json
 from collections.abc import Mapping
 
 from flint import arb
@@ -17,13 +16,12 @@ class Start:
 
     def __init__(self, surface: Surface, start: Exact | Mapping[str, Exact]):
         self.surface = surface
-        names = sorted(start) if isinstance(start, dict) else ["start"]
-        if names not in (["start"], ["x", "y"], ["x", "xdot"]):
+        values = start if isinstance(start, dict) else {"start": start}
+        if set(values) not in ({"start"}, {"x", "y"}, {"x", "xdot"}):
             raise ValueError(
                 "a start is a fraction of the section's radius, or x and y, or x and xdot"
             )
-        values = start if isinstance(start, dict) else {"start": start}
-        self.numbers = {name: exact(name, values[name]) for name in names}
+        self.numbers = {name: exact(name, values[name]) for name in sorted(values)}
         if not self._is_inside():
             raise ValueError(f"the start {self} is not inside the section's rim at {surface}")
 
@@ -60,7 +58,3 @@ class Start:
         """Return the start in the form that `dynamics.starts.start_state` takes."""
         numbers = {name: float(value) for name, value in self.numbers.items()}
         return numbers.get("start", numbers)
-
-    def identity(self, impacts: int) -> str:
-        """Return a text that identifies the orbit of so many impacts in a checkpoint."""
-        return json.dumps([str(self.surface), str(self), impacts])
