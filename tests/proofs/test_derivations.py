@@ -12,7 +12,7 @@ from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import impact, impact_law
 from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
-from pseudorigid.proofs.derivations.symbols import energy, flight, g, k, rebound, tau, v, w, x
+from pseudorigid.proofs.derivations.symbols import b, c, energy, flight, g, k, rebound, tau, v, w, x
 
 BALL = Ball(0.2, 0.04)
 # Printed formulas that do not hold; each has a correction that does.
@@ -33,18 +33,14 @@ NOT_PRINTED = {"softness", "smooth", "reversible"}
 def test_the_misprints_are_found_and_no_others(derived):
     names = derived["formula"].values.tolist()
     assert len(names) == len(set(names)) == 26
-    for name, printed, corrected in zip(
-        names, derived["printed"].values, derived["corrected"].values, strict=True
-    ):
-        expected = {True: (0, 1), False: (1, -1)}[name in MISPRINTED]
-        assert (printed, corrected) == ((-1, 1) if name in NOT_PRINTED else expected), name
+    for name in names:
+        row = derived.sel(formula=name)
+        expected = (0, 1) if name in MISPRINTED else (-1, 1) if name in NOT_PRINTED else (1, -1)
+        assert (row["printed"], row["corrected"]) == expected, name
 
 
 def test_numbers_that_come_with_formulas(derived):
-    value = {
-        name: float(number)
-        for name, number in zip(derived["formula"].values, derived["value"].values, strict=True)
-    }
+    value = derived["value"].to_series()
     assert value["euler_tensor"] == 0.2  # a solid sphere
     assert value["shell"] == pytest.approx(1 / 3, rel=1e-15)
     assert value["modes"] == 2.0
@@ -68,14 +64,10 @@ def test_modes_that_an_axial_force_excites_by_eigenvectors(poisson, excited):
 # ---- a derivation can fail
 
 
-@pytest.mark.parametrize(
-    "strain", [lambda x, c, t: c * sp.cos(t) - x * sp.sin(t),
-               lambda x, c, t: x * sp.cos(t) - c * sp.sin(t)],
-)  # fmt: skip
+@pytest.mark.parametrize("strain", [c * sp.cos(tau) - x * sp.sin(tau),
+                                    x * sp.cos(tau) - c * sp.sin(tau)])  # fmt: skip
 def test_a_wrong_flight_is_noticed(monkeypatch, strain):
-    def wrong(x, b, c, t):
-        return x + b * t + g * t**2 / 2, strain(x, c, t)
-
+    wrong = sp.Lambda((x, b, c, tau), (x + b * tau + g * tau**2 / 2, strain))
     monkeypatch.setattr(motion, "flight", wrong)
     assert not motion.flights().printed
     assert not motion.impact_map().corrected
@@ -109,19 +101,16 @@ def test_tangent_map_of_the_code():
 
 
 def test_derivatives_of_a_flight_time():
-    b, c = rebound(v, w)
-    gap = sum(flight(x, b, c, tau))
     state = BALL.state_xy(0.31, 0.02, 0.01)
-    end = BALL.impact(*state)
-    values = dict(zip((x, v, w), state, strict=True)) | {k: BALL.k, g: BALL.g, tau: end[3]}
-    speed, rate = impact_law.rebound(
-        state[1], state[2], BALL.k, impact_law.impact_coefficients(BALL.k)
-    )[:2]
-    speeds = state[0], speed, rate, state[1] + state[2], BALL.g, end[3]
-    derivatives = impact.flight_derivatives(*speeds, quadrant(end[3]))
-    slope = float(gap.diff(tau).subs(values))
-    expected = [-float((1 - sp.cos(tau)).subs(values)) / slope, end[3] / slope]
-    expected.append(-float((sp.sin(tau) - tau).subs(values)) / slope)
+    t = BALL.time_to_impact(*state)
+    speed, rate, _ = impact_law.rebound(*state[1:], BALL.k, impact_law.impact_coefficients(BALL.k))
+    slope = sum(flight(x, *rebound(v, w), tau)).diff(tau)
+    values = dict(zip((x, v, w), state, strict=True)) | {k: BALL.k, g: BALL.g, tau: t}
+    expected = [float(a.subs(values)) for a in (
+        -(1 - sp.cos(tau)) / slope, tau / slope, -(sp.sin(tau) - tau) / slope)]  # fmt: skip
+    derivatives = impact.flight_derivatives(
+        state[0], speed, rate, state[1] + state[2], BALL.g, t, quadrant(t)
+    )
     np.testing.assert_allclose(derivatives[2:], expected, rtol=1e-12)
 
 

@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from .motion import map_residuals
-from .symbols import Formula, action, b, c, energy, flight, g, k, rebound, tau, v, w, x, zeros
+from .motion import flight_after_impact, map_residuals
+from .symbols import Formula, action, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero
 
 DIRECTION = sp.symbols("dx dv dw", real=True)
 _DIGITS = 40
@@ -12,12 +12,11 @@ _SMALL = sp.Float("1e-25")  # differences that are only rounding
 
 def tangent_map() -> list[sp.Expr]:
     """Tangent map of one impact and flight on DIRECTION, by implicit differentiation of f = 0."""
-    speed, rate = rebound(v, w)
-    position, strain = flight(x, speed, rate, tau)
+    position, speed, strain, rate = flight_after_impact()
     gap = position + strain
     pairs = list(zip((x, v, w), DIRECTION, strict=True))
     dtau = -sum(gap.diff(a) * d for a, d in pairs) / gap.diff(tau)
-    new = (-strain, speed + g * tau, strain.diff(tau))
+    new = (-strain, speed, rate)
     return [sum(n.diff(a) * d for a, d in pairs) + n.diff(tau) * dtau for n in new]
 
 
@@ -30,9 +29,8 @@ def jacobian_matrix() -> sp.Matrix:
 def _flight_examples():
     """Yield exact values of x, v, w, tau, k and g of flights that end in an impact."""
     for numbers in ((31, -7, 42, 260), (-12, 35, 9, 117), (25, 18, -3, 571)):
-        values = {k: sp.Rational(1, 5), tau: sp.Rational(numbers[3], 100)}
-        pairs = zip((x, v, w), numbers, strict=False)
-        values |= {a: sp.Rational(number, 100) for a, number in pairs}
+        pairs = zip((x, v, w, tau), numbers, strict=True)
+        values = {k: sp.Rational(1, 5)} | {a: sp.Rational(number, 100) for a, number in pairs}
         rest = sum(flight(x, *rebound(v, w), tau)).subs(g, 0)
         yield values | {g: (-2 * rest / tau**2).subs(values)}
 
@@ -42,12 +40,11 @@ def jacobian() -> Formula:
     (x1, v1, w1), lines = map_residuals(-1)
     lines = sp.Matrix(lines)
     implicit = -lines.jacobian((x1, v1, w1)).LUsolve(lines.jacobian((x, v, w)))
-    speed, rate = rebound(v, w)
-    strain = flight(x, speed, rate, tau)[1]
-    after = {x1: -strain, v1: speed + g * tau, w1: strain.diff(tau)}
+    _, speed, strain, rate = flight_after_impact()
     direct = jacobian_matrix()
     agree = True
     for values in _flight_examples():
+        after = {x1: -strain, v1: speed, w1: rate}
         end = {name: value.subs(values).evalf(_DIGITS) for name, value in after.items()}
         difference = (implicit.subs(values | end) - direct.subs(values)).evalf(_DIGITS)
         agree &= max(abs(a) for a in difference) < _SMALL
@@ -70,12 +67,11 @@ def determinants() -> Formula:
     matrix = jacobian_matrix()
     slope = sp.Matrix([[energy(x, v, w).diff(a) for a in (x, v, w)]])
     chart = sp.Matrix([[1, 0, 0], [0, 1, -k]])  # dx and dy, y = v - k w
-    speed, rate = rebound(v, w)
-    after = speed + g * tau + flight(x, speed, rate, tau)[1].diff(tau)
+    _, speed, _, rate = flight_after_impact()
     good = True
     for values in _flight_examples():
         numbers = matrix.subs(values).evalf(_DIGITS)
-        ratio = ((v + w) / after).subs(values).evalf(_DIGITS)
+        ratio = ((v + w) / (speed + rate)).subs(values).evalf(_DIGITS)
         basis = sp.Matrix.hstack(*slope.subs(values).evalf(_DIGITS).nullspace())
         flat = chart.subs(values).evalf(_DIGITS)
         area = (flat * numbers * basis).det() / (flat * basis).det()
@@ -92,9 +88,7 @@ def one_form() -> Formula:
     on_section = (form[0] - form[1]).subs({velocity: v, rate: w})  # du = -dx
     speed, after = rebound(v, w)
     change = (speed - k * after) - (v - k * w)
-    return Formula(
-        zeros([form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), change])
-    )
+    return Formula(zero(form[0] - velocity, form[1] - k * rate, on_section - (v - k * w), change))
 
 
 def area() -> Formula:
@@ -105,27 +99,22 @@ def area() -> Formula:
     """
     position, strain = flight(x, b, c, tau)
     speed, rate = position.diff(tau), strain.diff(tau)
-    whole = energy(x, b, c)
-    conditions = [action(x, b, c, tau).diff(tau) - speed**2 - k * rate**2]
-    conditions.append(action(x, b, c, 0))
+    conditions = [action(x, b, c, tau).diff(tau) - speed**2 - k * rate**2, action(x, b, c, 0)]
     start = {x: b - k * c, b: 0, c: 0, tau: 0}
     for variable in (x, b, c, tau):
         end = speed * position.diff(variable) + k * rate * strain.diff(variable)
         change = action(x, b, c, tau).diff(variable) - (end - start[variable])
-        conditions.append(change - tau * whole.diff(variable))
-    return Formula(zeros(conditions))
+        conditions.append(change - tau * energy(x, b, c).diff(variable))
+    return Formula(zero(*conditions))
 
 
 def reversible() -> Formula:
     """Derive that the reversor (x, v, w) -> (x, -b, -c) undoes a flight, so that P^-1 = R P R."""
-    speed, rate = rebound(v, w)
-    position, strain = flight(x, speed, rate, tau)
-    end = -strain, speed + g * tau, strain.diff(tau)
-    reflected = tuple(-a for a in rebound(end[1], end[2]))
-    back, back_strain = flight(end[0], *rebound(*reflected), tau)
-    gap = position + strain
+    position, speed, strain, rate = flight_after_impact()
+    reflected = tuple(-a for a in rebound(speed, rate))
+    back, back_strain = flight(-strain, *rebound(*reflected), tau)
     # back at x, and there with the velocities of R
     place = -back_strain - x
-    velocity = rebound(*reflected)[0] + g * tau + speed
-    closes = (back - x) + gap  # X(t) returns as U does where the gap is 0
-    return Formula(None, zeros([place, velocity, closes]))
+    velocity = rebound(*reflected)[0] + g * tau + rebound(v, w)[0]
+    closes = (back - x) + (position + strain)  # X(t) returns as U does where the gap is 0
+    return Formula(None, zero(place, velocity, closes))

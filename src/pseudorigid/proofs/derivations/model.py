@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from .symbols import E0, EV0, GRAVITY, Formula, M, R, T, energy, g, k, rebound, v, w, x, zero, zeros
+from .symbols import E0, EV0, GRAVITY, PAPER, Formula, M, R, T, energy, g, k, rebound, v, w, x, zero
 
 
 def equations_of_motion() -> Formula:
@@ -12,42 +12,48 @@ def equations_of_motion() -> Formula:
     potential = -M * GRAVITY * position + EV0 * strain**2 / 2
     equations = sp.calculus.euler.euler_equations(kinetic - potential, [position, strain], [T])
     printed = [M * position.diff(T, 2) - M * GRAVITY, E0 * strain.diff(T, 2) + EV0 * strain]
-    return Formula(zeros(e.lhs - e.rhs + p for e, p in zip(equations, printed, strict=True)))
+    return Formula(zero(*(e.lhs - e.rhs + p for e, p in zip(equations, printed, strict=True))))
+
+
+def _over_sphere(f) -> sp.Expr:
+    """Integrate a function of the polar angle theta over the unit sphere."""
+    theta, phi = sp.symbols("theta phi", positive=True)
+    return sp.integrate(f(theta) * sp.sin(theta), (theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
 
 
 def euler_tensor() -> Formula:
     """Check (4): the integral of rho X3^2 is a component, not the trace. Value: k, solid ball."""
-    r, theta, phi = sp.symbols("r theta phi", positive=True)
+    r = sp.symbols("r", positive=True)
+    printed, corrected, inertias = True, True, []
+    for power in (0, 1, 2, 7):  # of the radius, to which the density is proportional
 
-    def over_ball(f, power):
-        ranges = ((r, 0, R), (theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
-        return sp.integrate(r**power * f * r**2 * sp.sin(theta), *ranges)
+        def over_ball(f, power=power):
+            return sp.integrate(r ** (power + 2) * _over_sphere(f), (r, 0, R))
 
-    printed, corrected, solid = True, True, None
-    for power in (0, 1, 2, 7):
-        component = over_ball((r * sp.cos(theta)) ** 2, power)
-        trace, mass = over_ball(r**2, power), over_ball(1, power)
+        component = over_ball(lambda theta: (r * sp.cos(theta)) ** 2)
+        trace, mass = over_ball(lambda theta: r**2), over_ball(lambda theta: 1)
         printed &= zero(component - trace)
         corrected &= zero(component - trace / 3)
-        solid = sp.simplify(component / (mass * R**2)) if solid is None else solid
-    return Formula(printed, corrected, float(solid))
+        inertias.append(sp.simplify(component / (mass * R**2)))
+    return Formula(printed, corrected, float(inertias[0]))
 
 
 def shell() -> Formula:
     """Check (5): k = 1 for a shell as printed; 1/3, the value, by the component."""
-    theta, phi = sp.symbols("theta phi", positive=True)
-    ranges = ((theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
-    mass = sp.integrate(R**2 * sp.sin(theta), *ranges)
-    component = sp.integrate((R * sp.cos(theta)) ** 2 * R**2 * sp.sin(theta), *ranges)
-    inertia = sp.simplify(component / (mass * R**2))
+    inertia = _over_sphere(lambda theta: sp.cos(theta) ** 2) / _over_sphere(lambda theta: 1)
     return Formula(inertia == 1, inertia == sp.Rational(1, 3), float(inertia))
+
+
+def _stiffness(young, nu) -> tuple[sp.Matrix, sp.Expr]:
+    """Return the stiffness of the strains (11, 22, 33), and the shear modulus."""
+    lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
+    return sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0)), shear
 
 
 def uncoupled() -> Formula:
     """Check that only at a Poisson's ratio of 0 a force along an axis strains that axis alone."""
     young, nu = sp.symbols("Y nu", positive=True)
-    lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
-    moduli = sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0))
+    moduli, _ = _stiffness(young, nu)
     alone = moduli.subs(nu, 0) == young * sp.eye(3) and not zero(moduli[0, 1])
     alike = sorted(moduli.eigenvals().values()) == [1, 2]  # the two deviatoric modes
     return Formula(bool(alone and alike))
@@ -59,61 +65,58 @@ def modes() -> Formula:
     Strains are (11, 22, 33) and the three shears, which all have the same inertia. A force along 3
     excites the span of its direction and the images of that under powers of the stiffness.
     """
-    young, nu = sp.symbols("Y nu", positive=True)
-    lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
-    normal = sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0))
+    normal, shear = _stiffness(*sp.symbols("Y nu", positive=True))
     stiffness = sp.diag(normal, 2 * shear * sp.eye(3))
     columns = [sp.Matrix([0, 0, 1, 0, 0, 0])]
     for _ in range(5):
         columns.append(stiffness * columns[-1])
     excited = sp.Matrix.hstack(*columns)
     rank = excited.rank(simplify=True)
-    unsheared = all(zero(entry) for entry in excited[3:, :])
     alike = sorted(normal.eigenvals().values()) == [1, 2]  # the two deviatoric modes
-    return Formula(
-        rank == 3 and unsheared and alike, rank == 2 and unsheared and alike, float(rank)
-    )
+    holds = zero(*excited[3:, :]) and alike
+    return Formula(rank == 3 and holds, rank == 2 and holds, float(rank))
 
 
 def softness() -> Formula:
     """Compute, as the value, Young's modulus in units of rho g R for g = 0.04 and k = 1/5."""
     density, young = sp.symbols("rho Y", positive=True)
-    volume = 4 * sp.pi * R**3 / 3
-    omega2 = young * volume / (k * density * volume * R**2)  # (16) with (5)
-    needed = sp.solve(GRAVITY / (omega2 * R) - sp.Rational(1, 25), young)[0]
-    ratio = sp.simplify(needed.subs(k, sp.Rational(1, 5)) / (density * GRAVITY * R))
+    omega2 = young / (k * density * R**2)  # (16) with (5)
+    needed = sp.solve(GRAVITY / (omega2 * R) - g, young)[0]
+    ratio = sp.simplify(needed.subs(PAPER) / (density * GRAVITY * R))
     return Formula(None, bool(ratio.is_number), float(ratio))
+
+
+_BEFORE = sp.symbols("xm um", real=True)  # velocities just before the impact
+_PRINTED_IMPULSE = 2 * k / (1 + k) * M * (_BEFORE[0] + R * _BEFORE[1])
 
 
 def impulse() -> Formula:
     """Derive (13) from (11) and (12)."""
-    before_x, before_u, p = sp.symbols("xm um p", real=True)
+    (before_x, before_u), p = _BEFORE, sp.symbols("p", real=True)
     inertia = k * M * R**2
     after = before_x - p / M, before_u - R * p / inertia
     energy_change = M * (after[0] ** 2 - before_x**2) + inertia * (after[1] ** 2 - before_u**2)
     nontrivial = [s for s in sp.solve(energy_change, p) if s != 0]
-    printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
-    return Formula(len(nontrivial) == 1 and zero(nontrivial[0] - printed))
+    return Formula(len(nontrivial) == 1 and zero(nontrivial[0] - _PRINTED_IMPULSE))
 
 
 def impulse_without_stiffness() -> Formula:
     """Check that (13) contains no stiffness EV0."""
-    before_x, before_u = sp.symbols("xm um", real=True)
-    printed = 2 * k / (1 + k) * M * (before_x + R * before_u)
-    return Formula(EV0 not in printed.free_symbols and impulse().printed)
+    return Formula(EV0 not in _PRINTED_IMPULSE.free_symbols and impulse().printed)
 
 
 def jump_conditions() -> Formula:
     """Derive (14) and (25): energy kept, contact speed reversed, an involution."""
     after = rebound(v, w)
-    printed = (
-        (1 - k) / (1 + k) * v - 2 * k / (1 + k) * w,
-        -2 / (1 + k) * v - (1 - k) / (1 + k) * w,
-    )
     again = rebound(*after)
-    conditions = [a - b for a, b in zip(after, printed, strict=True)]
-    conditions += [energy(x, *after) - energy(x, v, w), sum(after) + v + w]
-    return Formula(zeros([*conditions, again[0] - v, again[1] - w]))
+    return Formula(zero(
+        after[0] - ((1 - k) / (1 + k) * v - 2 * k / (1 + k) * w),
+        after[1] - (-2 / (1 + k) * v - (1 - k) / (1 + k) * w),
+        energy(x, *after) - energy(x, v, w),
+        sum(after) + v + w,
+        again[0] - v,
+        again[1] - w,
+    ))  # fmt: skip
 
 
 _MASS, _LENGTH, _TIME = sp.symbols("mass length time", positive=True)
@@ -148,15 +151,11 @@ def scaling() -> Formula:
     rate, position, strain, unit = sp.symbols("omega X U L", positive=True)
     dx, du = sp.symbols("dX dU", real=True)
     inertia = k * M * R**2
-    lagrangian = (
-        M * (R * rate * dx) ** 2 / 2
-        + inertia * (rate * du) ** 2 / 2
-        + M * GRAVITY * R * position
-        - rate**2 * inertia * strain**2 / 2
-    )
+    kinetic = M * (R * rate * dx) ** 2 / 2 + inertia * (rate * du) ** 2 / 2
+    potential = -M * GRAVITY * R * position + rate**2 * inertia * strain**2 / 2
     scaled = dx**2 / 2 + k * du**2 / 2 + g * position - k * strain**2 / 2
     scaled = scaled.subs(g, GRAVITY / (rate**2 * R))
-    scaled_up = {x: unit * x, v: unit * v, w: unit * w, g: unit * g}
+    scaled_up = {a: unit * a for a in (x, v, w, g)}
     whole = energy(x, v, w)
     free = whole.subs(scaled_up, simultaneous=True) - unit**2 * whole
-    return Formula(zero(lagrangian / (M * rate**2 * R**2) - scaled) and zero(free))
+    return Formula(zero((kinetic - potential) / (M * rate**2 * R**2) - scaled, free))

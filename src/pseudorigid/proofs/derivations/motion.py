@@ -2,8 +2,8 @@
 
 import sympy as sp
 
+from .symbols import PAPER, Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero
 from .symbols import E as LEVEL
-from .symbols import Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero, zeros
 
 
 def flights() -> Formula:
@@ -14,7 +14,7 @@ def flights() -> Formula:
     conditions += [a.subs(T, 0) - a0 for a, a0 in zip(start, (x, b, -x, c), strict=True)]
     speed = position.diff(T).subs({T: tau, b: rebound(v, w)[0]})
     printed = (speed - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g - tau
-    return Formula(zeros([*conditions, printed]))
+    return Formula(zero(*conditions, printed))
 
 
 def flow() -> Formula:
@@ -26,10 +26,17 @@ def flow() -> Formula:
         speed + g * T,
         rate * sp.cos(T) - strain * sp.sin(T),
     ])  # fmt: skip
-    moved = [end.diff(T) - sp.Matrix([end[2], end[3], g, -end[1]])]  # it solves (23)
+    moved = end.diff(T) - sp.Matrix([end[2], end[3], g, -end[1]])  # it solves (23)
     tangent = end.jacobian(start)
     form = sp.Matrix([[0, 0, 1, 0], [0, 0, 0, k], [-1, 0, 0, 0], [0, -k, 0, 0]])
-    return Formula(zeros([*moved[0], *(tangent.T * form * tangent - form)]))
+    return Formula(zero(*moved, *(tangent.T * form * tangent - form)))
+
+
+def flight_after_impact():
+    """Return position, xdot, strain and udot a time tau after the impact of x, v and w."""
+    speed, rate = rebound(v, w)
+    position, strain = flight(x, speed, rate, tau)
+    return position, speed + g * tau, strain, strain.diff(tau)
 
 
 def map_residuals(sign):
@@ -47,16 +54,13 @@ def map_residuals(sign):
 
 def impact_map() -> Formula:
     """Derive (28), with the other sign in its first line."""
-    speed, rate = rebound(v, w)
-    position, strain = flight(x, speed, rate, tau)
+    position, speed, strain, rate = flight_after_impact()
     holds = []
     for sign in (1, -1):
         (x1, v1, w1), lines = map_residuals(sign)
-        after = {v1: speed + g * tau, w1: strain.diff(tau)}
         # the first line is about the centre, the others about the strain, u = -x at an impact
-        places = (position, -strain, -strain)
-        pairs = zip(lines, places, strict=True)
-        holds.append(zeros(line.subs(x1, place).subs(after) for line, place in pairs))
+        pairs = zip(lines, (position, -strain, -strain), strict=True)
+        holds.append(zero(*(line.subs({x1: place, v1: speed, w1: rate}) for line, place in pairs)))
     return Formula(*holds)
 
 
@@ -70,9 +74,9 @@ def conserved_energy() -> Formula:
     return Formula(zero(whole - energy(x, b, c)) and convex)
 
 
-def _largest_x():
-    """Largest x on an energy surface."""
-    return g / k + sp.sqrt(2 * LEVEL / k + g**2 / k**2)
+def _end_of_section(sign):
+    """Largest or smallest x on an energy surface, by the sign."""
+    return g / k + sign * sp.sqrt(2 * LEVEL / k + g**2 / k**2)
 
 
 def bound() -> Formula:
@@ -82,28 +86,28 @@ def bound() -> Formula:
     """
     potential = k * x**2 / 2 - g * x
     limit = k / 2 - g
-    largest = _largest_x()
-    follows = zero(potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k))
-    follows = follows and zero(potential.subs(x, largest) - LEVEL)
+    largest = _end_of_section(1)
+    follows = zero(
+        potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k),
+        potential.subs(x, largest) - LEVEL,
+    )
     excess = sp.symbols("excess", positive=True)
     at_limit = largest.subs(LEVEL, limit)
     below = sp.simplify(at_limit.subs(k, g + excess)) == 1
     above = sp.simplify(at_limit.subs(g, k + excess)) == 1
-    value = float(limit.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
-    return Formula(follows and below and above, follows and below, value)
+    return Formula(follows and below and above, follows and below, float(limit.subs(PAPER)))
 
 
 def bound_in_flight() -> Formula:
     """Derive (6) in flight as well: the amplitude of u is at most the largest x at an impact."""
     square = sp.solve(energy(x, b, c) - LEVEL, c)[0] ** 2 + x**2
-    strain = flight(x, b, c, T)[1]
-    largest = _largest_x()
-    conditions = [
+    strain, largest = flight(x, b, c, T)[1], _end_of_section(1)
+    holds = zero(
         square - (2 * (LEVEL + g * x) - b**2) / k,
         2 * (LEVEL + g * largest) / k - largest**2,
         strain**2 + strain.diff(T) ** 2 - (x**2 + c**2),
-    ]
-    return Formula(zeros(conditions) and bool(sp.diff(2 * (LEVEL + g * x) / k, x) > 0))
+    )
+    return Formula(holds and bool(sp.diff(2 * (LEVEL + g * x) / k, x) > 0))
 
 
 def smooth() -> Formula:
@@ -111,11 +115,10 @@ def smooth() -> Formula:
 
     A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
     """
-    smallest = g / k - sp.sqrt(2 * LEVEL / k + g**2 / k**2)
-    energies = sp.solve(smallest + g, LEVEL)
+    energies = sp.solve(_end_of_section(-1) + g, LEVEL)
     threshold = g**2 * (1 + k / 2)
-    value = float(threshold.subs({k: sp.Rational(1, 5), g: sp.Rational(1, 25)}))
-    return Formula(None, len(energies) == 1 and zero(energies[0] - threshold), value)
+    holds = len(energies) == 1 and zero(energies[0] - threshold)
+    return Formula(None, holds, float(threshold.subs(PAPER)))
 
 
 def contact_speed() -> Formula:
@@ -125,6 +128,6 @@ def contact_speed() -> Formula:
     states of every energy above the lowest, so that equality occurs: a grazing impact.
     """
     speed = sp.solve(energy(x, v, -v) - LEVEL, v)
-    inside = {k: sp.Rational(1, 5), g: sp.Rational(1, 25), x: 0, LEVEL: sp.Rational(1, 100)}
+    inside = PAPER | {x: 0, LEVEL: sp.Rational(1, 100)}
     grazing = any(s.subs(inside).is_real and s.subs(inside) != 0 for s in speed)
     return Formula(not grazing, grazing)

@@ -1,7 +1,6 @@
 """Symbols of the derivations, and the model in them: impact law, flight, energy, action."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -12,35 +11,20 @@ R, M, E0, EV0, GRAVITY, T = sp.symbols("R m E_0 E_V gamma t", positive=True)
 # Dimensionless.
 k, g, tau = sp.symbols("k g tau", positive=True)
 x, v, w, b, c, E = sp.symbols("x v w b c E", real=True)
+PAPER = {k: sp.Rational(1, 5), g: sp.Rational(1, 25)}
 
 
-@dataclass(frozen=True)
-class Formula:
-    """The result of deriving one formula.
+class Formula(NamedTuple):
+    """The result of deriving one formula."""
 
-    Parameters
-    ----------
-    printed : bool or None
-        Whether it holds as printed; None if the paper prints none.
-    corrected : bool or None
-        Whether the corrected one holds; None if it needs no correction.
-    value : float
-        A number that comes with it, NaN without one.
-    """
-
-    printed: bool | None
-    corrected: bool | None = None
-    value: float = float("nan")
+    printed: bool | None  # whether it holds as printed; None if the paper prints none
+    corrected: bool | None = None  # whether the corrected one holds; None without a correction
+    value: float = float("nan")  # a number that comes with it
 
 
-def zero(expression: sp.Expr) -> bool:
-    """Whether an expression is zero for all values of its symbols."""
-    return sp.simplify(sp.expand(sp.expand_trig(expression))) == 0
-
-
-def zeros(expressions: Iterable[sp.Expr]) -> bool:
-    """Whether each of several expressions is zero for all values of its symbols."""
-    return all(zero(expression) for expression in expressions)
+def zero(*expressions: sp.Expr) -> bool:
+    """Whether expressions are zero for all values of their symbols."""
+    return all(sp.simplify(sp.expand(sp.expand_trig(e))) == 0 for e in expressions)
 
 
 def rebound(v, w):
@@ -61,9 +45,5 @@ def energy(x, v, w):
 def action(x, b, c, t):
     """Integral of xdot^2 + k udot^2 over a flight, in closed form."""
     mixed = sp.sin(t) * sp.cos(t)
-    return (
-        b**2 * t
-        + b * g * t**2
-        + g**2 * t**3 / 3
-        + k * ((x**2 * (t - mixed) + c**2 * (t + mixed)) / 2 + x * c * sp.sin(t) ** 2)
-    )
+    strain = (x**2 * (t - mixed) + c**2 * (t + mixed)) / 2 + x * c * sp.sin(t) ** 2
+    return b**2 * t + b * g * t**2 + g**2 * t**3 / 3 + k * strain
