@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 
 from ..dynamics import branch as branch_rule
+from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.manifolds import trace_manifold
@@ -20,10 +21,11 @@ from ..dynamics.tangent_orbits import begin, propagate_with_tangent
 from ..dynamics.variables import of_type
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from ..sweep.cell import cells
+from ..sweep.cell import cells, sunflower_points
+from ..sweep.verdict import windows
 from . import states
 from .machine import machine
-from .methods import full_length_cell, pynamicalsys_lyapunov, scipy_events, taylor
+from .methods import pynamicalsys_lyapunov, scipy_events, taylor
 from .methods.counted_methods import scan_method
 from .timing import interleaved
 from .verdicts import random_cells
@@ -55,7 +57,7 @@ ROWS = (
     ("ensemble, every impact stored", "stored", "one sincos", "at most 1.6"),
     ("ensemble with a tangent vector each", "vectors", "one sincos", "at most 3; 5 with AVX2"),
     ("spectra of an ensemble, an impact", "spectra", "spectrum", "at most 0.5"),
-    ("a cell, each orbit alone and to its end", "to the end", "cells", "at least 6"),
+    ("a cell, each orbit alone and to its end", "to the end", "cells", "at least 8"),
     ("weak branch, each image from the segment", "from the segment", "branch", "at least 5"),
     ("period 12 at E/g^2 = 1e5: 2,006 orbits", "many", "none", "at most 50"),
 )
@@ -111,17 +113,21 @@ def run(repetitions: int = REPETITIONS) -> list[str]:
 
 def _cells_branches_and_searches() -> dict[str, tuple[Callable, int]]:
     """Return calls that compute cells, branches and periodic orbits, with numbers of units."""
-    drawn = random_cells(math.prod(CELLS), 2)
-    rows = [drawn[i : i + CELLS[1]] for i in range(0, len(drawn), CELLS[1])]
+    rows = np.reshape(random_cells(math.prod(CELLS), 2), (*CELLS, 2)).tolist()
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
+    drawn = [(k, e) for k, energies in plane for e in energies]
+    turning, growing = windows((4000,))
     saddle = of_type(symmetric_orbits(states.BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
     branch = partial(trace_manifold, states.BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
     ball = Ball(k=states.BALL.k, g=1.0)
 
     def each_to_the_end():
-        for k, energies in plane:
-            for e in energies:
-                full_length_cell.cell(k, e, 200, 4000)
+        for k, e in drawn:
+            x, _, rotation = fixed_point.numbers(k, e)
+            for point in np.stack(sunflower_points(k, e, 200)).T:
+                sums = np.zeros((len(turning), 1)), np.zeros((len(growing), 1))
+                one = begin(k, point[:, None], x, rotation)
+                propagate_with_tangent(one, k, 0, 4000, turning, growing, *sums)
 
     def from_the_segment():
         usual, branch_rule.WEAK = branch_rule.WEAK, 0.0
@@ -147,14 +153,17 @@ def _spread(seconds: tuple[float, float, float]) -> str:
     return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
 
 
+def _columns(start) -> tuple:
+    """Return states as columns that a loop may change, and the ball's k and g."""
+    return *(np.array(a, ndmin=1) for a in start), states.BALL.k, states.BALL.g
+
+
 def _steps(start, impacts: int) -> None:
-    ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
-    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size))
+    states.BALL.map.steps(*_columns(start), impacts, np.empty(np.size(start[0])))
 
 
 def _history(start, out: np.ndarray) -> None:
-    columns = [np.array(a, ndmin=1) for a in start]
-    states.BALL.map.history(*columns, states.BALL.k, states.BALL.g, out)
+    states.BALL.map.history(*_columns(start), out)
 
 
 def _with_tangent(start, impacts: int) -> None:
@@ -172,12 +181,6 @@ def _along(state, count: int) -> tuple[np.ndarray, ...]:
     return tuple(a.copy() for a in out[0].T[:3])
 
 
-def _use_one_core() -> None:
-    """Keep this process on one core, so that threads gain nothing."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
-
-
 if __name__ == "__main__":
-    _use_one_core()
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
     print("\n".join(run()))

@@ -43,10 +43,20 @@ def edges(methods, count: int = 200) -> xr.Dataset:
     dataset near (method, side, distance) is against s = xdot + udot, and touch (method, side,
     depth) against the height of a maximum of the gap.
     """
-    near = _failing(methods, lambda side, e: states.grazing_at(e, side, count), DISTANCES)
-    touch = _failing(
-        methods, lambda side, e: states.near_miss(side * states.TEN_TO_MINUS[e], count), DEPTHS
-    )
+
+    def failing(states_at: Callable, exponents: Sequence[int]) -> np.ndarray:
+        """Return failing shares (method, side, exponent) over states_at(side, exponent)."""
+        shares = np.empty((len(methods), len(SIDES), len(exponents)))
+        for j, side in enumerate(SIDES):
+            for i, exponent in enumerate(exponents):
+                columns = states_at(side, exponent)
+                truth = proved_times(BALL, columns)
+                for m, method in enumerate(methods):
+                    shares[m, j, i] = is_wrong(method.solve(BALL, *columns)[0], truth).mean()
+        return shares
+
+    near = failing(lambda side, e: states.grazing_at(e, side, count), DISTANCES)
+    touch = failing(lambda side, e: states.near_miss(side * states.TEN_TO_MINUS[e], count), DEPTHS)
     variables = {
         "near": (("method", "side", "distance"), near, "failing share, by xdot + udot"),
         "touch": (("method", "side", "depth"), touch, "failing share, by height of a maximum"),
@@ -55,18 +65,6 @@ def edges(methods, count: int = 200) -> xr.Dataset:
         "depth": ("depth", DEPTHS, "minus the decimal exponent of the maximum's height"),
     }
     return dataset(methods, variables, states=count)
-
-
-def _failing(methods, states_at: Callable, exponents: Sequence[int]) -> np.ndarray:
-    """Return failing shares (method, side, exponent) over states_at(side, exponent)."""
-    shares = np.empty((len(methods), len(SIDES), len(exponents)))
-    for j, side in enumerate(SIDES):
-        for i, exponent in enumerate(exponents):
-            columns = states_at(side, exponent)
-            truth = proved_times(BALL, columns)
-            for m, method in enumerate(methods):
-                shares[m, j, i] = is_wrong(method.solve(BALL, *columns)[0], truth).mean()
-    return shares
 
 
 def certified_orbit(ball: Ball, state, impacts: int) -> tuple[np.ndarray, np.ndarray]:
@@ -88,14 +86,11 @@ def energy_drift(ball: Ball, state, track: np.ndarray) -> np.ndarray:
 def orbits(impacts: int = MILLION) -> xr.Dataset:
     """Compare the methods in this package's arithmetic along the chaotic orbit.
 
-    Returns
-    -------
-    xarray.Dataset
-        missed, evaluations (method): impacts of the certified orbit that the method flies past,
-        and what it spends on one; drift (method, record): the largest relative error of the energy
-        so far on the method's own orbit; apart (method, impact): median over starts of the distance
-        in x between the method's orbit and the proved one; agree (one, other): for how many impacts
-        two methods' orbits stay within SEPARATION, the last row and column the proved orbit's.
+    The dataset has missed, evaluations (method): impacts of the certified orbit that the method
+    flies past, and what it spends on one; drift (method, record): the largest relative error of the
+    energy so far on the method's own orbit; apart (method, impact): median over starts of the
+    distance in x between the method's orbit and the proved one; agree (one, other): for how many
+    impacts two methods' orbits stay within SEPARATION, the last row and column the proved orbit's.
     """
     methods = ORBIT_METHODS
     start = states.chaotic()
@@ -110,10 +105,8 @@ def orbits(impacts: int = MILLION) -> xr.Dataset:
         drift.append(energy_drift(BALL, start, track)[records - 1])
     starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
     tracks = [[m.orbit(BALL, state, AGREE_IMPACTS)[0][0] for state in starts] for m in methods]
-    proved = [
-        np.array(reference_solver.orbit(BALL, state, AGREE_IMPACTS))[:, 0] for state in starts
-    ]
-    tracks = np.array([*tracks, proved])
+    tracks.append([[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts])
+    tracks = np.array(tracks)
     apart = np.median(np.abs(tracks[:-1] - tracks[-1]), axis=1)
     agree = [[_agreement(a, b) for b in tracks] for a in tracks]
     distance = "median distance in x from the judge's orbit"

@@ -62,19 +62,9 @@ class Errors(NamedTuple):
 def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr.Dataset:
     """Compute each figure's error under each method, and which methods are good enough.
 
-    Parameters
-    ----------
-    scenes : dict
-        Name -> block of the checked config, with its axes.
-    measures : dict
-        Name -> measure of error, a key of MEASURES; others raise a ValueError.
-    artifacts : dict
-        (stage, name) -> Dataset, for the periodic orbits and manifolds of the scenes.
-
-    Returns
-    -------
-    xarray.Dataset
-        On (scene, method).
+    `scenes` has the blocks of the checked config, with their axes, `measures` a key of MEASURES for
+    each, and `artifacts` the Dataset of (stage, name), for periodic orbits and manifolds. Raises
+    ValueError for an unknown measure. The dataset is on (scene, method).
     """
     rows = []
     for name, block in scenes.items():
@@ -88,7 +78,8 @@ def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr
     )
     good = (error <= limit[:, None]) & ((missed == 0) | ~misses_show[:, None])
     cheapest = np.where(good, evaluations, np.inf).argmin(axis=1)
-    digit = [_last_digit(block, axis) for block, axis in zip(scenes.values(), axes, strict=True)]
+    blocks = zip(scenes.values(), axes, strict=True)
+    digit = [_last_digit(block["axes"][axis]["ticks"]) for block, axis in blocks]
     width = stroke * DPI / 72 * pixel
     each = ("scene", "method")
     variables = {
@@ -109,7 +100,7 @@ def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr
 
 def _portrait(block: dict) -> Errors:
     ball, states, impacts = _orbits(block)
-    pixel = _box_pixel(block)
+    pixel = 1.0 / Box(block).view.scale
     radius = ball.section(block["energy"])[1]
     error = []
     for method in METHODS:
@@ -122,10 +113,10 @@ def _portrait(block: dict) -> Errors:
 def _exponents(block: dict) -> Errors:
     ball, states, impacts = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
-    means = []
-    for method in METHODS:
-        exponents_of_orbits = map(partial(_vector_exponent, ball, method), states, impacts)
-        means.append(sum(exponents_of_orbits) / len(states))
+    means = [
+        sum(map(partial(_vector_exponent, ball, method), states, impacts)) / len(states)
+        for method in METHODS
+    ]
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
     missed, evaluations = _misses(ball, states, impacts)
@@ -153,7 +144,10 @@ def _motion(block: dict, periodic: xr.Dataset) -> Errors:
 
 def _branches(block: dict, periodic: xr.Dataset, manifolds: xr.Dataset) -> Errors:
     ball = Ball(**block["ball"])
-    pixel = _box_pixel(block) if "view" in block else _pixels(closeup.plane(block))[0]
+    if "view" in block:
+        pixel = 1.0 / Box(block).view.scale
+    else:
+        pixel, _ = _pixels(closeup.plane(block))
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
@@ -181,11 +175,6 @@ MEASURES = {
 }
 
 
-def _box_pixel(block: dict) -> float:
-    """Size of a pixel in a picture with a view."""
-    return 1.0 / Box(block).view.scale
-
-
 def _pixels(plane) -> tuple[float, float]:
     """Size of a pixel on the two axes of a plane picture."""
     left, bottom, right, top = plane.frame
@@ -193,11 +182,9 @@ def _pixels(plane) -> tuple[float, float]:
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
 
 
-def _last_digit(block: dict, axis: str) -> float:
-    """Value of the last digit that the labels of an axis show."""
-    ticks = block["axes"][axis]["ticks"]
-    decimals = max(len(f"{tick:.10g}".partition(".")[2]) for tick in ticks)
-    return float(f"1e-{decimals}")
+def _last_digit(ticks: list[float]) -> float:
+    """Value of the last digit that the labels of ticks show."""
+    return float(f"1e-{max(len(f'{tick:.10g}'.partition('.')[2]) for tick in ticks)}")
 
 
 def _orbits(block: dict) -> tuple[Ball, list, list[int]]:

@@ -8,5 +8,5 @@ of states just before an impact, arrays (n,). It returns flight times, NaN if no
 cost of each. `counted_methods` has the methods in this package's arithmetic, whose results are the
 same on every machine. `scipy_events` and `taylor` have those of libraries, whose results are
 measurements; `external_solver` applies them to one flight at a time. `pynamicalsys_lyapunov` has
-the exponents of a library, and `full_length_cell` an earlier rule for the cells of a sweep.
+the exponents of a library.
 """
