@@ -26,8 +26,9 @@ def uniform(count: int) -> np.ndarray:
     """Return states uniform on the section in (x, y), coordinates in which the map keeps area."""
     centre, radius = BALL.section(ENERGY)
     # 0.785 of the square is in the disk; the 20 are for small counts
-    pairs = np.random.default_rng(1).uniform(-1.0, 1.0, (2 * count + 20, 2))
-    a, b = pairs[pairs[:, 0] * pairs[:, 0] + pairs[:, 1] * pairs[:, 1] < 1.0][:count].T
+    a, b = np.random.default_rng(1).uniform(-1.0, 1.0, (2 * count + 20, 2)).T
+    inside = np.flatnonzero(a * a + b * b < 1.0)[:count]
+    a, b = a[inside], b[inside]
     y = b * radius * np.sqrt(BALL.k * (1.0 + BALL.k))
     return np.array(BALL.state_xy(centre + a * radius, y, ENERGY))
 
@@ -69,8 +70,7 @@ def near_miss(height: float, count: int) -> np.ndarray:
     k, g = BALL.k, BALL.g
     states = []
     while len(states) < count:
-        x = random.uniform(-0.3, 0.3)
-        t = random.uniform(1.0, 6.0)
+        x, t = random.uniform(-0.3, 0.3), random.uniform(1.0, 6.0)
         times = t * (np.arange(1, 201) / 200.0)
         sines, cosines = sincos_each(times)
         sine, cosine = sines[-1], cosines[-1]

@@ -6,10 +6,10 @@ EARLY impacts is chaotic and is followed no further. The methods are:
 
     growth below 3            after a fixed number of impacts: an earlier rule of the sweeps
     growth, best threshold    after a fixed number of impacts
-    SALI                      the smaller alignment index of two tangent vectors (Skokos 2001); in
-                              two dimensions GALI_2 equals it up to a factor
+    SALI                      the smaller alignment index of two tangent vectors (Skokos, J. Phys. A
+                              34, 2001); in two dimensions GALI_2 equals it up to a factor
     weighted Birkhoff average of the turns around the fixed point: the difference between the
-                              winding numbers of the two halves (Das et al. 2017)
+                              winding numbers of the two halves (Das et al., Nonlinearity 30, 2017)
     as soon as safe           `sweep.verdict`, with at most that many impacts
 
 A best threshold gives the fewest wrong verdicts on the first set of cells; the second is unseen.
@@ -59,17 +59,15 @@ def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
 
     The orbits of a cell start evenly over its section, as in a sweep. The dataset is on (set,
     method, length) and (set, cell).
-
-    References
-    ----------
-    Skokos, Alignment indices: a new, simple method for determining the ordered or chaotic nature of
-    orbits, J. Phys. A 34 (2001). Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity,
-    Nonlinearity 30 (2017).
     """
     drawn = [cell for number in range(len(SETS)) for cell in random_cells(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
         results = list(pool.map(lambda cell: _cell(*cell, orbits), drawn))
-    sets = [_joined(results[i * cells : (i + 1) * cells]) for i in range(len(SETS))]
+    orbit_keys = ("growth", "unsettled", "alignment", "safe", "followed", "truth")
+    sets = [
+        {key: np.concatenate([cell[key] for cell in part], axis=-1) for key in orbit_keys}
+        for part in (results[:cells], results[cells:])
+    ]
     shape = len(SETS), len(METHODS), len(LENGTHS)
     missed, alarms, cost = np.empty((3, *shape))
     threshold = np.full(shape[1:], np.nan)
@@ -120,16 +118,15 @@ def _cell(k: float, e: float, count: int) -> dict:
     states = np.stack(sunflower_points(k, e, count))
     orbits = k, states, np.full(count, x), np.full(count, rotation)
     safe = [classify_orbits(*orbits, length) for length in LENGTHS]
-    return (
-        {"k": k, "energy": e}
-        | _growth_and_truth(*orbits)
-        | {
-            "alignment": _alignment(*orbits),
-            "safe": np.array([verdicts.regular for verdicts in safe]),
-            "followed": np.array([verdicts.followed for verdicts in safe]),
-            "exponent": safe[-1].exponent,
-        }
-    )
+    return {
+        "k": k,
+        "energy": e,
+        **_growth_and_truth(*orbits),
+        "alignment": _alignment(*orbits),
+        "safe": np.array([verdicts.regular for verdicts in safe]),
+        "followed": np.array([verdicts.followed for verdicts in safe]),
+        "exponent": safe[-1].exponent,
+    }
 
 
 def _growth_and_truth(k, states, centre, expected) -> dict:
@@ -176,14 +173,6 @@ def _alignment(k, states, centre, expected) -> np.ndarray:
         alignment.append(-np.minimum(*gaps))  # low for vectors that point apart: regular
         start = stop
     return np.array(alignment)
-
-
-def _joined(cells: list[dict]) -> dict:
-    """Join the orbits of several cells."""
-    return {
-        key: np.concatenate([cell[key] for cell in cells], axis=-1)
-        for key in ("growth", "unsettled", "alignment", "safe", "followed", "truth")
-    }
 
 
 def _best_threshold(values: np.ndarray, truth: np.ndarray) -> float:

@@ -21,18 +21,15 @@ MIN_SECONDS = 0.02  # of one timing, so that the clock's resolution does not sho
 
 
 def counted(count: int = 2000) -> xr.Dataset:
-    """Compute errors, wrong roots and evaluations of the methods in this package's arithmetic.
-
-    `count` states of each set are used; the dataset is on (method, set).
-    """
+    """Compute (method, set): errors and evaluations of this package's methods."""
     return _errors(METHODS, _sets(count))
 
 
 def measured(methods, count: int = 200, repetitions: int = 5) -> xr.Dataset:
-    """Compute errors, wrong roots and evaluations of any methods, and seconds a flight.
+    """Compute (method, set): errors and evaluations of any methods, and seconds a flight.
 
     The repetitions are interleaved. The first `solve` of each method, which may compile something,
-    is not timed. The dataset is on (method, set), with median and quartiles of the seconds.
+    is not timed.
     """
     sets = _sets(count)
     data = _errors(methods, sets)

@@ -85,8 +85,7 @@ class CountedMethod:
 
     def solve(self, ball, x, xdot, udot) -> tuple[np.ndarray, np.ndarray]:
         """Return flight times and evaluations of states, arrays (n,); NaN if no root is found."""
-        tau = np.empty(x.size)
-        count = np.empty(x.size, np.int64)
+        tau, count = np.empty(x.size), np.empty(x.size, np.int64)
         _flights(self.kind, self.step, self.tolerance, x, xdot, udot, ball.k, ball.g, tau, count)
         return tau, count
 
@@ -96,9 +95,8 @@ class CountedMethod:
         The rows of the orbit (4, impacts) are x, xdot, udot just before each impact after the
         start, and the time tau of the flight that ends there.
         """
-        track = np.empty((4, impacts))
-        root_finder = self.kind, self.step, self.tolerance
-        return track, _orbit(*root_finder, *(float(a) for a in state), ball.k, ball.g, track)
+        track, settings = np.empty((4, impacts)), (self.kind, self.step, self.tolerance)
+        return track, _orbit(*settings, *(float(a) for a in state), ball.k, ball.g, track)
 
 
 OURS = CountedMethod("certified march", "certified march", MARCH)
