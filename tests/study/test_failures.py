@@ -20,28 +20,21 @@ def flown_past(method, columns):
     return [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), true, strict=True)]
 
 
-@pytest.fixture(scope="module")
-def edges():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(failures, "DISTANCES", (0, 4))
-        patch.setattr(failures, "DEPTHS", (3, 9))
-        return failures.edges((OURS, SCAN), count=25)
-
-
-def test_shares_near_grazing_and_touches_are_those_of_an_independent_solver(edges):
+def test_shares_near_grazing_and_touches_are_those_of_an_independent_solver(monkeypatch):
+    monkeypatch.setattr(failures, "DISTANCES", (0, 4))
+    monkeypatch.setattr(failures, "DEPTHS", (3, 9))
+    edges = failures.edges((OURS, SCAN), count=25)
     for j, side in enumerate(failures.SIDES):
-        for i, exponent in enumerate((0, 4)):
-            columns = states.grazing_at(exponent, side, 25)
+        for i, (near, touch) in enumerate(((0, 3), (4, 9))):
+            columns = states.grazing_at(near, side, 25)
             assert edges["near"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
-        for i, exponent in enumerate((3, 9)):
-            columns = states.near_miss(side * 10.0**-exponent, 25)
+            columns = states.near_miss(side * 10.0**-touch, 25)
             assert edges["touch"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
-    assert not edges["near"].values[0].any()
-    assert not edges["touch"].values[0].any()
+    assert not (edges["near"].values[0].any() or edges["touch"].values[0].any())
     assert edges["touch"].values[1, 0].min() > 0.5  # a touch is shorter than its step
 
 
-def test_the_count_of_missed_impacts_is_that_of_an_independent_solver():
+def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatch):
     """Each flight of the chaotic orbit that is counted ends at a later root."""
     impacts = 60_000
     columns, truth = failures.certified_orbit(BALL, states.chaotic(), impacts)
@@ -51,10 +44,9 @@ def test_the_count_of_missed_impacts_is_that_of_an_independent_solver():
     data = failures.missed((SCAN, OURS), impacts)
     assert data["missed"].values.tolist() == [sum(late), 0]
     assert 5 < sum(late) == data.attrs["hard"]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(failures, "ORBIT_METHODS", (OURS, SCAN))
-        patch.setattr(failures, "AGREE_STARTS", 1)
-        whole = failures.orbits(impacts)
+    monkeypatch.setattr(failures, "ORBIT_METHODS", (OURS, SCAN))
+    monkeypatch.setattr(failures, "AGREE_STARTS", 1)
+    whole = failures.orbits(impacts)
     assert whole["missed"].values.tolist() == [0, sum(late)]
     assert whole["drift"].values[1].max() < 1e-9  # energy does not show missed impacts
     assert np.all(np.diff(whole["drift"].values, axis=1) >= 0)

@@ -12,23 +12,14 @@ from pseudorigid.study.methods.counted_methods import ENGINES, OURS, SCANS
 BALL = {"k": 0.2, "g": 0.04}
 AXIS = {"limits": [-0.4, 0.6], "ticks": [-0.4, 0, 0.25]}
 PORTRAIT = {
-    "picture": "portrait",
-    "ball": BALL,
-    "energy": 0.01,
-    "starts": [0.53, {"x": 0.1, "y": 0.02}],
-    "impacts": 400,
-    "view": {"elevation": 40, "azimuth": 115},
+    "picture": "portrait", "ball": BALL, "energy": 0.01, "impacts": 400,
+    "starts": [0.53, {"x": 0.1, "y": 0.02}], "view": {"elevation": 40, "azimuth": 115},
     "axes": {name: AXIS for name in ("x", "xdot", "udot")},
-}
+}  # fmt: skip
 MOTION = {
-    "picture": "motion",
-    "ball": BALL,
-    "energy": 0.01,
-    "period": 1,
-    "type": "elliptic",
-    "duration": 30,
-    "axes": {"t": {"limits": [0, 30], "ticks": [0, 30]}, "displacement": AXIS},
-}
+    "picture": "motion", "ball": BALL, "energy": 0.01, "period": 1, "type": "elliptic",
+    "duration": 30, "axes": {"t": {"limits": [0, 30], "ticks": [0, 30]}, "displacement": AXIS},
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -81,11 +72,10 @@ def test_impacts_pixels_and_the_cheapest_method(errors):
     assert errors["cheapest"].values.tolist() == [0, 0]
 
 
-def test_a_missed_impact_makes_a_picture_of_orbits_wrong():
+def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):
     scene = PORTRAIT | {"impacts": 20_000, "starts": [0.534522]}
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(figure_errors, "METHODS", (OURS, SCANS[3]))
-        data = figure_errors.figure_errors({"sea": scene}, {"sea": "portrait"}, {})
+    monkeypatch.setattr(figure_errors, "METHODS", (OURS, SCANS[3]))
+    data = figure_errors.figure_errors({"sea": scene}, {"sea": "portrait"}, {})
     assert data["missed"].values[0, 1] > 0
     assert data["error"].values[0, 1] < 1.0
     assert data["good"].values[0].tolist() == [1, 0]
