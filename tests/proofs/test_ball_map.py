@@ -13,7 +13,7 @@ from pseudorigid import Ball
 from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.enclosure import flight
 from pseudorigid.proofs.enclosure.flight import Gap, UndecidedError, first_root
-from pseudorigid.proofs.enclosure.jets import Jet, algebra
+from pseudorigid.proofs.enclosure.jets import Jet
 from pseudorigid.proofs.enclosure.surface import exact
 
 PAPER = Surface("1/5", "1/25", "1/100")
@@ -90,11 +90,10 @@ def test_an_independent_map_of_60_digits_lies_in_the_balls():
 
 
 def test_jets_have_the_coefficients_of_finite_differences():
-    plane = algebra(2, 3)
     with ctx.workprec(400):
         h = arb(2) ** -60
         x0, y0 = arb("0.1"), arb("0.05")
-        jet = PAPER.impact(Jet.variable(plane, 0, x0), Jet.variable(plane, 1, y0))
+        jet = PAPER.impact(*Jet.plane(3, x0, y0))
         steps = range(-2, 3)
         images = {(i, j): PAPER.impact(x0 + i * h, y0 + j * h) for i in steps for j in steps}
         for part in range(4):

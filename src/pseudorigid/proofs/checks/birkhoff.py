@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from flint import acb, arb
 
 from ..enclosure.flight import UndecidedError
-from ..enclosure.jets import Jet, algebra
+from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface
 from .certificate import NotProvedError
 from .periodic import Orbit
@@ -52,8 +52,7 @@ def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
 
 def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
     """Return lambda, and the jet of P^n in z and conj(z); the errors are those of `normal_form`."""
-    plane = algebra(2, order)
-    x, y = (Jet.variable(plane, i, value) for i, value in enumerate(orbit.points[0]))
+    x, y = Jet.plane(order, *orbit.points[0])
     try:
         for _ in orbit.points:
             x, y, *_ = surface.impact(x, y)
@@ -65,10 +64,10 @@ def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
     sine = (1 - cosine * cosine).sqrt() * (1 if b > 0 else -1)
     beta = (b / sine).sqrt()
     delta = beta * (cosine - a) / b
-    z, conjugate = (Jet.variable(plane, i, acb(0)) for i in (0, 1))
+    z, conjugate = Jet.plane(order, acb(0), acb(0))
     q, p = (z + conjugate) * acb(0.5), (z - conjugate) * (acb(0.5) / I)
     old = (q * acb(beta), q * acb(delta) + p * acb(1 / beta))
-    shifted = [Jet(plane, [acb(0), *(acb(c) for c in jet.coefficients[1:])]) for jet in (x, y)]
+    shifted = [Jet(z.algebra, [acb(0), *map(acb, jet.coefficients[1:])]) for jet in (x, y)]
     x, y = (jet.at(*old) for jet in shifted)
     map_ = x * (1 / beta - I * delta) + y * (I * beta)
     multiplier = acb(cosine, -sine)
@@ -83,14 +82,13 @@ def _conjugate(jet: Jet) -> Jet:
 
 def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
     """Normalise the map degree by degree, and return tau_1, tau_2, ..."""
-    plane = map_.algebra
-    change = Jet.variable(plane, 0, acb(0))
+    change, _ = Jet.plane(order, acb(0), acb(0))
     normal = change * multiplier
     inverse = multiplier.conjugate()
     terms = []
     for degree in range(2, order + 1):
         error = map_.at(change, _conjugate(change)) - change.at(normal, _conjugate(normal))
-        for index, (i, j) in enumerate(plane.monomials):
+        for index, (i, j) in enumerate(change.algebra.monomials):
             if i + j != degree:
                 continue
             if i == j + 1:

@@ -36,24 +36,20 @@ class Finding:
 
 
 class Certificate:
-    """The fields of a certificate, a TOML text with the required value of the field `kind`.
+    """The fields of a certificate, a TOML text, of the required kind and Surface, if one is given.
 
     Every method raises NotProvedError for a field that is missing, misshapen or not as expected.
     """
 
-    def __init__(self, text: str, kind: str):
+    def __init__(self, text: str, kind: str, surface: Surface | None = None):
         try:
             self._fields = tomllib.loads(text, parse_float=str)
         except (ValueError, ArithmeticError, RecursionError) as error:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
             raise NotProvedError(f"the certificate is not one of kind {kind!r}")
-
-    def check_surface(self, expected: Surface) -> None:
-        """Check that the certificate is for a Surface."""
-        surface = self.surface(expected.k, expected.g)
-        if surface != expected:
-            raise NotProvedError(f"the certificate is of {surface}, the statement of {expected}")
+        if surface is not None and (its := self.surface(surface.k, surface.g)) != surface:
+            raise NotProvedError(f"the certificate is of {its}, the statement of {surface}")
 
     def surface(self, k: Fraction, g: Fraction) -> Surface:
         """Return the Surface, at any energy, that the certificate is for; its ball is given."""

@@ -39,8 +39,7 @@ def check(
     saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and loop
     (impacts).
     """
-    certificate = Certificate(text, "horseshoe")
-    certificate.check_surface(surface)
+    certificate = Certificate(text, "horseshoe", surface)
     with ctx.workprec(periodic.BITS):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
         if len(centres) != period:

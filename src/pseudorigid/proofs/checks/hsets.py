@@ -10,7 +10,7 @@ from itertools import product
 
 from flint import arb
 
-from ..enclosure.jets import Algebra, Jet, algebra
+from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface
 from .certificate import NotProvedError, lowest
 
@@ -97,11 +97,10 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
     Raises UndecidedError where a flight from the set may touch the floor earlier.
     """
 
-    def image(plane: Algebra, value: arb) -> tuple[Jet, Jet]:
-        p, q = (Jet.variable(plane, i, value) for i in (0, 1))
-        return target.coordinates(*surface.impact(*source.box(p, q))[:2])
-
-    at_centre, over_set = image(algebra(2, 1), arb(0)), image(algebra(2, 2), UNIT)
+    at_centre, over_set = (
+        target.coordinates(*surface.impact(*source.box(*Jet.plane(order, value, value)))[:2])
+        for order, value in ((1, arb(0)), (2, UNIT))
+    )
     return LocalMap(
         tuple(jet.constant for jet in at_centre),
         tuple(tuple(jet.coefficients[1:]) for jet in at_centre),

@@ -11,7 +11,7 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from ..enclosure.flight import Gap, UndecidedError, fly
-from ..enclosure.jets import Jet, algebra
+from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
 
@@ -32,8 +32,7 @@ def check(
     in y.
     """
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "jump set")
-        certificate.check_surface(surface)
+        certificate = Certificate(text, "jump set", surface)
         size = certificate.number("radius")
         if not 0 < size <= radius:
             raise NotProvedError(f"the radius is {float(size):g}, not at most {float(radius):g}")
@@ -153,11 +152,11 @@ def _transversality(surface: Surface, speed: arb) -> float:
     The point of S+ is the one from which the flight touches the rim with the given xdot.
     """
     k, g, _ = surface.constants()
-    impact, plane = _flight_from_rim(surface, speed), algebra(2, 1)
-    x, y = (Jet.variable(plane, i, value) for i, value in enumerate(_mirrored(impact)))
+    impact = _flight_from_rim(surface, speed)
+    x, y = Jet.plane(1, *_mirrored(impact))
     s = surface.speed(x, y)
     gap = Gap(x, -(y + s) / (1 + k), s, g)
-    height = gap.derivatives(Jet.constant_of(plane, impact.tau))[0]
+    height = gap.derivatives(Jet.constant_of(x.algebra, impact.tau))[0]
     if not height.constant.contains(0):
         raise NotProvedError("the flight does not touch the floor where it should")
     slope = max(lowest(abs(part)) for part in height.coefficients[1:])

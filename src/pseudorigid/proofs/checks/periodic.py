@@ -56,8 +56,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
     The digits are of the first point and of the period, which is the sum of the flight times.
     """
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "periodic orbit")
-        certificate.check_surface(surface)
+        certificate = Certificate(text, "periodic orbit", surface)
         orbit = prove_stated(certificate, surface, **bounds)
         x, y = orbit.points[0]
         xdot, udot = surface.velocities(x, y)

@@ -28,8 +28,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
     sections 32-34.
     """
     with ctx.workprec(periodic.BITS):
-        certificate = Certificate(text, "twist")
-        certificate.check_surface(surface)
+        certificate = Certificate(text, "twist", surface)
         orbit = periodic.prove_stated(certificate, surface, type="elliptic", **bounds)
         form = normal_form(surface, orbit)
         (twist,) = form.twists

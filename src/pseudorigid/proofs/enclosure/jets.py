@@ -10,16 +10,11 @@ from flint import acb, arb
 
 @dataclass(frozen=True)
 class Algebra:
-    """Monomials of total degree up to `order`, sorted by degree, and their multiplication table.
+    """Monomials of total degree up to `order`, sorted by degree, and their multiplication table."""
 
-    `monomials` has the exponents of each. A triple (i, j, k) in `products` says that monomial i
-    times monomial j is monomial k.
-    """
-
-    variables: int
     order: int
-    monomials: tuple
-    products: tuple
+    monomials: tuple  # the exponents of each
+    products: tuple  # (i, j, k): monomial i times monomial j is monomial k
 
 
 @cache
@@ -34,7 +29,7 @@ def algebra(variables: int, order: int) -> Algebra:
         for j, q in enumerate(monomials)
         if (total := tuple(a + b for a, b in zip(p, q, strict=True))) in index
     )
-    return Algebra(variables, order, tuple(monomials), products)
+    return Algebra(order, tuple(monomials), products)
 
 
 class Jet:
@@ -49,11 +44,12 @@ class Jet:
         return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
 
     @classmethod
-    def variable(cls, algebra: Algebra, number: int, value: arb | acb) -> "Jet":
-        """The series value + variable."""
-        jet = cls.constant_of(algebra, value)
-        jet.coefficients[1 + number] = jet.coefficients[1 + number] + 1
-        return jet
+    def plane(cls, order: int, *values: arb | acb) -> list["Jet"]:
+        """The two series value + variable, for values of the variables."""
+        jets = [cls.constant_of(algebra(2, order), value) for value in values]
+        for i, jet in enumerate(jets, 1):
+            jet.coefficients[i] = jet.coefficients[i] + 1
+        return jets
 
     @property
     def constant(self) -> arb | acb:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from flint import arb, ctx, fmpq
 
 from .flight import UndecidedError, fly
-from .jets import Jet, algebra
+from .jets import Jet
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
@@ -150,7 +150,6 @@ class Surface:
 
         Raises UndecidedError as `impact` does.
         """
-        plane = algebra(2, 1)
-        image = self.impact(Jet.variable(plane, 0, x), Jet.variable(plane, 1, y))
+        image = self.impact(*Jet.plane(1, x, y))
         rows = tuple(tuple(image[i].coefficients[1:]) for i in (0, 1))
         return rows, Impact(*(part.constant for part in image))

@@ -17,6 +17,7 @@ from flint import arb, ctx
 from ...dynamics.ball import Ball
 from ...dynamics.variables import chart
 from ..checks.certificate import Finding, NotProvedError
+from ..checks.periodic import enclose
 from ..enclosure.surface import Surface
 from . import approximate_orbits
 from .certificate_text import header, row, rows
@@ -178,23 +179,20 @@ def _mirrors(saddles: list[Vector]) -> list[int]:
 
 def _directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
     """Return rho, and the unstable directions, stretched by rho from one to the next."""
-    slopes = [surface.jacobian(*z)[0] for z in saddles]
-    vector = [arb(1), arb(0)]
-    for _ in range(400):
-        size = _length(vector)
-        vector = [(a / size).mid() for a in vector]
-        for matrix in slopes:
-            vector = _times(matrix, vector)
-    multiplier = _length(vector)
-    vector = [(a / multiplier).mid() for a in vector]
+    orbit = enclose(surface, saddles)
+    half, (a, b) = orbit.trace / 2, orbit.matrix.table()[0]
+    multiplier = half + (half * half - 1).sqrt()
+    vector = [b, multiplier - a]
+    vector = [(part / _length(vector)).mid() for part in vector]
     middle = [sum((z[i] for z in saddles), arb(0)) / len(saddles) for i in (0, 1)]
     outward = sum((vector[i] * (saddles[0][i] - middle[i]) for i in (0, 1)), arb(0))
     if (outward > 0) != (side > 0):
         vector = [-a for a in vector]
     rho = (multiplier.log() / len(saddles)).exp().mid()
     vectors = [vector]
-    for matrix in slopes[:-1]:
-        vectors.append([(a / rho).mid() for a in _times(matrix, vectors[-1])])
+    for z in saddles[:-1]:
+        image = _times(surface.jacobian(*z)[0], vectors[-1])
+        vectors.append([(a / rho).mid() for a in image])
     return rho, vectors
 
 
