@@ -10,7 +10,7 @@ from flint import arb, ctx
 from independent_solver import exact_map
 
 from pseudorigid import Ball
-from pseudorigid.proofs import THEOREMS, Surface
+from pseudorigid.proofs import THEOREMS, Surface, reference_solver
 from pseudorigid.proofs.enclosure import flight
 from pseudorigid.proofs.enclosure.flight import Gap, UndecidedError, first_root
 from pseudorigid.proofs.enclosure.jets import Jet
@@ -151,6 +151,15 @@ def test_constants_are_as_narrow_as_the_precision():
             assert (5 * k).contains(1)
             assert (25 * g).contains(1)
             assert k.rad() < arb(2) ** (2 - bits)
+
+
+def test_a_ball_pressed_onto_the_floor_stays_there():
+    assert reference_solver.first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
+    at_rest = np.array([[-0.25], [0.0], [0.0]])  # x = -g, s = 0 and udot = 0
+    assert reference_solver.impact_errors("1/5", "1/4", at_rest, at_rest, np.zeros(1)) < 1e-300
+    # x = -0.04 as a double is not -1/25: the ball leaves the floor
+    lifted = np.array([[-0.04], [0.0], [0.0]])
+    assert reference_solver.impact_errors("1/5", "1/25", lifted, at_rest, np.zeros(1)) > 0.1
 
 
 # ---- a broken map proves nothing
