@@ -196,7 +196,7 @@ def _orbits(block: dict) -> tuple[Ball, list, list[int]]:
 
 def _misses(ball, states, impacts):
     """Return each method's missed impacts and evaluations an impact along certified orbits."""
-    pieces = [certified_orbit(ball, *orbit) for orbit in zip(states, impacts, strict=True)]
+    pieces = map(partial(certified_orbit, ball), states, impacts)
     columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
     return _solved(ball, columns, truth)[1:]
 

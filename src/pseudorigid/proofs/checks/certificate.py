@@ -55,20 +55,20 @@ class Certificate:
         """Return the Surface, at any energy, that the certificate is for; its ball is given."""
         self.check_ball(k, g)
         try:
-            return Surface(k, g, self._exact("energy", self._take("energy", str)))
+            return Surface(k, g, self.number("energy", str))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
     def check_ball(self, k: Fraction, g: Fraction) -> None:
         """Check that the certificate is for the ball with this k and g."""
         for name, expected in (("k", k), ("g", g)):
-            value = self._exact(name, self._take(name, str))
+            value = self.number(name, str)
             if value != expected:
                 raise NotProvedError(f"the certificate is of {name} = {value}, not {expected}")
 
-    def number(self, name: str) -> Fraction:
-        """Return one number."""
-        return self._exact(name, self._take(name, object))
+    def number(self, name: str, kind: type = object) -> Fraction:
+        """Return one number, which TOML must give as a value of this kind."""
+        return self._exact(name, self._take(name, kind))
 
     def numbers(self, name: str, width: int) -> list[list[Fraction]]:
         """Return a list of rows of `width` numbers each."""

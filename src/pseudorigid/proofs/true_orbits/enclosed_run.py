@@ -58,15 +58,12 @@ class Run:
     def step(self) -> None:
         """Advance by one impact.
 
-        Raises ValueError if the flight grazes to within the precision, and ShortOfBitsError if the
-        bound has grown too large to round.
+        Raises UndecidedError if the flight grazes to within the precision, and ShortOfBitsError if
+        the bound has grown too large to round.
         """
         before = self._box(RESULT_BITS + GUARD_BITS)
         with ctx.workprec(self.precision):
-            try:
-                image = self.surface.impact(*self.centre)
-            except UndecidedError as error:
-                raise self._undecided(error) from None
+            image = self.surface.impact(*self.centre)
         rows = self._jacobian()
         with ctx.workprec(FRAME_BITS):
             columns = arb_mat(rows) * self.frame
@@ -101,9 +98,9 @@ class Run:
             with ctx.workprec(bits):
                 try:
                     return self.surface.jacobian(*self._box(bits))[0]
-                except UndecidedError as error:
+                except UndecidedError:
                     if bits >= self.precision:
-                        raise self._undecided(error) from None
+                        raise
             bits *= 2
 
     def _rounded(self, before):
@@ -114,9 +111,6 @@ class Run:
             xdot, udot = self.surface.velocities(x, y)
             launch = (before[1] - k * self.surface.speed(*before)) / (1 + k)  # xdot
             return [_nearest(a) for a in (x, xdot, udot, (xdot - launch) / g)]
-
-    def _undecided(self, error):
-        return ValueError(f"the orbit cannot be followed beyond impact {self.count}: {error}")
 
     def save(self, path: Path) -> None:
         """Write a checkpoint, whole or not at all."""

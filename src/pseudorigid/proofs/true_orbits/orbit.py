@@ -15,6 +15,7 @@ from ...dynamics.inputs import whole_number
 from ...dynamics.lyapunov import lyapunov_spectrum
 from ...dynamics.variables import attributes_of, variables
 from ...kernel.arithmetic import log
+from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Exact, Surface
 from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError
 from .start import Start
@@ -105,6 +106,9 @@ def follow(
     while run.count < impacts:
         try:
             run.step()
+        except UndecidedError as error:
+            reason = f"the orbit cannot be followed beyond impact {run.count}: {error}"
+            raise ValueError(reason) from None
         except ShortOfBitsError:
             run = Run(start, impacts, run.bits + run.bits // 4 + 100)
             begin, total = time.monotonic(), _work_left(run)
