@@ -48,10 +48,9 @@ class Law:
         return _value_and_tangent(x, *self.surface.velocities(x, y))
 
     def flight(self, state: Vector, tangent: Vector) -> tuple[Vector, Vector, arb]:
-        """Follow one impact and the flight after it, eqs. (28) and (33).
+        """Return state and tangent after an impact and flight, eqs. (28) and (33), and its action.
 
-        Returns the state and the tangent at the next impact, and the action of the flight. Raises
-        UndecidedError, an ArithmeticError, where the working precision does not enclose the flight.
+        Raises UndecidedError, an ArithmeticError, if the precision does not enclose the flight.
         """
         k, g = self.k, self.g
         x, v, w = (Jet(_TANGENT, list(pair)) for pair in zip(state, tangent, strict=True))
@@ -77,25 +76,9 @@ def _middle(values: Vector) -> Vector:
 class Saddle:
     """A point of a hyperbolic periodic orbit, and its unstable direction in (x, y).
 
-    Parameters
-    ----------
-    law : Law
-    state : (float, float, float)
-        x, xdot, udot of the point to double precision.
-    period : int
-        Of the orbit, in impacts.
-
-    Attributes
-    ----------
-    x, y, multiplier, ex, ey : arb
-        The point, the orbit's multiplier and the unit vector, rounded to the working precision.
-
-    Raises
-    ------
-    ValueError
-        The orbit is elliptic or inverse hyperbolic.
-    ArithmeticError
-        Newton's method does not find the point.
+    `state` is x, xdot, udot of the point to double precision. The point (x, y), the orbit's
+    multiplier and the unit vector (ex, ey) are rounded to the working precision. Raises ValueError
+    for other types of orbits, and ArithmeticError if Newton's method does not find the point.
     """
 
     def __init__(self, law: Law, state: tuple[float, float, float], period: int):
@@ -136,27 +119,11 @@ class Saddle:
 class Heteroclinic:
     """An orbit on a branch of a saddle that meets y = 0, where the reversor mirrors it.
 
-    Parameters
-    ----------
-    saddle : Saddle
-    sign : int
-        The side of the branch: along the saddle's direction or against it.
-    parameter : arb
-        Distance of the orbit's start from the saddle; it is refined so that the orbit meets y = 0.
-    impacts : int
-        From the start to y = 0.
-
-    Attributes
-    ----------
-    points, actions : list
-        (x, y) of the orbit from its start to y = 0, and the actions of its flights.
-    tangent : (arb, arb)
-        Of the branch at y = 0.
-
-    Raises
-    ------
-    ValueError, ArithmeticError
-        Newton's method does not find the crossing, or the precision encloses too little.
+    `sign` tells the branch along the saddle's direction from the one against it. `parameter`, the
+    distance of the orbit's start from the saddle, is refined so that the orbit meets y = 0 after
+    `impacts`. `points` are (x, y) up to there, `actions` those of the flights, and `tangent` is
+    that of the branch at y = 0. Raises ValueError or ArithmeticError if Newton's method does not
+    find the crossing, or the precision encloses too little.
     """
 
     def __init__(self, saddle: Saddle, sign: int, parameter: arb, impacts: int):
@@ -197,27 +164,14 @@ class Heteroclinic:
 
 
 def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclinic, Heteroclinic]]:
-    """Compute the lobe between neighbouring crossings of an unstable and a stable branch.
+    """Return the area between neighbouring crossings of two branches, and the two primary orbits.
 
-    The branch on the side `sign` of a saddle of even period must lead to the mirror image of the
-    saddle, so that it meets y = 0 on the way, and so must its image half a period later. These are
-    the two primary orbits. They start `nearer` images nearer to the saddle than _SCAN_END.
-
-    Returns
-    -------
-    area : arb
-        The starts lie on the branch's tangent instead of the branch. This changes the area by the
-        cube of their distance from the saddle, which the ball does not contain.
-    orbits : (Heteroclinic, Heteroclinic)
-
-    Raises
-    ------
-    ValueError, ArithmeticError
-        As from Heteroclinic, or where the branch is not seen to meet y = 0.
-
-    References
-    ----------
-    MacKay, Meiss and Percival, Transport in Hamiltonian systems, Physica D 13 (1984).
+    The unstable branch on the side `sign` of a saddle of even period must lead to the mirror image
+    of the saddle, so that it meets y = 0 on the way, and so must its image half a period later. The
+    primary orbits start `nearer` images nearer to the saddle than _SCAN_END, on the branch's
+    tangent instead of the branch. This changes the area by the cube of their distance from the
+    saddle, which the ball does not contain. Raises ValueError or ArithmeticError as Heteroclinic
+    does, and where the branch is not seen to meet y = 0.
     """
     crossings = [first_crossing(saddle, sign, offset) for offset in (0, saddle.period // 2)]
     if None in crossings:
@@ -260,8 +214,8 @@ def _area_under_line(begin: Vector, end: Vector) -> arb:
 def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int] | None:
     """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
 
-    Returns the parameter of the crossing's start, in the last segment before _SCAN_END from the
-    saddle, and the number of impacts from there; None without a crossing in _MOST_IMAGES images.
+    Returns the parameter of its start, in the last segment before _SCAN_END from the saddle, and
+    the impacts from there; None without a crossing in _MOST_IMAGES images.
     """
     ball, parameter = saddle.law.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameter, impacts)

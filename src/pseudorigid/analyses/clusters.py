@@ -46,38 +46,10 @@ _OF_CUTS = {
 def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed) -> xr.Dataset:
     """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    between : (float, float)
-        Part of y = 0, in section radii from the centre, over which the orbits start evenly.
-    orbits, impacts : int
-        Number of orbits, and of impacts of each.
-    cuts : sequence of float
-        Flight times (1/omega); longer flights separate two clusters.
-    lags : int
-        A cluster is compared with the next one, the next but one, ... up to this many later.
-    resamples, seed : int
-        Number of resamples of the bootstrap, and its random seed.
-
-    Returns
-    -------
-    xarray.Dataset
-        On bin, cut, lag and orbit; long_name describes each variable. Means of clusters are over
-        all orbits. correlation (cut, lag, first, then) and dependence (cut, lag, then) have the
-        ends of 95 % intervals in _low and _high.
-
-    Raises
-    ------
-    ValueError
-        A cut leaves an orbit with fewer clusters than lags + 2, or `between` is off the section.
-
-    References
-    ----------
-    Kanso and Papadopoulos, section 4.1, of clusters in the sea: "completely uncorrelated". Their
-    strain between impacts is eq. (26).
+    The orbits start evenly over the part `between` of y = 0, in section radii. Flights longer than
+    a cut (1/omega) separate two clusters. A cluster is compared with the next ones, up to `lags`
+    later. `resamples` and `seed` are those of the bootstrap. Means of clusters are over all orbits.
+    ValueError is raised for a cut that leaves an orbit with fewer clusters than lags + 2.
 
     Examples
     --------

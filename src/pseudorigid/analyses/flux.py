@@ -57,40 +57,17 @@ _VARIABLES = {
 def flux(ball, energy, period, distance, grid, between, orbits, impacts) -> xr.Dataset:
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    period : int
-        Period of the hyperbolic orbit, even.
-    distance : float
-        Largest side of the polygons, in section radii.
-    grid : int
-        The flux is also counted over grid x grid points of the section's bounding rectangle.
-    between : (float, float)
-        The flux is also counted along orbits of the sea, which start evenly over this part of
-        y = 0, in section radii.
-    orbits, impacts : int
-        Number of these orbits, and of impacts of each.
+    The period is even. `distance` is the largest side of the polygons, in section radii. The flux
+    is also counted over grid x grid points of the section's bounding rectangle, and along orbits of
+    the sea, which start evenly over the part `between` of y = 0. ValueError is raised for an odd
+    period, if there is no hyperbolic orbit of that period, and if there are no lobes on either
+    side.
 
-    Returns
-    -------
-    xarray.Dataset
-        On side, inner and outer; long_name describes each variable, and areas are those of
-        (x, y = xdot - k udot), which the map keeps, eq. (42). `digits` are those that two starts
-        and two precisions have in common. `branch_x`, `branch_y` run from one end of a lobe to the
-        mirror image of its other end; their mirror image in y = 0 is the stable branch. Attributes:
-        section, its area; multiplier, of the orbit.
-
-        A side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer
-        with the reason: its branch is not seen to meet y = 0, or a jump of the map cuts it. If a
-        jump cuts only the region's edge, the region's numbers are NaN.
-
-    Raises
-    ------
-    ValueError
-        No hyperbolic orbit of that period, an odd period, or no lobes on either side.
+    Areas are those of (x, y = xdot - k udot), which the map keeps, eq. (42). `digits` are those
+    that two starts and two precisions have in common. `branch_x`, `branch_y` run from one end of a
+    lobe to the mirror image of its other end; their mirror image in y = 0 is the stable branch. A
+    side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer with the
+    reason. If a jump of the map cuts only the region's edge, the region's numbers are NaN.
 
     Examples
     --------

@@ -32,39 +32,17 @@ _HALVED = "by how much it differs from what half as many sides give"
 def jumps(ball, energy, energies, sides) -> xr.Dataset:
     """Compute the curves where the map jumps at several energies, and a symmetry line at the first.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        The first of the energies (m omega^2 R^2).
-    energies : sequence of float
-        The other energies.
-    sides : int
-        Number of sides of a curve's polygon, a multiple of four.
+    `energies` are those after the first one, `energy`. `sides`, a multiple of four, is the number
+    of sides of a curve's polygon. ValueError is raised for other numbers of sides, and for an
+    energy below the lowest.
 
-    Returns
-    -------
-    xarray.Dataset
-        long_name describes each variable. On (energy, point), NaN where there is none: the arc of
-        the rim, rim_x, rim_y, and its image under the map, x, y = xdot - k udot, where the inverse
-        jumps; NaN next to a jump of the map. The map jumps on the mirror image (x, -y). On one side
-        of it the next impact is near (rim_x, -rim_y), on the other near the image of that, the
-        point with the same index counted from the end. On energy: length of the curve in (x, y), 0
-        where there is none, by Richardson's rule, and length_error, which includes the ends left
-        out. flight_x, flight_y are NaN where a flight is not the first to end. On distance, from
-        the middle of the curve at the first energy along its normal: derivative_touched, on the
-        side where the flight meets the floor, and derivative_missed, on the side where it just
-        misses it; NaN where there is no curve, and outside the section. Attribute first_energy:
-        g^2 (1 + k/2), above which there are such curves.
-
-    Raises
-    ------
-    ValueError
-        `sides` is no multiple of four, or an energy is below the lowest.
-
-    References
-    ----------
-    The paper's section 3 calls the map (28) a diffeomorphism; that holds up to E = g^2 (1 + k/2).
+    On (energy, point), NaN where there is none, are the arc of the rim and its image under the map,
+    where the inverse jumps; NaN also stands next to a jump of the map. The map jumps on the mirror
+    image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the other near the
+    image of that, the point with the same index counted from the end. The length is that of
+    Richardson's rule, and length_error includes the ends left out. Derivatives are those beside the
+    middle of the curve at the first energy, along its normal. The attribute first_energy is g^2 (1
+    + k/2), above which there are such curves.
 
     Examples
     --------

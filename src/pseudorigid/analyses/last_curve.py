@@ -49,33 +49,12 @@ _VARIABLES = {
 def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) -> xr.Dataset:
     """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    convergents : int
-        How many of each noble number, beginning with that of its given quotients.
-    between : (float, float)
-        Part of y = 0, in section radii, in which orbits are searched; its first end is nearer to
-        the fixed point.
-    impacts, drawn : int
-        Length of the orbit that starts at the last convergent's point, and of the part kept.
-    nobles : sequence of sequences of int, optional
-        Continued fractions [0, a1, a2, ...], after which all quotients are 1; by default those of
-        `edge_nobles`.
-
-    Returns
-    -------
-    xarray.Dataset
-        On (noble, convergent), (noble) and (noble, impact); long_name describes each variable. The
-        last dimension is that of the orbit which starts at the last convergent's point.
-
-    Raises
-    ------
-    ValueError
-        There is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an
-        island.
+    Of each noble number there are so many convergents, beginning with that of its given quotients.
+    A noble is a continued fraction [0, a1, a2, ...], after which all quotients are 1; by default
+    they are those of `edge_nobles`. Orbits are searched in the part `between` of y = 0, in section
+    radii, whose first end is nearer to the fixed point. The orbit that starts at the last
+    convergent's point has so many impacts, of which `drawn` are kept. ValueError is raised if there
+    is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an island.
 
     Examples
     --------
@@ -104,8 +83,6 @@ def edge_nobles(ball: Ball, energy: float, between: tuple[float, float]) -> list
     on its inner side, the second as far beyond it. Orbits in chains of islands, whose rotation
     numbers are fractions, do not count as curves.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> edge_nobles(Ball(k=0.2, g=0.04), 0.011, (-0.2, 0.1))
     [[0, 5, 1, 4], [0, 5, 1, 6]]
@@ -124,12 +101,8 @@ def edge_nobles(ball: Ball, energy: float, between: tuple[float, float]) -> list
 
 
 def noble_between(first: float, second: float) -> list[int]:
-    """Return the continued fraction of a simple noble number between two positive numbers.
+    """Return a simple noble number between two positive ones, as quotients before the ones.
 
-    All quotients after the returned ones are 1.
-
-    Examples
-    --------
     >>> noble_between(0.16, 0.17)
     [0, 6, 5]
     """
@@ -168,10 +141,7 @@ def _row(ball, energy, noble, convergents, between, impacts, drawn) -> tuple:
 
 
 def fractions(noble: Sequence[int], count: int) -> list[tuple[int, int]]:
-    """Return convergents (p, q) of a noble number, beginning with that of the given quotients.
-
-    At least one is returned.
-    """
+    """Return convergents (p, q) of a noble number, the first one that of its given quotients."""
     convergents = [(1, 0), (noble[0], 1)]
     for quotient in [*noble[1:], *[1] * (count - 1)]:
         (p, q), (r, s) = convergents[-2:]
@@ -233,11 +203,7 @@ class _OrbitSearch:
         return 0.25 * (2.0 - trace), np.max(np.abs(after - state)) / self.radius
 
     def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
-        """Yield pairs of starts, the first with too many turns and the second with too few.
-
-        The ends of `between` come first, then those of its cells: where the rotation number jumps
-        there is no orbit.
-        """
+        """Yield starts with too many and with too few turns, for `between` and for its cells."""
         first, last = self.between
         if excess_turns(first) > 0.0 > excess_turns(last):
             yield first, last

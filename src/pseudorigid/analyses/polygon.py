@@ -8,11 +8,7 @@ _SLABS = 2048  # bands of equal height; a point is compared with the sides in it
 
 
 class Polygon:
-    """A closed polygon, with its sides sorted into horizontal slabs.
-
-    `vertices` is an array of shape (2, n) with x and y in order; the last vertex is joined to the
-    first.
-    """
+    """A closed polygon with vertices (2, n) in order, its sides sorted into horizontal slabs."""
 
     def __init__(self, vertices: np.ndarray):
         self.x, self.y = vertices

@@ -19,31 +19,10 @@ _ORBITS = {
 def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) -> xr.Dataset:
     """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        The first of the energies (m omega^2 R^2).
-    energies : sequence of float
-        The other energies.
-    starts, impacts : int
-        Number of starts at each energy, evenly from the fixed point to the section's rim, and of
-        impacts of each orbit.
-    detail : (float, float)
-        Part of y = 0, in section radii, with as many starts again at the first energy.
-    detail_impacts : int
-        Number of impacts of each orbit of the detail.
-
-    Returns
-    -------
-    xarray.Dataset
-        place, rotation, exponent on (energy, start), and with detail_ before their names on
-        (detail); fixed_place and fixed_rotation (NaN if not elliptic) on energy. rotation and
-        exponent are those of `winding`. Attributes impacts and detail_impacts.
-
-    References
-    ----------
-    Kanso and Papadopoulos, section 4.2, whether the map is a twist map.
+    At each energy the starts go evenly from the fixed point to the section's rim. At the first
+    energy as many starts again go over the part `detail` of y = 0, in section radii; the names of
+    their variables begin with detail_. Rotation numbers and exponents are those of `winding`.
+    Attributes: impacts and detail_impacts.
 
     Examples
     --------

@@ -12,11 +12,7 @@ def section_points(ball: Ball, energy: float, orbits: int) -> tuple[np.ndarray, 
     """Return points (x, y = xdot - k udot) spread uniformly over the section, islands included.
 
     The map keeps area in these coordinates. The points are those of the quasirandom sequence R2 in
-    the section's disk; they are the same in each call and more evenly spread than random points.
-
-    References
-    ----------
-    Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
+    the section's disk (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
     """
     centre, radius = ball.section(energy)
     step = np.array([1.0 / _PLASTIC_NUMBER, 1.0 / (_PLASTIC_NUMBER * _PLASTIC_NUMBER)])
@@ -34,9 +30,7 @@ def sea_states(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return states (x, xdot, udot) just before an impact, evenly over a part of y = 0.
 
-    `between` gives the part's ends as fractions of the section's radius. The states lie in the
-    middles of `orbits` equal pieces. ValueError is raised for ends that are out of order or beyond
-    the section.
+    `between` has the part's ends in section radii. Raises ValueError unless -1 <= from < to <= 1.
     """
     low, high = between
     if not -1.0 <= low < high <= 1.0:

@@ -19,38 +19,14 @@ _CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
     """Compute the exponents of many orbits by blocks, and the cells that chaotic orbits enter.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    orbits, length, blocks : int
-        Number of orbits, of impacts of each, and of equal blocks into which each is divided. The
-        orbits start uniformly over the section, in islands as well as in the sea.
-    regular : sequence of float
-        Starts of regular orbits on y = 0, in section radii.
-    regular_impacts : int
-        Length of the regular orbits; their exponents so far are kept at it and its halves.
-    cells : int
-        The section's bounding rectangle is divided into cells x cells cells.
-    visits : int
-        Number of impacts of each chaotic orbit whose cells are counted, at it and its halves.
+    The orbits start uniformly over the section, and each is divided into equal blocks. `regular`
+    has the starts of regular orbits on y = 0, in section radii, whose exponents so far are kept
+    after `regular_impacts` and its halves. The section's bounding rectangle is divided into cells x
+    cells cells, and those that chaotic orbits enter are counted after `visits` and its halves.
+    ValueError is raised if `blocks` does not divide `length`, or no orbit is chaotic.
 
-    Returns
-    -------
-    xarray.Dataset
-        exponent (block, orbit, index): mean over a block, not over all blocks so far, nats an
-        impact, in the order of `lyapunov_spectrum`; regular_exponent (length, island, index): over
-        the first `length` impacts. long_name describes all variables. Attribute block_impacts.
-
-    Raises
-    ------
-    ValueError
-        `blocks` does not divide `length`, no orbit is chaotic, or a start is beyond the section.
-
-    References
-    ----------
-    Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks.
+    exponent (block, orbit, index) is the mean over one block, in nats an impact, in the order of
+    `lyapunov_spectrum`; regular_exponent (length, island, index) is that over `length` impacts.
 
     Examples
     --------
@@ -81,10 +57,7 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
 
 
 def in_sea(dataset: xr.Dataset) -> np.ndarray:
-    """Return which orbits of a dataset of `spread` are chaotic.
-
-    These are the ones whose largest exponent exceeds `regularity.regular_bound`.
-    """
+    """Return which orbits of a dataset of `spread` have an exponent above `regular_bound`."""
     length = int(dataset.attrs["block_impacts"]) * dataset.sizes["block"]
     return dataset["exponent"].values.mean(axis=0).max(axis=-1) > regular_bound(length)
 

@@ -10,8 +10,8 @@ from ..dynamics.tangent_orbits import begin, propagate_with_tangent, weight
 def symmetric_fixed_point(ball: Ball, energy: float) -> tuple[float, float]:
     """Return the fixed point's place on y = 0, in section radii, and its rotation number.
 
-    The place is counted from the section's centre. The rotation number is NaN if the fixed point is
-    not elliptic.
+    The place is counted from the section's centre. The rotation number is NaN without an elliptic
+    point.
     """
     e = energy / (ball.g * ball.g)
     centre, radius = Ball(ball.k, 1.0).section(e)
@@ -24,27 +24,10 @@ def winding(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return rotation numbers around the fixed point, and exponents, of orbits.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    place : ndarray, shape (n,)
-        Starts on y = 0, in section radii from the centre.
-    impacts : int
-        Number of impacts of each orbit.
-
-    Returns
-    -------
-    rotation : ndarray, shape (n,)
-        Turns an impact, a weighted Birkhoff average with the weights (t (1 - t))^3.
-    exponent : ndarray, shape (n,)
-        Growth rate of a tangent vector in nats an impact, from the middle of the second quarter to
-        the middle of the last.
-
-    References
-    ----------
-    Das, Saiki, Sander and Yorke, Quantitative quasiperiodicity, Nonlinearity 30 (2017).
+    `place` has their starts on y = 0, in section radii from the centre. A rotation number, in turns
+    an impact, is a weighted Birkhoff average with the weights (t (1 - t))^3 (Das, Saiki, Sander and
+    Yorke, Nonlinearity 30, 2017). An exponent is the growth rate of a tangent vector, in nats an
+    impact, from the middle of the second quarter to the middle of the last.
     """
     unit_ball = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
     e = energy / (ball.g * ball.g)

@@ -38,33 +38,10 @@ class Branch:
     product is 0.084485 - 0.084441 = 4.4e-5, and its sign swaps inner and outer (docs/method.md). A
     rule that carried one clear side along the orbit would change the figure's data.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    points : ndarray, shape (3, n)
-        States of the orbit.
-    saddle : int
-        Index of the point.
-    side : {"outer", "inner"}
-    stable : bool
-
-    Attributes
-    ----------
-    radius, multiplier : float
-        The section's radius, and the ratio of the lengths of successive images.
-    weak : bool
-        Whether images are mapped from one another.
-    images : int
-        Largest number of images.
-    ended : float or None
-        Length, in section radii, where rounding errors end the branch.
-
-    Raises
-    ------
-    ValueError
-        The orbit is elliptic, or it is not symmetric and the branch is stable.
+    `points` (3, n) are the orbit's states, and `saddle` is the index of one of them. `multiplier`
+    is the ratio of the lengths of successive images, which are mapped from one another if it is
+    `weak`; `ended` is the length, in section radii, where rounding errors end the branch, or None.
+    Raises ValueError if the orbit is elliptic, or not symmetric and the branch stable.
     """
 
     def __init__(self, ball, energy, points, saddle, side, stable):

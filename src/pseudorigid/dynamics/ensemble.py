@@ -21,8 +21,7 @@ def threads() -> int:
 def shared(work, impacts, *arrays):
     """Apply `work` to pieces of arrays, one in each thread, and return the sum of its results.
 
-    The arrays are cut along their first axis, the orbits. A further thread is started only for
-    MIN_IMPACTS_PER_THREAD impacts; `impacts` is their number in each orbit.
+    The arrays are cut along their first axis, the orbits, which have `impacts` impacts each.
     """
     orbits = len(arrays[0])
     workers = min(threads(), orbits // lanes.LANES, orbits * impacts // MIN_IMPACTS_PER_THREAD)
@@ -37,7 +36,7 @@ class ImpactMap:
     """Impact map over arrays of states, with counts of the impacts computed and missed.
 
     Methods take states x, v, w (n,), that is x (R), xdot (R omega) and udot (omega) just before an
-    impact, and the ball's k and g.
+    impact, and the ball's k and g. Maps with the same `scan` are equal, whatever they counted.
 
     Parameters
     ----------
@@ -45,22 +44,6 @@ class ImpactMap:
         By default every impact is found by a march that misses none. (step, tolerance), both in
         1/omega, positive and finite, selects steps of constant length until the gap changes sign,
         and bisection until the bracket is no longer than the tolerance.
-
-    Attributes
-    ----------
-    root_finder : None or (float, float)
-        `scan`, in the form that functions of the kernel take.
-    impacts, missed : int
-        Impacts computed so far, and how many of them came after an impact that was missed.
-
-    Raises
-    ------
-    ValueError
-        The step or the tolerance is out of range.
-
-    Notes
-    -----
-    Maps with the same `scan` are equal, whatever they counted.
     """
 
     def __init__(self, scan=None):
@@ -92,10 +75,7 @@ class ImpactMap:
         return self.root_finder is None
 
     def steps(self, x, v, w, k, g, impacts, tau):
-        """Advance states by `impacts` in place, in memory that does not grow with `impacts`.
-
-        `tau` (n,) receives the times of the last flights.
-        """
+        """Advance states by `impacts` in place; `tau` (n,) receives the last times of flight."""
         self._advance(x, v, w, k, g, impacts, tau, np.empty((x.size, 0, 4)))
 
     def history(self, x, v, w, k, g, out):
@@ -103,10 +83,7 @@ class ImpactMap:
         self._advance(x, v, w, k, g, out.shape[1], np.empty(x.size), out)
 
     def steps_back(self, x, v, w, k, g, impacts, tau):
-        """Apply the inverse map F^-1 = R F R `impacts` times in place.
-
-        `tau` (n,) receives the times of the flights that begin at the states reached.
-        """
+        """Apply the inverse map in place; `tau` (n,) receives the last times of flight."""
         missed = impact.steps_back(x, v, w, k, g, impacts, tau, self.root_finder)
         self.count(impacts * x.size, missed)
 

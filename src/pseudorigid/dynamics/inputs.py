@@ -12,15 +12,10 @@ _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 
 
 def doubles(name: str, value) -> np.ndarray:
-    """Convert a real number, or an array of them, to an array of doubles.
+    """Convert a real number, or an array of them, to doubles; masked elements become NaN.
 
-    Masked elements become NaN. Errors name the argument `name`.
-
-    Raises
-    ------
-    ValueError
-        The value is no real number (text, None, a bool, a complex number, ...), or it is beyond the
-        range of doubles.
+    Raises ValueError, with the argument's name, for text, None, a bool, a complex number, ..., and
+    for numbers beyond the range of doubles.
     """
     if type(value) is float:
         return np.asarray(value)
@@ -34,10 +29,9 @@ def doubles(name: str, value) -> np.ndarray:
 
 
 def coordinates(**values) -> list[np.ndarray]:
-    """Convert named numbers and arrays that broadcast to arrays of one shape.
+    """Convert named numbers and arrays that broadcast to arrays of one shape, by `doubles`.
 
-    Where one of them is not finite, all are NaN. Raises ValueError as `doubles` does, and for
-    shapes that do not broadcast.
+    Where one of them is not finite, all are NaN. Raises ValueError if shapes do not broadcast.
     """
     arrays = [doubles(name, value) for name, value in values.items()]
     try:
@@ -73,10 +67,7 @@ def one_of(name: str, value, words) -> None:
 
 
 def state_of(state) -> tuple:
-    """Return x, xdot and udot of a state (x, xdot, udot) or of a Dataset.
-
-    A Dataset stands for its last state along `impact` or `point`, of each orbit in it.
-    """
+    """Return x, xdot and udot of a state (x, xdot, udot), or of the last states of a Dataset."""
     if hasattr(state, "data_vars"):
         return _last_state(state)
     try:

@@ -154,29 +154,10 @@ def scene_manifolds(
 ) -> xr.Dataset:
     """Trace both manifolds of an orbit's points (Figure 5), or what a window shows (Figure 6).
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    periodic : xarray.Dataset
-        Orbits of this period, as from `symmetric_orbits`.
-    period : int
-    type : {"hyperbolic", "inverse hyperbolic"}
-    resolution : mapping
-        `distance` and `bend` of `trace_manifold`.
-    branches : mapping, optional
-        {side: {"length": L}}, in section radii, for whole branches.
-    point, window, length : int, mapping, float, optional
-        For a window: the index of the point that it shows, its edges {"x": [a, b], "xdot": [a, b]}
-        relative to that point, and how far branches are followed, both in section radii.
-
-    Returns
-    -------
-    xarray.Dataset
-        x, xdot, udot on `vertex`, branch after branch; row_size, stable (0 or 1), saddle and side
-        on `branch`. Attributes: the worst start_error and ended of all branches, as in
-        `trace_manifold`; with a window also window_x, window_xdot, point_x and point_xdot.
+    `branches`, {side: {"length": L}}, selects whole branches. Otherwise `window` has edges {"x":
+    [a, b], "xdot": [a, b]} relative to the orbit's point `point`, and branches are followed over
+    `length`. All of these are in section radii. `resolution` has `distance` and `bend` of
+    `trace_manifold`. start_error and ended are the worst of all branches.
 
     Examples
     --------

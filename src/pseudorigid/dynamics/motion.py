@@ -32,24 +32,7 @@ def _flights(ball, orbit):
 def scene_motion(
     ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
 ) -> xr.Dataset:
-    """Compute the motion along a periodic orbit of given period and type (Figures 3 and 4).
-
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        Not used: the orbits carry their energy.
-    periodic : xarray.Dataset
-        Orbits of this period, as from `symmetric_orbits`.
-    period : int
-    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
-    duration : float
-        Length of time (1/omega).
-
-    Returns
-    -------
-    xarray.Dataset
-        As from `motion`.
+    """Compute `motion` along a periodic orbit of given period and type (Figures 3 and 4).
 
     Examples
     --------
@@ -65,26 +48,9 @@ def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
     """Compute x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
 
     The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
-    it, and the first point is followed impact by impact instead.
-
-    Parameters
-    ----------
-    ball : Ball
-    orbit : xarray.Dataset
-        One orbit: x, xdot, udot, tau on `point`, as from `variables.of_type`.
-    duration : float
-        Length of time (1/omega).
-
-    Returns
-    -------
-    xarray.Dataset
-        On `sample`: t (1/omega), position (x, in R) and strain (u). Both ends of each flight are
-        included, where position = -strain exactly. On `impact`: impact_t and impact_position.
-
-    Raises
-    ------
-    ValueError
-        The duration is that of more than MOST_FLIGHTS flights.
+    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
+    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
+    each flight are included, where position = -strain exactly.
     """
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:

@@ -81,21 +81,7 @@ def scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        Energy of all orbits (m omega^2 R^2).
-    starts : list
-        Where the orbits start, each as in `starts.start_state`.
-    impacts : int or list of int
-        Number of impacts of all orbits, or of each.
-
-    Returns
-    -------
-    xarray.Dataset
-        x, xdot, udot, tau on `point`; start and row_size on `orbit`, with start_x and start_xdot if
-        a start is a point.
+    Starts are as in `starts.start_state`. `impacts` is the number of all orbits, or a list.
 
     Examples
     --------
@@ -117,11 +103,7 @@ def scene_orbits(
 def ragged_orbits(
     pieces: list[np.ndarray], starts: list[Any], states: list[Any], impacts: list[int]
 ) -> xr.Dataset:
-    """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau.
-
-    Each of the lists has an entry for each orbit; `states` are the states (x, xdot, udot) of
-    `starts`.
-    """
+    """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau."""
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data["row_size"] = (
         "orbit",

@@ -67,7 +67,7 @@ def begin(k, states, centre, expected):
 
     `states` are arrays x, v, w (n,) just before an impact. `centre` is the x, at y = 0, around
     which turns are counted, and `expected` the turns to expect of an impact: half a turn where it
-    is NaN, because the centre is no elliptic point. Both are floats or arrays (n,).
+    is NaN, because the centre is no elliptic point.
     """
     x, v, w = states
     orbits = np.zeros((KEPT, x.size))
@@ -85,10 +85,7 @@ def weight(length):
 
 @jit
 def _observe(rows, n, k, round_y, coefficients, states, flights, row):
-    """Carry the tangent vectors over an impact, and compute how far the orbits turned.
-
-    Return whether the length of a vector has become extreme.
-    """
+    """Carry tangent vectors over an impact, count turns, and return whether a vector is extreme."""
     extreme = 0
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
@@ -168,32 +165,15 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
 
 @jit
 def propagate_with_tangent(orbits, k, start, stop, turning, growing, turned, growth):
-    """Propagate orbits in place, with tangent vectors along the energy surface.
+    """Propagate orbits from `begin` in place, with tangent vectors along the energy surface.
 
-    A tangent vector is NaN from an exactly grazing impact on, where the map has no derivative.
-
-    Parameters
-    ----------
-    orbits : ndarray, shape (KEPT, n)
-        From `begin`; a row for each quantity, a column for each orbit.
-    k : float
-        Euler inertia, eq. (5).
-    start, stop : int
-        Impacts to do, counted from the orbits' beginning.
-    turning, growing : ndarray of int, shape (m, 2)
-        Windows: first impact and length.
-    turned : ndarray, shape (m, n)
-        The turns around the centre are added, summed over each window of `turning` with the weights
-        (t (1 - t))^3, t from 0 to 1 over the window. A turn is taken within half a turn of the
-        expected one.
-    growth : ndarray, shape (m, n)
-        The logarithms of the tangent vector's length are added, summed over each window of
-        `growing`.
-
-    References
-    ----------
-    The weights are those of a weighted Birkhoff average: Das, Saiki, Sander and Yorke, Quantitative
-    quasiperiodicity, Nonlinearity 30 (2017), whose bump is exp(-1/(t (1 - t))).
+    Impacts `start` to `stop` are done, counted from the orbits' beginning. The rows of `turning`
+    and `growing` are windows (first impact, length). The turns around the centre, each within half
+    a turn of the expected one, are added to `turned` (windows, n), with the weights (t (1 - t))^3
+    over each window, t from 0 to 1, of a weighted Birkhoff average (Das, Saiki, Sander and Yorke,
+    Nonlinearity 30, 2017). The logarithms of the tangent vector's length, summed over each window,
+    are added to `growth`. A vector is NaN from an exactly grazing impact on, where the map has no
+    derivative.
     """
     count = orbits.shape[1]
     for first in range(0, count, GROUP):

@@ -21,8 +21,8 @@ DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 def trace(branch, length, distance, bend, window):
     """Return the polyline (3, n) of a branch, image by image until it is long enough.
 
-    The other arguments are those of `manifolds.trace_manifold`. The branch's `ended` is set if it
-    ends before. Raises ValueError for too many points or images.
+    The arguments are those of `manifolds.trace_manifold`. The branch's `ended` is set if it ends
+    before. Raises ValueError for too many points or images.
     """
     straight = sincos(bend * DEGREE)[1]
     u, states, travelled = np.empty(0), np.empty((3, 0)), np.zeros(1)

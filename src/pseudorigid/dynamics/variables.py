@@ -17,7 +17,7 @@ NAMES = {
 def variables(dims, values, names=NAMES) -> dict:
     """Return Dataset variables {name: (dims, array, attributes)} that share their dims.
 
-    `names` has the meaning of each name, or (meaning, scale), in the order of `values`.
+    `names` has, in the order of `values`, the meaning of each name, or (meaning, scale).
     """
     texts = {name: (text,) if isinstance(text, str) else text for name, text in names.items()}
     pairs = zip(texts.items(), values, strict=True)
@@ -27,8 +27,7 @@ def variables(dims, values, names=NAMES) -> dict:
 def described(table) -> dict:
     """Return Dataset variables {name: (dims, array, attributes)} from a table.
 
-    `table` is {name: (dims, values, meaning)} or {name: (dims, values, meaning, scale)}. Values are
-    dimensionless numbers or words.
+    `table` is {name: (dims, values, meaning[, scale])}. Values are dimensionless numbers or words.
     """
     result = {}
     for name, (dims, values, *text) in table.items():
@@ -40,19 +39,14 @@ def described(table) -> dict:
 
 
 def attributes_of(meaning: str, scale: str = "1") -> dict:
-    """Return the attributes long_name, units and scale of a variable.
-
-    Units are "1", because all numbers are dimensionless. The quantity is the number times the
-    scale.
-    """
+    """Return the attributes of a dimensionless number that stands for itself times the scale."""
     return {"long_name": meaning, "units": "1", "scale": scale}
 
 
 def of_rows(table, rows) -> dict:
     """Return Dataset variables from rows of values in the order of `table`.
 
-    `table` is {name: (dims, meaning)} or {name: (dims, meaning, scale)}; the first dim counts the
-    rows.
+    `table` is {name: (dims, meaning[, scale])}; the first dim counts the rows.
     """
     columns = zip(table.items(), zip(*rows, strict=True), strict=True)
     return described({name: (dims, column, *text) for (name, (dims, *text)), column in columns})
@@ -82,14 +76,7 @@ class NoOrbitError(ValueError):
 def of_type(orbits, kind, period=None):
     """Return the first orbit of a type, on `point`, among those of `symmetric_orbits`.
 
-    The type is elliptic, hyperbolic or inverse hyperbolic.
-
-    Raises
-    ------
-    NoOrbitError
-        There is none.
-    ValueError
-        The orbits do not have the requested period.
+    Raises NoOrbitError if there is none, and ValueError if the orbits have another period.
     """
     if period not in (None, orbits.sizes["point"]):
         raise ValueError(f"orbits of period {orbits.sizes['point']}, not {period}")
@@ -104,11 +91,7 @@ def of_type(orbits, kind, period=None):
 
 
 def final_exponents(lyapunov) -> np.ndarray:
-    """Return the exponents (orbit, index) of each orbit at its last record, the largest first.
-
-    `lyapunov` has exponent (impact, orbit, index) as from `lyapunov_spectrum`, NaN beyond an
-    orbit's end.
-    """
+    """Return exponents (orbit, index) at each orbit's last record before NaN, the largest first."""
     exponent = lyapunov["exponent"].values
     recorded = ~np.isnan(exponent[:, :, 0])
     last = exponent.shape[0] - 1 - np.argmax(recorded[::-1], axis=0)

@@ -28,11 +28,7 @@ _DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
 
 
 def draw(sweep, data):
-    """Draw a sweep: a plane over k and E/g^2, or a line over the energy if it has one k.
-
-    `sweep` is its block of the config with lists of numbers as k and energy, `data` the dataset
-    from `sweep.blocks.join`.
-    """
+    """Draw a sweep: a plane over k and E/g^2, or a line over the energy if it has one k."""
     return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
 
 
@@ -96,10 +92,7 @@ def _plane_key(sheet, top):
 
 @style.pinned()
 def line(sweep, data):
-    """Draw regular share with its 95 % interval, and the sea's exponent with quartiles.
-
-    The abscissa is the paper's energy E if the sweep has a g, else E/g^2.
-    """
+    """Draw regular share with its 95 % interval, and the sea's exponent with quartiles."""
     sheet = Sheet(style.COLUMN, 1275)
     k = sweep["k"][0]
     unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0

@@ -59,8 +59,7 @@ def work(data, which, cost):
 
     Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
     the right roots, if at most one root in a hundred is wrong. Heavy bars are quartiles of the
-    seconds. Below is the share of wrong roots. `data` comes from `work.counted` or `work.measured`;
-    `cost` is "evaluations" or "seconds".
+    seconds. Below is the share of wrong roots. `cost` is "evaluations" or "seconds".
     """
     entries, notes = _families(data), [("filled: the median", style.FRAME, "o", False)]
     if (data["wrong"].values[which] <= _MAX_WRONG_SHARE).any():
@@ -100,8 +99,7 @@ def work(data, which, cost):
 def edges(data):
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
-    A ball that grazes at x > -g comes back at once, at x < -g it leaves. `data` comes from
-    `failures.edges`.
+    A ball that grazes at x > -g comes back at once, at x < -g it leaves.
     """
     methods = _methods(data)
     sheet, top = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
@@ -133,8 +131,7 @@ def edges(data):
 def energy(data):
     """Draw the energy drift of each method, and the impacts missed against the last drift.
 
-    In the shaded part the energy is kept to 1e-6, so that a check sees nothing. `data` comes from
-    `failures.orbits`.
+    In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
     """
     sheet, top = _sheet(1350)
     drift = _axis_with_zero(_ZERO, 1, "Largest relative error of the energy so far")
@@ -179,7 +176,7 @@ def figure_errors(data):
     """Draw the error of each figure by each method in units of the largest invisible error.
 
     Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
-    two cheapest methods that suffice. `data` comes from `study.figure_errors`.
+    two cheapest methods that suffice.
     """
     scenes = data.sizes["scene"]
     sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
@@ -212,10 +209,7 @@ def figure_errors(data):
 
 @style.pinned()
 def verdicts(data):
-    """Draw the share of wrong verdicts against impacts an orbit, for both sets of cells.
-
-    Bars are one standard error of the share. `data` comes from `study.verdicts`.
-    """
+    """Draw the share of wrong verdicts, with a standard error, against impacts an orbit."""
     sheet, top = _sheet(1275)
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]

@@ -195,8 +195,6 @@ def quarter_turns(a, b, n):
 def sincos(t):
     """Return sine and cosine of an angle in radians, each within 0.8 ulp; NaN if it is not finite.
 
-    References
-    ----------
     Below WIDE the argument is reduced as in Cody and Waite, Software Manual for the Elementary
     Functions (1980), above it as in Payne and Hanek, SIGNUM Newsletter 18 (1983).
     """

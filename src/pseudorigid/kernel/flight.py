@@ -42,10 +42,7 @@ def amplitude_bound(x, c):
 
 @jit
 def first_step(x, c, s, g, amplitude):
-    """Return a first time at or before the root.
-
-    It is the root of -s + (g + x) t/2 + A t^2/6, which lies above f/t.
-    """
+    """Return a time at or before the root: the root of -s + (g + x) t/2 + A t^2/6 >= f/t."""
     h = 0.5 * (g + x)
     root = math.sqrt(h * h + (2.0 / 3.0) * s * amplitude)
     top = 2.0 * s if h >= 0.0 else 3.0 * (root - h)
@@ -249,20 +246,12 @@ def _first_impact(x, b, c, s, g):
 
 @jit
 def first_impact(x, b, c, s, g):
-    """Find the first impact after the one at x with velocities b = xdot and c = udot just after it.
+    """Find the first impact, eq. (21) with (26), after the one at x with velocities b, c after it.
 
     s = -(b + c) is the contact speed before the impact; rounding may make it negative, which counts
     as 0. Returns tau (1/omega), the position P(tau), udot Q(tau) and the number of evaluations of
     the gap. tau is 0 where the ball does not leave the floor, and NaN for input that is not finite.
-
-    Raises
-    ------
-    ArithmeticError
-        The flight takes more than MOST_EVALUATIONS evaluations.
-
-    References
-    ----------
-    Eq. (21) with (26). The paper uses "a variant of the bisection method" for its smallest root.
+    Raises ArithmeticError for a flight of more than MOST_EVALUATIONS evaluations.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
     s = max(s, 0.0)

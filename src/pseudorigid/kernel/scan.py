@@ -30,10 +30,9 @@ def gap(t, x, b, c, g):
 def scan(x, b, c, g, step, tolerance):
     """Find the next impact by steps and bisection, without a guarantee that it is the first.
 
-    x is the position at the previous impact, b and c the velocities just after it. `step` and
-    `tolerance` are in 1/omega; bisection ends with a bracket no longer than the tolerance or of
-    neighbouring doubles. Returns the bracket's middle and the number of evaluations of the gap. The
-    time is NaN for input that is not finite, and if the gap keeps its sign over MOST steps.
+    Bisection ends with a bracket no longer than the tolerance or of neighbouring doubles. Returns
+    its middle and the evaluations of the gap. The time is NaN for input that is not finite, and if
+    the gap keeps its sign over MOST steps.
     """
     if not abs(x) + abs(b) + abs(c) + g < math.inf:
         return math.nan, 0
@@ -64,12 +63,7 @@ def scan(x, b, c, g, step, tolerance):
 def scanned_impact(x, b, c, s, g, root_finder):
     """Return the scan's tau, position and udot, and 1 if it missed an earlier impact, else 0.
 
-    Arguments are those of `flight.first_impact` and (step, tolerance) in 1/omega.
-
-    Raises
-    ------
-    ArithmeticError
-        The scan ends without an impact.
+    `root_finder` is (step, tolerance) in 1/omega. Raises ArithmeticError if no impact is found.
     """
     step, tolerance = root_finder
     tau, count = scan(x, b, c, g, step, tolerance)

@@ -30,11 +30,7 @@ def allocate_buffers():
 
 @jit
 def advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder):
-    """Advance up to GROUP orbits by up to CHUNK impacts in place, and fill the buffers.
-
-    x, v, w have the shape (n,); `states` and `flights` come from `allocate_buffers` and are
-    overwritten; `root_finder` is as in `impact`. Returns the number of impacts missed.
-    """
+    """Advance orbits by up to CHUNK impacts in place, fill the buffers, count missed impacts."""
     n = x.size
     states[X : X + n], states[V : V + n], states[W : W + n] = x, v, w
     rows = states.reshape(4, CHUNK + 1, GROUP)

@@ -13,10 +13,7 @@ AXES = {"k": ("Euler inertia", "m R^2"), "energy": ("energy over g^2", "m (gravi
 
 
 def compute(block: dict) -> xr.Dataset:
-    """Compute regular and chaotic motion in the cells of a block, as from `grid.block`.
-
-    The variables of `cell.VARIABLES`, k and energy (E/g^2) are on `cell`, chains on (cell, period).
-    """
+    """Compute regular and chaotic motion in the cells of a block, as from `grid.block`."""
     rows = []
     for k, row in groupby(block["cells"], key=lambda pair: pair[0]):
         rows += cells(k, [e for _, e in row], block["starts"], block["impacts"])

@@ -41,12 +41,10 @@ VARIABLES = {
 def cell(k: float, e: float, starts: int, impacts: int) -> dict:
     """Compute the numbers of one cell, with the keys of VARIABLES.
 
-    `verdict.classify_orbits` classifies the orbits. The interval of their regular share goes from
-    the lower end of Wilson's interval with half the threshold to the upper end of the one with
-    twice the threshold.
-
-    The sea's exponent is the growth rate of tangent vectors over the impacts that all orbits have.
-    So it does not depend on when the verdict on an orbit was safe.
+    The interval of the regular share goes from the lower end of Wilson's interval with half the
+    threshold to the upper end of the one with twice the threshold. The sea's exponent is the growth
+    rate of tangent vectors over the impacts that all orbits have, so that it does not depend on
+    when the verdict on an orbit was safe.
 
     A regular orbit belongs to a chain of q islands if its winding number around the fixed point is
     within LOCKED of a fraction p/q, q <= PERIODS, but not of the fixed point's own rotation number.
@@ -54,20 +52,8 @@ def cell(k: float, e: float, starts: int, impacts: int) -> dict:
     does not. Chains inside the main island, islands around islands, and a second orbit of the same
     period count as well.
 
-    Parameters
-    ----------
-    k, e : float
-        Euler inertia, eq. (5), and E/g^2, above -1/(2k).
-    starts : int
-        Number of orbits. They start evenly over one half, y >= 0, of the section's area; the
-        reversor maps regular orbits of this half to those of the other half.
-    impacts : int
-        Largest number of impacts of an orbit, at least 4.
-
-    References
-    ----------
-    Wilson, Probable inference, the law of succession, and statistical inference, J. Amer. Statist.
-    Assoc. 22 (1927).
+    The orbits, at least 4 impacts long, start evenly over one half, y >= 0, of the section's area;
+    the reversor maps regular orbits of this half to those of the other half.
     """
     return cells(k, [e], starts, impacts)[0]
 
@@ -118,10 +104,7 @@ def _summary(orbits: Verdicts, rotation: float) -> dict:
 
 
 def wilson(count: int, total: int) -> tuple[float, float]:
-    """Wilson's 95 % interval of the share count/total, for independent starts.
-
-    The interval is conservative for evenly spread starts.
-    """
+    """Wilson's 95 % interval (1927) of the share count/total, conservative for even starts."""
     share, z2 = count / total, NORMAL_95 * NORMAL_95 / total
     middle = (share + 0.5 * z2) / (1.0 + z2)
     half = math.sqrt(share * (1.0 - share) * z2 + 0.25 * z2 * z2) / (1.0 + z2)
@@ -129,10 +112,7 @@ def wilson(count: int, total: int) -> tuple[float, float]:
 
 
 def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return p and q of the fraction with the smallest q within LOCKED of each winding number.
-
-    Both are 0 if there is no such fraction with q <= PERIODS.
-    """
+    """Return p and q <= PERIODS of the simplest fraction within LOCKED of each number, or 0."""
     turns, periods = np.zeros(winding.size, np.int64), np.zeros(winding.size, np.int64)
     for q in range(1, PERIODS + 1):
         nearest = np.rint(winding * q)

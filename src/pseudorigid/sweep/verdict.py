@@ -41,9 +41,9 @@ def lengths_to_decide(impacts: int) -> list[int]:
 class Verdicts:
     """Verdicts on orbits and what they rest on, arrays of shape (n,).
 
-    `strict` and `lenient` are the verdicts with half and with twice the threshold. `winding` is
-    in turns an impact. `exponent` is the growth rate of a tangent vector, in nats an impact, over
-    the impacts that all orbits have, without the first quarter of them.
+    `strict` and `lenient` are the verdicts with half and with twice the threshold. `winding` is in
+    turns an impact. `exponent` is the growth rate of a tangent vector, in nats an impact, over the
+    impacts that all orbits have, without the first quarter of them.
     """
 
     regular: np.ndarray
@@ -60,19 +60,11 @@ class Verdicts:
 
 
 def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
-    """Follow orbits for at most `impacts` impacts and classify them.
+    """Follow orbits for at most `impacts` impacts, at least 4, and classify them.
 
-    Parameters
-    ----------
-    k : float
-        Euler inertia, eq. (5).
-    states : (x, v, w), each of shape (n,)
-        Just before an impact, lengths in g R.
-    centre, expected : ndarray, shape (n,)
-        The x of the point at y = 0 around which turns are counted, and the turn that is expected of
-        an impact, NaN if unknown.
-    impacts : int
-        At least 4.
+    `states` are x, v, w (n,) just before an impact, lengths in g R. `centre` (n,) is the x of the
+    point at y = 0 around which turns are counted, and `expected` (n,) the turns of an impact, or
+    NaN.
     """
     lengths = lengths_to_decide(impacts)
     turning, growing = windows(lengths)
@@ -115,10 +107,10 @@ def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
 
 
 def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the windows, as (first impact, length), over which orbits of m lengths are averaged.
+    """Return windows, as (first impact, length), over which orbits of m lengths are averaged.
 
-    Turns, shape (3 m, 2), are averaged over each length and its two halves; the logarithm of the
-    tangent vector, shape (2 m, 2), over the second and the last quarter.
+    Turns (3 m, 2) are averaged over each length and its two halves; the logarithm of the tangent
+    vector (2 m, 2) over the second and the last quarter.
     """
     turning, growing = [], []
     for length in lengths:
@@ -129,10 +121,7 @@ def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def means(turning, growing, turned, growth) -> tuple[np.ndarray, np.ndarray]:
-    """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`.
-
-    `turned` and `growth` are the sums of `propagate_with_tangent` for n orbits.
-    """
+    """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
     weights = np.array([[weight(length)] for _, length in turning])
     late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]
     return (turned / weights).reshape(-1, 3, turned.shape[1]), late - early

@@ -20,16 +20,9 @@ _SIDES = 2000  # pieces of a line of the box, which the surface hides one by one
 class Box:
     """A figure of a box with equal data scales around the opaque energy surface.
 
-    What lies behind the surface is not drawn. Its outline and its edge, the grazing rim, are drawn.
-    `points` and `line` draw those data that lie inside the box; `figure` is the result.
-
-    Parameters
-    ----------
-    scene : dict
-        `axes` with limits and ticks of x, xdot and udot; `view` with elevation (between 0 and 90)
-        and azimuth in degrees; `energy` and `ball` of the surface, which are written above the box.
-    entries : sequence
-        Entries of the key, as for `panel.key`.
+    What lies behind the surface is not drawn. The scene has `axes` with limits and ticks of x, xdot
+    and udot; `view` with elevation (between 0 and 90) and azimuth; `energy` and `ball`, which are
+    written above the box. `entries` are those of `panel.key`.
     """
 
     def __init__(self, scene, entries=()):

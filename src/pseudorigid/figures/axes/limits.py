@@ -30,15 +30,8 @@ def of_window(low, high):
 def of_data(*values, margin=0.0, room=0.03, most=8):
     """Return an axis, limits and ticks, with round limits around arrays that may have NaN.
 
-    Parameters
-    ----------
-    *values : array_like
-    margin : float
-        Part of the axis without ticks at either end, for axes that meet at a corner.
-    room : float
-        Space between data and limits as a part of the span of the data.
-    most : int
-        Largest number of steps between ticks.
+    `margin` is the part of the axis without ticks at either end, for axes that meet at a corner;
+    `room` the space between data and limits in spans of the data; `most` the number of steps.
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
@@ -92,15 +85,8 @@ def _as_written(value):
 def refuse_empty(axes, values, joined=False):
     """Raise ValueError, one line, if axes show none of the data or shrink them to a spot.
 
-    Parameters
-    ----------
-    axes : mapping
-        Name -> axis with limits; may have more names than `values`.
-    values : mapping
-        Name -> ndarray, all of one shape.
-    joined : bool
-        Whether lines join consecutive values along the first dimension. Then the first name is the
-        abscissa, and the data may be flat along the others.
+    `values` has an array, all of one shape, for each name. If lines join consecutive values
+    (`joined`), the first name is the abscissa, and the data may be flat along the others.
     """
     visible = []
     for name, value in values.items():

@@ -24,11 +24,7 @@ class OccludingEllipsoid:
         return y + z >= 0.0
 
     def before(self, eye, x, y, z):
-        """Intersect the rays from points towards the eye with the whole ellipsoid.
-
-        `eye` is a direction; x, y and z have shape (n,). Returns the two intersections of each ray,
-        each as a tuple (x, y, z), NaN if it does not lie in front of the point.
-        """
+        """Return the points of the whole ellipsoid between points and the eye, NaN if none."""
         x = x - self.centre
         eye_x, eye_y, eye_z = eye
         square = self.k * eye_x * eye_x + eye_y * eye_y + self.k * eye_z * eye_z

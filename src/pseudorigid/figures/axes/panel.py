@@ -14,10 +14,7 @@ _KEY_LEFT, _KEY_WIDTH = 60, 960  # pixels
 
 
 def log10(values):
-    """Return decimal logarithms with the same bits on every machine, NaN where there is none.
-
-    The last bit of numpy's logarithm differs between processors, and marks would move by it.
-    """
+    """Return decimal logarithms, NaN where there is none; the bits of numpy's logarithm vary."""
     from ...kernel.arithmetic import log  # compiled code, which a linear picture does not need
 
     values = np.atleast_1d(np.asarray(values, dtype=float))
@@ -66,8 +63,7 @@ def decades(limits, name="", every=1):
 class Panel:
     """A frame with two axes; data beyond an axis are drawn at its end.
 
-    `frame` is (left, bottom, right, top) in pixels of the sheet. With `grid` a line runs across the
-    frame at each tick. Subclasses override the class attributes.
+    `frame` is (left, bottom, right, top) in pixels. Subclasses override the class attributes.
     """
 
     tick, gap = 2.5, 2.0  # points: a tick's length, and from there to its label
@@ -122,11 +118,7 @@ class Panel:
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
     def note(self, x, y, text, shift=(0.0, 0.0), ha="left", va="center"):
-        """Write `text` beside a point, `shift` points away.
-
-        A text that would leave the frame is mirrored at the point: diagonally, vertically or
-        horizontally, whatever fits first.
-        """
+        """Write `text` beside a point, `shift` points away, mirrored if it would not fit."""
         left, bottom, right, top = self.frame
         (x,), (y,) = self.place(x, y)
         across = float(x), shift[0] * POINT, ha

@@ -14,18 +14,9 @@ _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
 class Plane(Panel):
     """A figure of a column's width that cuts off what lies beyond its axes.
 
-    Parameters
-    ----------
-    scene : dict
-        Its ball is written above the frame.
-    axes : pair of str
-        Keys of scene["axes"], which have limits and ticks.
-    names : pair of str
-        Names of the axes; the second is written above the upper end of its axis.
-    high, right : int
-        Height of the figure, a multiple of 75, and the margin at the right, in pixels.
-    energy : bool
-        Whether the scene's energy is written above the frame too.
+    `axes` are two keys of scene["axes"], and `names` the names of these axes. The height `high` is
+    a multiple of 75; `right` is the margin in pixels. The ball is written above the frame, with
+    `energy` that too.
     """
 
     tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN
@@ -56,10 +47,7 @@ class Plane(Panel):
         self._dots(*self.place(x, y), color, size, **line_style)
 
     def beside(self, entries):
-        """Write texts to the right of the frame, from entries of (height y, text) in falling order.
-
-        Texts that would cover each other are moved apart.
-        """
+        """Write (height y, text) in falling order right of the frame, moved apart if need be."""
         heights = self.place(0, [y for y, _ in entries])[1].tolist()
         middle, step = sum(heights) / len(heights), 1.3 * style.PLAIN * POINT
         if any(above - below < step for above, below in pairwise(heights)):
@@ -70,8 +58,8 @@ class Plane(Panel):
     def legend(self, *entries):
         """Name lines and dots above the right end of the frame, where no data can be.
 
-        An entry is (text, its width in points, line style); the style of dots has `color` and, as
-        `dots`, their size.
+        An entry is (text, its width in points, line style); the style of dots has their size as
+        `dots`.
         """
         across, up = self.frame[2], self.frame[3] + 8.5 * POINT
         for text, width, line_style in reversed(entries):

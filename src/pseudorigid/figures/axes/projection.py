@@ -12,14 +12,9 @@ _PI = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
 
 
 class Projection:
-    """The map from points (x, y, z) of a box to a sheet.
+    """The map from points (x, y, z) of a box with limits (3, 2) to a sheet.
 
-    Parameters
-    ----------
-    limits : array_like, shape (3, 2)
-        The ends of the three axes.
-    view : dict
-        elevation and azimuth of the eye in degrees, seen from the middle of the box.
+    `view` has elevation and azimuth of the eye in degrees, seen from the middle of the box.
     """
 
     def __init__(self, limits, view):

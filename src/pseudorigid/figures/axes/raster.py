@@ -19,8 +19,7 @@ _LONGEST = 7  # characters of a tick label that fit at the left of a chart
 def cells(panel, sweep, shades, table):
     """Draw a rectangle for each cell, coloured by shades (k, energy) from 0 to 1, grey if NaN.
 
-    Shades beyond 0 and 1 have the colours of the ends. The cells are an image of whole pixels: a
-    PNG has the exact colour of each, and a vector file stays small.
+    The cells are an image of whole pixels: a PNG has the exact colours, and vector files are small.
     """
     left, bottom, right, top = panel.frame
     energy, k = np.array(sweep["energy"]), np.array(sweep["k"])
@@ -95,10 +94,7 @@ def wider(low, high, below, above):
 
 
 def linear(low, high, count, name=""):
-    """Return an axis with about `count` round ticks.
-
-    If their labels would be long, what they have in common is written in the name.
-    """
+    """Return an axis with round ticks; what long labels have in common is in the name."""
     low, high = float(low), float(high)
     values = ticks(low, high, count) if count else ()
     if all(len(style.number(value)) <= _LONGEST for value in values):

@@ -15,10 +15,7 @@ _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
 
 class Section(Panel):
-    """A panel around the whole section of a ball (k and g) with the given radius along y = 0.
-
-    Half the frame's width is `room` radii, each axis has about `ticks` ticks.
-    """
+    """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis."""
 
     def __init__(self, sheet, frame, ball, radius, room, ticks=0, names=("", "")):
         self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius

@@ -12,8 +12,7 @@ import numpy as np
 def bends(across, up, tolerance):
     """Return the indices of the vertices to keep, which include both ends.
 
-    The line through the kept vertices passes each other vertex at a distance of at most
-    `tolerance`. Coordinates are whole numbers, so that the comparisons are exact.
+    A line through them passes the others within `tolerance`. Coordinates are whole numbers.
     """
     x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
     keep = [0]

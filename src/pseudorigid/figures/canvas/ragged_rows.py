@@ -14,10 +14,7 @@ def rows(dataset):
 
 
 def pieces(*coordinates):
-    """Yield the runs of a line without NaN, as tuples of arrays.
-
-    Long runs are cut into pieces that share a vertex, so that they are drawn as one line.
-    """
+    """Yield the runs of a line without NaN, long ones in pieces that share a vertex, as tuples."""
     gap = np.isnan(coordinates).any(axis=0)
     ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))
     for start, stop in ends.reshape(-1, 2).tolist():

@@ -42,8 +42,7 @@ def png(image: np.ndarray, dpi: float) -> bytes:
     """Encode an array of uint8, shape (height, width, 3), as PNG.
 
     The chunks are written here, so that the bytes depend on the image alone. Pillow would use the
-    zlib that it was built with; the compressor here is libdeflate, which its wheel contains. Rows
-    are not filtered, which gives the smallest files for drawings with few colours.
+    zlib that it was built with; the compressor here is libdeflate, which its wheel contains.
     """
     height, width, _ = image.shape
     rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)

@@ -34,10 +34,7 @@ class Sheet:
         self.figure = Figure(figsize=size, dpi=style.DPI, facecolor="white")
 
     def draw(self, across, up, clip=None, **line_style):
-        """Draw a line or marks, styled by properties of matplotlib's Line2D.
-
-        Nothing is drawn outside the rectangle `clip`, (left, bottom, right, top).
-        """
+        """Draw a line or marks (Line2D) inside the rectangle `clip` (left, bottom, right, top)."""
         inches = self.figure.dpi_scale_trans
         across, up = snap_to_pixels(across), snap_to_pixels(up)
         if line_style.get("ls") != "none" and len(across) > 2:

@@ -43,11 +43,7 @@ _SETTINGS = {
 
 @contextmanager
 def pinned():
-    """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system.
-
-    Everything that makes or renders a picture runs in this context, which is also a decorator. The
-    previous settings come back afterwards.
-    """
+    """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system."""
     with matplotlib.rc_context(), fonts.shipped_only():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)

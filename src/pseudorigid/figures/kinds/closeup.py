@@ -14,8 +14,7 @@ _DOT = 3.4  # points
 def draw(scene, manifolds):
     """Draw the branches inside a window around a saddle; stable ones green, unstable ones blue.
 
-    The scene's axes default to those of the window. Raises ValueError if they show nothing or no
-    branch passes through the window.
+    The scene's axes default to the window's. Raises ValueError if they or the window show nothing.
     """
     if np.isnan(manifolds["x"].values).all():
         low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))

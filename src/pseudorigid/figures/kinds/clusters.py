@@ -22,9 +22,9 @@ _CAP = 0.04  # half the width of the line at a bar's end, in lags
 def draw(scene, clusters):
     """Draw flight times, and the correlation and dependence between clusters against their lag.
 
-    Above is the distribution of flight times, with the cuts. In the middle are correlations of y,
-    and of x, between the first states of two clusters. Below is the share of the variance of y,
-    and of x, that is explained by the cell in which the earlier cluster begins.
+    Above is the distribution of flight times, with the cuts. In the middle are correlations between
+    the first states of two clusters. Below is the share of the variance that is explained by the
+    cell in which the earlier cluster begins.
     """
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)

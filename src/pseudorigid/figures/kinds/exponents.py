@@ -17,8 +17,8 @@ _INSET_ROOM = 170  # pixels: the least distance of the first two exponents that 
 def draw(scene, lyapunov):
     """Draw the histories of the exponents, one hue an orbit, named at their ends.
 
-    An inset below the largest exponents shows them on a finer scale. It stands above its own part
-    of the impacts and has the same ticks. Raises ValueError if the axes show nothing.
+    An inset above its own part of the impacts shows the largest exponents on a finer scale. Raises
+    ValueError if the axes show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     greatest = exponent.max(axis=2)

@@ -19,10 +19,9 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 def draw(scene, flux):
     """Draw regions and lobes of the inner and the outer branches.
 
-    Above is the section with both regions, whose edges are pieces of unstable and stable branches
-    that cross on y = 0. Below, left, are the outer branches near their crossing, where they enclose
-    two lobes of one area. Below, right, is the distance of the inner unstable branch from the
-    stable one near their crossing, since they look like one line.
+    Above is the section with both regions. Below, left, are the outer branches near their crossing,
+    where they enclose two lobes of one area. Below, right, is the distance of the inner unstable
+    branch from the stable one near their crossing, since they look like one line.
     """
     sheet = Sheet(style.COLUMN, 1725)
     top = sheet.high - 75

@@ -20,8 +20,7 @@ def draw(scene, manifolds, horseshoe):
 
     Above are the sets, as dots that are far larger than they are. Below is the middle set of the
     chain as the square from -1 to 1, and across it the image of the set before, with its two ends
-    heavy. The dataset `horseshoe` is that of `proofs.theorems.scenes.scene_horseshoe`. Raises
-    ValueError if the axes show none of the sets or nothing of the image.
+    heavy. Raises ValueError if the axes show none of the sets or nothing of the image.
     """
     line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
     scene = complete(

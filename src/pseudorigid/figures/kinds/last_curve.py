@@ -16,11 +16,7 @@ _MOST = 9  # decades with a tick each; beyond that every second, third, ... has 
 
 @style.pinned()
 def draw(scene, last_curve):
-    """Draw residues and orbits, one hue for each sequence of convergents.
-
-    Above are the residues of the convergents against their period. Below is the orbit that starts
-    at the last convergent, in the plane (x, y).
-    """
+    """Draw residues of convergents against their period, and, below, orbits in the plane (x, y)."""
     rows = -(-last_curve.sizes["noble"] // 2)  # of a key
     extra = 75 * -(-48 * (rows - 1) // 75)
     sheet = Sheet(style.COLUMN, 1575 + 2 * extra)

@@ -11,10 +11,7 @@ _DOT = 2.4  # points
 
 @style.pinned()
 def draw(scene, motion):
-    """Draw -x(t) and u(t), which touch at the impacts, and mark these.
-
-    Raises ValueError if the axes show nothing of the lines.
-    """
+    """Draw -x(t) and u(t), with their impacts; ValueError if the axes show nothing of them."""
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
     scene = complete(
         scene,

@@ -10,9 +10,8 @@ _CURVE, _SEA = 0.8, 0.4  # points
 
 @style.pinned()
 def draw(scene, orbits):
-    """Draw orbits in (x, xdot, udot) on the opaque energy surface.
+    """Draw orbits in (x, xdot, udot) on the opaque energy surface, those of scene["sea"] in grey.
 
-    The orbits with index in scene["sea"] are drawn first, in grey; each other one has its own hue.
     Raises ValueError if the sea names an orbit that does not exist, or nothing can be seen.
     """
     scene = complete_box(scene, orbits)

@@ -19,9 +19,9 @@ _HUES = (*style.HUES, style.SEA)
 def draw(scene, rotation):
     """Draw rotation numbers and exponents.
 
-    Above are rotation number and exponent at the first energy, chaotic starts in grey. In the
-    middle is a detail of the rotation number, with the plateaus of chains of islands. Below is the
-    difference of the rotation number from the fixed point's, at all energies, over the main island.
+    Above are those at the first energy, chaotic starts in grey. In the middle is a detail of the
+    rotation number, with the plateaus of chains of islands. Below is the difference from the fixed
+    point's rotation number, at all energies, over the main island.
     """
     sheet = Sheet(style.COLUMN, 2025)
     entries = [

@@ -20,8 +20,8 @@ def draw(scene, spread, lyapunov):
     """Draw exponents against length, and the distribution of exponents of short runs.
 
     Above are range, quartiles and mean of the largest exponent over all stretches of a length. In
-    the middle is the histogram of stretches as long as the runs of `lyapunov`, whose exponents are
-    marked. Below are exponents of regular orbits, and ln n/n.
+    the middle is the histogram of stretches as long as the runs of `lyapunov`, which are marked.
+    Below are exponents of regular orbits, and ln n/n.
     """
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)

@@ -19,13 +19,11 @@ _BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
 
 @style.pinned()
 def draw(scene, orbits, manifolds, periodic):
-    """Draw the branches of a hyperbolic orbit over a backdrop of orbits.
+    """Draw the branches of a hyperbolic orbit, of type scene["type"], over a backdrop of orbits.
 
-    The saddles are the points of the first orbit of `periodic` with type scene["type"]. Stable
-    branches are green, unstable ones blue. An open dot marks the end of a line that is not followed
-    further, an open square a line that a jump of the map interrupts, and a small full dot a sharp
-    fold, where a line seems to end. Raises ValueError if no branch can be seen or there is no such
-    orbit.
+    Stable branches are green, unstable ones blue. An open dot marks the end of a line that is not
+    followed further, an open square a line that a jump of the map interrupts, and a small full dot
+    a sharp fold. Raises ValueError if no branch can be seen or there is no such orbit.
     """
     scene = complete_box(scene, orbits, manifolds)
     refuse_empty(scene["axes"], {name: manifolds[name].values for name in style.NAMES})
@@ -73,11 +71,7 @@ def _jumps(manifolds):
 
 
 def _tips(line, all_lines):
-    """Return the vertices of sharp folds of a line that no other line continues.
-
-    Both arrays have shape (2, n), in pixels, NaN where lines are interrupted. At a sharp fold the
-    two sides of the line are close together.
-    """
+    """Return the vertices of a line's sharp folds, in pixels (2, n), that no line continues."""
     reach, tips = _REACH * POINT, []
     all_lines = all_lines[:, ~np.isnan(all_lines[0])]
     for run in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):

@@ -11,10 +11,9 @@ _DOT = 3.2  # points
 
 @style.pinned()
 def draw(scene, twist):
-    """Draw the twist coefficient of the fixed point against the energy.
+    """Draw the twist of the fixed point against the energy, with scene["marks"] and a ring at 0.
 
-    The energies in scene["marks"] have dots with labels, the zero a ring. Raises ValueError if the
-    axes show nothing of the line.
+    Raises ValueError if the axes show nothing of the line.
     """
     energy, values = twist["energy"].values, twist["twist"].values
     scene = complete(

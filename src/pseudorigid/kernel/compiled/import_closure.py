@@ -10,25 +10,12 @@ PACKAGES = ("pseudorigid", "pipeline")
 
 
 def import_closure(src, *starts, leave_out=()):
-    """Return the sorted files, in a folder of packages, that some modules depend on.
+    """Return the sorted files, in the folder `src` of packages, that some modules depend on.
 
-    The files are those of the modules, of everything that they import directly or indirectly, also
-    inside functions, and of every package on the way.
-
-    Parameters
-    ----------
-    src : pathlib.Path
-        The folder.
-    *starts : str
-        Dotted names ("pseudorigid.dynamics.orbits").
-    leave_out : iterable of str
-        Names of modules to omit, together with what only they import.
-
-    Raises
-    ------
-    ValueError
-        A module does not exist, or a name is imported from the package `pseudorigid`, which does
-        not show which module defines it.
+    They are those of the modules (dotted names), of everything that they import directly or
+    indirectly, also inside functions, and of every package on the way, without `leave_out` and what
+    only these import. Raises ValueError if a module does not exist, or a name is imported from the
+    package `pseudorigid`, which does not show which module defines it.
     """
     files, seen, pending = set(), set(leave_out), [*starts]
     while pending:

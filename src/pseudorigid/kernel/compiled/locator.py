@@ -59,10 +59,7 @@ def folder():
 
 @cache
 def subfolder(src, module):
-    """Return the name of the folder for a module's functions, and {file: sha256} behind it.
-
-    `src` is the folder of the package, `module` a dotted name.
-    """
+    """Return the name of the folder for the functions of a module, and {file: sha256} behind it."""
     texts = {file: file.read_bytes() for file in import_closure(src, module)}
     meanings = [facts(file.name, data)[0] for file, data in texts.items()]
     digest = hashlib.sha256(" ".join(meanings).encode()).hexdigest()[:16]

@@ -35,10 +35,7 @@ def syntax_hash(path):
 
 
 def facts(name, data):
-    """Return the hash of a file's text and its imports, [number of dots, module, names] each.
-
-    `name` is that of the file, `data` its text. The names are empty for `import module`.
-    """
+    """Return the hash of a file's text and its imports, [number of dots, module, names] each."""
     suffix = ".smk" if name == "Snakefile" else Path(name).suffix
     key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
     known = _known()
