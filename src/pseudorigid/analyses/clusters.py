@@ -51,8 +51,6 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     later. `resamples` and `seed` are those of the bootstrap. Means of clusters are over all orbits.
     ValueError is raised for a cut that leaves an orbit with fewer clusters than lags + 2.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)
     >>> data.sizes["cut"]

@@ -13,9 +13,8 @@ import numpy as np
 import xarray as xr
 
 from ..dynamics.ball import Ball
+from ..dynamics.periodic import symmetric_flights
 from ..dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
-from ..kernel.arithmetic import sincos_each
-from ..kernel.impact_law import impact_coefficients, rebound
 
 # Relative length left out at the arc's ends: at x = -g rounding decides whether the ball leaves.
 _MARGIN = 2.0**-46
@@ -44,8 +43,6 @@ def jumps(ball, energy, energies, sides) -> xr.Dataset:
     middle of the curve at the first energy, along its normal. The attribute first_energy is g^2 (1
     + k/2), above which there are such curves.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> jumps(Ball(k=0.2, g=0.04), 0.01, [0.001], 40).sizes["energy"]
     2
@@ -59,7 +56,9 @@ def jumps(ball, energy, energies, sides) -> xr.Dataset:
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _MARGIN * length
     radii = [ball.section(level)[1] for level in levels]
-    flight_x, flight_y = _symmetric_flights(ball, energy, sides)
+    theta = radii[0] * math.sqrt(ball.k) / ball.g * (np.arange(sides) + 0.5) / sides
+    lines = [chart(ball.k, *symmetric_flights(ball, energy, sign, theta)) for sign in (1.0, -1.0)]
+    flight_x, flight_y = np.transpose(lines, (1, 2, 0))
     touched, missed = _derivatives(ball, energy, curves[2:, 0])
     curves[2:, :, 1:][:, gaps] = np.nan
     curve, line = ("energy", "point"), ("half_time", "branch")
@@ -157,39 +156,10 @@ def _derivatives(ball: Ball, energy: float, curve: np.ndarray) -> np.ndarray:
             except ValueError:  # outside the section
                 derivatives.append(math.nan)
                 continue
-            derivatives.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            (a, b), (c, d) = ball.chart_jacobian(*state)
+            square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
+            root = math.sqrt(max(square * square - det * det, 0.0))
+            derivatives.append(math.sqrt(square + root))  # the largest singular value
             tau = ball.time_to_impact(*state)
         rows.append((tau, derivatives))
     return np.array([derivatives for _, derivatives in sorted(rows)])
-
-
-def _largest_singular_value(matrix: np.ndarray) -> float:
-    (a, b), (c, d) = matrix
-    square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
-    return math.sqrt(square + math.sqrt(max(square * square - det * det, 0.0)))
-
-
-def _symmetric_flights(ball: Ball, energy: float, points: int) -> np.ndarray:
-    """Return (x, y) of the states whose flight is symmetric in time: (2, points, 2).
-
-    A flight of length 2 theta has b = -g theta, x = a cos theta, c = -a sin theta, where a solves
-    E = g^2 theta^2/2 + k a^2/2 - g a cos theta. The state is NaN if there is no solution, if it is
-    off the section or if the floor ends the flight before.
-    """
-    _, radius = ball.section(energy)
-    k, g = ball.k, ball.g
-    theta = radius * math.sqrt(k) / g * (np.arange(points) + 0.5) / points
-    sine, cosine = sincos_each(theta)
-    square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
-    root = np.sqrt(np.where(square >= 0.0, square, math.nan))
-    lines = []
-    for sign in (1.0, -1.0):
-        a = (g * cosine + sign * root) / k
-        v, w, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
-        on_section = v + w >= 0.0
-        state = [np.where(on_section, column, math.nan) for column in (a * cosine, v, w)]
-        tau = ball.time_to_impact(*state)
-        # no earlier impact has ended the flight; where it grazes, tau is good to 1e-8
-        first = np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta)
-        lines.append([np.where(first, column, math.nan) for column in (state[0], v - k * w)])
-    return np.array(lines).transpose(1, 2, 0)

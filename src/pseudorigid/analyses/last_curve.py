@@ -56,8 +56,6 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) 
     convergent's point has so many impacts, of which `drawn` are kept. ValueError is raised if there
     is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an island.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> between, nobles = (-0.2, -0.03), [[0, 5, 1, 15]]
     >>> data = last_curve(Ball(k=0.2, g=0.04), 0.01, 0, between, 100, 10, nobles)

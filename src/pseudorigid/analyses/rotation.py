@@ -24,8 +24,6 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) ->
     their variables begin with detail_. Rotation numbers and exponents are those of `winding`.
     Attributes: impacts and detail_impacts.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> data = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)
     >>> data.sizes["start"]

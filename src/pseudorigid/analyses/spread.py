@@ -28,8 +28,6 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     exponent (block, orbit, index) is the mean over one block, in nats an impact, in the order of
     `lyapunov_spectrum`; regular_exponent (length, island, index) is that over `length` impacts.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> data = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
     >>> in_sea(data)

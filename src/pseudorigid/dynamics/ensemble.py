@@ -98,21 +98,14 @@ class ImpactMap:
         self.missed += missed
 
     def _advance(self, x, v, w, k, g, impacts, tau, out):
+        for_lanes = self.certified and impacts > 0 and not numba.config.DISABLE_JIT
+
         def advance_piece(x, v, w, tau, out):
-            return self._advance_piece(x, v, w, k, g, impacts, tau, out)
+            if for_lanes and x.size >= lanes.MIN_ORBITS_FOR_LANES:
+                lanes.steps(x, v, w, k, g, impacts, tau, out)
+                return 0
+            if out.size > 0:
+                return impact.history(x, v, w, k, g, out, self.root_finder)
+            return impact.steps(x, v, w, k, g, impacts, tau, self.root_finder)
 
         self.count(impacts * x.size, shared(advance_piece, impacts, x, v, w, tau, out))
-
-    def _advance_piece(self, x, v, w, k, g, impacts, tau, out):
-        """Advance the states of one thread, and return how many impacts were missed."""
-        if (
-            self.certified
-            and x.size >= lanes.MIN_ORBITS_FOR_LANES
-            and impacts > 0
-            and not numba.config.DISABLE_JIT
-        ):
-            lanes.steps(x, v, w, k, g, impacts, tau, out)
-            return 0
-        if out.size > 0:
-            return impact.history(x, v, w, k, g, out, self.root_finder)
-        return impact.steps(x, v, w, k, g, impacts, tau, self.root_finder)

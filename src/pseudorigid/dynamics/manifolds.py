@@ -159,8 +159,6 @@ def scene_manifolds(
     `length`. All of these are in section radii. `resolution` has `distance` and `bend` of
     `trace_manifold`. start_error and ended are the worst of all branches.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> six = symmetric_orbits(ball, 0.01, 6)

@@ -34,8 +34,6 @@ def scene_motion(
 ) -> xr.Dataset:
     """Compute `motion` along a periodic orbit of given period and type (Figures 3 and 4).
 
-    Examples
-    --------
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]

@@ -83,8 +83,6 @@ def scene_orbits(
 
     Starts are as in `starts.start_state`. `impacts` is the number of all orbits, or a list.
 
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
     5

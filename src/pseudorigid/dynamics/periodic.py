@@ -6,6 +6,8 @@ on Fix R (y = 0) and returns to it after m impacts, or does so on Fix RP. An orb
 in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
 """
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
@@ -137,22 +139,28 @@ def _lines(ball, energy, period):
         yield on_r, inside, symmetric_flight
         return
     yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y is 0 on Fix R
-    # A symmetric flight of length 2 theta: b = -g theta, x = a cos theta, c = -a sin theta, and a
-    # from E = g^2 theta^2/2 + k a^2/2 - g a cos theta.
     longest = radius * np.sqrt(k) / g
     for sign in (1.0, -1.0):
-
-        def on_rp(theta, sign=sign):
-            sine, cosine = sincos_each(theta)
-            square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
-            a = (g * cosine + sign * np.sqrt(np.where(square >= 0.0, square, np.nan))) / k
-            xdot, udot, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
-            state = np.where(xdot + udot >= 0.0, (a * cosine, xdot, udot), np.nan)
-            tau = ball.time_to_impact(*state)
-            # Omit flights that an earlier impact ends. Where an impact grazes, tau is good to 1e-8.
-            return np.where(np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta), state, np.nan)
-
+        on_rp = partial(symmetric_flights, ball, energy, sign)
         yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, symmetric_flight
+
+
+def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray) -> np.ndarray:
+    """Return states (3, n) whose flights of lengths 2 theta (n,) are symmetric, on Fix RP.
+
+    There b = -g theta, x = a cos theta, c = -a sin theta, and E = g^2 theta^2/2 + k a^2/2 - g a cos
+    theta, of which `sign` selects a root a. A state is NaN if there is no root, if it is off the
+    section or if the floor ends the flight before.
+    """
+    k, g = ball.k, ball.g
+    sine, cosine = sincos_each(theta)
+    square = g * g * cosine * cosine + k * (2.0 * energy - g * g * theta * theta)
+    a = (g * cosine + sign * np.sqrt(np.where(square >= 0.0, square, np.nan))) / k
+    xdot, udot, _ = rebound(-g * theta, -a * sine, k, impact_coefficients(k))
+    state = np.where(xdot + udot >= 0.0, (a * cosine, xdot, udot), np.nan)
+    tau = ball.time_to_impact(*state)
+    # Where an impact grazes, tau is good to 1e-8.
+    return np.where(np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta), state, np.nan)
 
 
 def _solutions(ball, line, period, radius):

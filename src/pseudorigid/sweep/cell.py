@@ -84,17 +84,21 @@ def _summary(orbits: Verdicts, rotation: float) -> dict:
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
     apart = ~(np.abs(orbits.winding - rotation) <= LOCKED)
     turns, periods = fractions(orbits.winding[regular & apart])
-    period, winds, count = _largest_chain(turns, periods)
+    # Of equally frequent chains `most_common` returns the first: that of smallest period and turns.
+    chains = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
+    ((period, winds), count) = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
+    sea_or_nan = sea if sea.size else np.array([math.nan])
+    low, high = np.quantile(sea_or_nan, (0.25, 0.75), method="lower")
     return {
         "regular": regular.sum() / starts,
         "regular_low": wilson(int(orbits.strict.sum()), starts)[0],
         "regular_high": wilson(int(orbits.lenient.sum()), starts)[1],
         "regular_strict": orbits.strict.sum() / starts,
         "regular_lenient": orbits.lenient.sum() / starts,
-        "exponent": np.mean(sea) if sea.size else math.nan,
+        "exponent": np.mean(sea_or_nan),
         "exponent_error": np.std(sea, ddof=1) / math.sqrt(sea.size) if sea.size > 1 else math.nan,
-        "exponent_low": _quartile(sea, 1),
-        "exponent_high": _quartile(sea, 3),
+        "exponent_low": low,
+        "exponent_high": high,
         "followed": np.mean(orbits.followed),
         "chain_period": period,
         "chain_turns": winds,
@@ -119,21 +123,6 @@ def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         hit = (periods == 0) & (np.abs(winding - nearest / q) < LOCKED)
         turns[hit], periods[hit] = nearest[hit], q
     return turns, periods
-
-
-def _largest_chain(turns: np.ndarray, periods: np.ndarray) -> tuple[int, int, int]:
-    """Return (q, p, count) of the most frequent fraction p/q, among equals the smallest q and p."""
-    chains = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
-    # of equally frequent elements most_common returns the first
-    (period, winds), count = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
-    return period, winds, count
-
-
-def _quartile(ascending: np.ndarray, number: int) -> float:
-    """Return a quartile of sorted values, the lower of two candidates, NaN if there is none."""
-    if not ascending.size:
-        return math.nan
-    return float(ascending[number * (ascending.size - 1) // 4])
 
 
 @jit

@@ -204,9 +204,7 @@ def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") 
     energy = number("energy", energy)
     period = int(number("period", period, "an even number", lambda v: v >= 2.0 and v % 2.0 == 0.0))
     one_of("side", side, SIDES[::-1])
-    lobes = flux(ball, energy, period, **_COARSE)
-    if f"missing_{side}" in lobes.attrs:
-        raise ValueError(f"no {side} lobes: {lobes.attrs[f'missing_{side}']}")
+    lobes = flux(ball, energy, period, **_COARSE, sides=(side,))
     names = ["area", "area_error", "digits", "saddle", "target", "crossing_x"]
     lobe: xr.Dataset = lobes[names].sel(side=side)
     return lobe.assign_attrs(k=ball.k, g=ball.g, energy=energy, period=period)
