@@ -5,7 +5,7 @@ import pytest
 
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.analyses.regularity import regular, regular_bound
-from pseudorigid.analyses.winding import winding
+from pseudorigid.analyses.rotation import winding
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.sweep.verdict import classify_orbits
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.analyses import rotation, winding
+from pseudorigid.analyses import rotation
 from pseudorigid.analyses.regularity import regular
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
@@ -14,8 +14,8 @@ def test_rotation_numbers_at_the_fixed_point_and_in_an_island():
     six = symmetric_orbits(BALL, ENERGY, 6)
     centre, radius = BALL.section(ENERGY)
     island = (float(six["x"].values[0].max()) - centre) / radius  # on y = 0
-    fixed_at, fixed_rotation = winding.symmetric_fixed_point(BALL, ENERGY)
-    turns, grown = winding.winding(BALL, ENERGY, np.array([fixed_at + 1e-5, island]), 20_000)
+    fixed_at, fixed_rotation = rotation.symmetric_fixed_point(BALL, ENERGY)
+    turns, grown = rotation.winding(BALL, ENERGY, np.array([fixed_at + 1e-5, island]), 20_000)
     assert turns[0] == pytest.approx(fixed_rotation, abs=1e-9)
     assert turns[1] == pytest.approx(1.0 / 6.0, abs=1e-12)
     assert np.all(regular(grown, 20_000))

@@ -14,7 +14,7 @@ from project import ROOT
 from samples import KINDS, draw
 from slowly import slowly
 
-from pseudorigid.figures.canvas import fonts, style
+from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
 
 HOSTILE_MATPLOTLIBRC = """\
@@ -122,7 +122,7 @@ def test_fonts_of_the_system_are_not_used(tmp_path):
     manager.ttflist.insert(0, manager.ttflist.pop())
     try:
         assert font_manager.findfont("DejaVu Serif") == copy
-        with fonts.shipped_only():
+        with style.shipped_fonts():
             assert font_manager.findfont("DejaVu Serif") == own
     finally:
         del manager.ttflist[0]

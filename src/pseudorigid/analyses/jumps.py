@@ -135,10 +135,7 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _derivatives(ball: Ball, energy: float, curve: np.ndarray) -> np.ndarray:
-    """Return the map's largest derivatives beside the middle of the curve (2, n).
-
-    The first row is for the side where the flight meets the floor, the second for the other side.
-    """
+    """Return the map's largest derivatives beside the curve's middle, touched row first."""
     middle = curve.shape[1] // 2
     if math.isnan(curve[0, middle]):
         return np.full((2, len(_DISTANCES)), math.nan)

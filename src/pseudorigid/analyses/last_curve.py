@@ -19,8 +19,7 @@ from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_o
 from ..kernel import impact as kernel
 from ..kernel.compiled import jit
 from .regularity import regular
-from .rotation import LOCKED
-from .winding import symmetric_fixed_point, winding
+from .rotation import LOCKED, symmetric_fixed_point, winding
 
 # Half widths, in section radii, of the first and the last bracket of a symmetric flight: a thousand
 # rounding errors, doubled until it is as wide as the other.

@@ -34,7 +34,7 @@ MIN_CHAOTIC_G = 15.0
 def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
     """Return which orbits are regular by their growth.
 
-    `exponent` is that of `winding.winding`: the growth divided by half the number of impacts.
+    `exponent` is that of `rotation.winding`: the growth divided by half the number of impacts.
     """
     return exponent * (0.5 * impacts) < GROWTH_THRESHOLD
 

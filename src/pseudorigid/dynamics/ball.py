@@ -89,15 +89,10 @@ class Ball:
 
     @np.errstate(over="ignore")
     def section(self, energy: ArrayLike) -> tuple[float, Any]:
-        """Return the section's centre and radius along y = 0.
+        """Return the section's centre and radius along y = 0; ValueError below the lowest energy.
 
         There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
         the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
-
-        Raises
-        ------
-        ValueError
-            The energy is below the lowest one.
         """
         (energy,) = coordinates(energy=energy)
         square = (2.0 * energy + self.g * self.g / self.k) / self.k
@@ -111,16 +106,9 @@ class Ball:
     def state(self, x: ArrayLike, xdot: ArrayLike, energy: ArrayLike, branch: float = 1) -> State:
         """Return (x, xdot, udot) with this energy, eq. (29).
 
-        Parameters
-        ----------
-        x, xdot, energy : float or array
-        branch : {1, -1}
-            Two states may have this x, xdot and energy; 1 selects the one with the larger udot.
-
-        Raises
-        ------
-        ValueError
-            The energy surface has no such point with xdot + udot >= 0, or `branch` is not 1 or -1.
+        Two states may have this x, xdot and energy; `branch` = 1 selects the one with the larger
+        udot, -1 the other one. Raises ValueError if the energy surface has no such point with xdot
+        + udot >= 0.
         """
         branch = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
         x, xdot, energy = coordinates(x=x, xdot=xdot, energy=energy)
@@ -136,12 +124,7 @@ class Ball:
     def state_xy(self, x: ArrayLike, y: ArrayLike, energy: ArrayLike) -> State:
         """Return (x, xdot, udot) at a point of the chart (x, y = xdot - k udot).
 
-        The map keeps areas in this chart.
-
-        Raises
-        ------
-        ValueError
-            The point is outside the section's disk.
+        The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
         k = self.k
@@ -155,10 +138,7 @@ class Ball:
     def start(self, fraction: ArrayLike, energy: ArrayLike) -> State:
         """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
 
-        Raises
-        ------
-        ValueError
-            The fraction is beyond the rim, or the energy is below the lowest one.
+        Raises ValueError beyond the rim, and for an energy below the lowest one.
         """
         f, energy = coordinates(fraction=fraction, energy=energy)
         centre, radius = self.section(energy)
@@ -189,43 +169,28 @@ class Ball:
         return self.impact(x, xdot, udot)[3]
 
     def impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
-        """Apply the impact map, eq. (28).
+        """Apply the impact map, eq. (28): return x, xdot, udot and tau.
 
-        Returns
-        -------
-        x, xdot, udot, tau : float or array
-            The state just before the next impact, and the time of flight, eq. (27). Where the ball
-            only touches the floor, tau is defined to the square root of a rounding.
+        They are the state just before the next impact, and the time of flight, eq. (27). Where the
+        ball only touches the floor, tau is defined to the square root of a rounding.
         """
         return self._map_once(self.map.steps, x, xdot, udot)
 
     def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
 
-        Returns
-        -------
-        x, xdot, udot, tau : float or array
-            The state just before the previous impact, and the time of flight since then.
+        It returns x, xdot, udot just before the previous impact, and the time of flight since then.
         """
         return self._map_once(self.map.steps_back, x, xdot, udot)
 
     def jacobian(
         self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
     ) -> np.ndarray:
-        """Return the Jacobian of the map with respect to (x, xdot, udot), eq. (33).
+        """Return the Jacobian of `impacts` iterates of the map by (x, xdot, udot), eq. (33).
 
-        Parameters
-        ----------
-        x, xdot, udot : float or array
-        impacts : int
-            Number of times that the map is iterated.
-
-        Returns
-        -------
-        ndarray, shape (..., 3, 3)
-            Row i, column j: the derivative of the i-th new variable by the j-th old one. It is not
-            finite where the next impact grazes, xdot + udot = 0, because the map has no derivative
-            there.
+        The shape is (..., 3, 3). Row i, column j has the derivative of the i-th new variable by the
+        j-th old one. It is not finite where the next impact grazes, xdot + udot = 0, because the
+        map has no derivative there.
         """
         impacts = whole_number("impacts", impacts)
         columns, shape = self.columns(x, xdot, udot)

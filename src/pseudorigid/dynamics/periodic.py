@@ -182,10 +182,7 @@ def _solutions(ball, line, period, radius):
 
 
 def _sign_changes(value, parameters):
-    """Return the ends (low, high), neighbouring doubles, of each sign change of `value`.
-
-    `value` takes arrays (n,) and is NaN beyond the ends of a line.
-    """
+    """Return the ends, neighbouring doubles, of sign changes of `value`, NaN off the line."""
     on_line = ~np.isnan(value(parameters))
     low, high = parameters[:-1].copy(), parameters[1:].copy()
     # Where a line ends between two parameters, replace the one beyond by the last point on the
@@ -218,11 +215,7 @@ def _gaps(ball, states, period):
 
 
 def _closest(ball, energy, state, period):
-    """Return the state nearby from which an orbit closes best, and the gap that it leaves.
-
-    Newton steps solve P^n z = z in the chart as long as the gap falls. Then the doubles up to two
-    units in the last place away are tried.
-    """
+    """Return the state nearby from which an orbit closes best, and the gap that it leaves."""
     best, least = state, np.inf
     for _ in range(NEWTON_STEPS):
         after, gap = _gaps(ball, state[:, None], period)

@@ -34,11 +34,7 @@ def draw(sweep, data):
 
 @style.pinned()
 def plane(sweep, data):
-    """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k.
-
-    Curves show where the fixed point's rotation number is a simple fraction, and where impacts
-    begin to jump. Circles are the paper's two cases. Cells without a sea are grey.
-    """
+    """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k."""
     wide, high = (
         count * max(1, most // count)  # whole pixels for each cell
         for count, most in ((len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH))

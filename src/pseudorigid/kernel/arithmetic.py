@@ -79,10 +79,7 @@ def _reduce(t):
 
 @jit
 def _reduce_wide(t):
-    """Return (r, low, n) as from `_reduce` for any finite t > 0, with n modulo 4.
-
-    The product of t with the relevant digits of 2/pi is exact.
-    """
+    """Return (r, low, n modulo 4) as `_reduce` for any finite t > 0, by exact digits of 2/pi."""
     bits = np.float64(t).view(np.int64)
     mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000
     exponent = (bits >> 52) - 1075
@@ -178,10 +175,7 @@ def quadrant(t):
 
 @jit
 def quarter_turns(a, b, n):
-    """Turn the vector (a, b) by n right angles; n = 1 gives (-b, a).
-
-    It selects by comparison, because a processor would often mispredict a branch on n.
-    """
+    """Turn (a, b) by n right angles, to (-b, a) for n = 1, without a branch to mispredict."""
     turns = n - 4.0 * ((0.25 * n + _ROUND) - _ROUND)  # 0, 1, -2 or 2, -1
     first = b if abs(turns) == 1.0 else a
     second = a if turns * turns == 1.0 else b

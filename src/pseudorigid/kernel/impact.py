@@ -19,10 +19,7 @@ rebound = jit(impact_law.rebound)
 
 @jit
 def next_impact(x, b, c, s, g, root_finder):
-    """Return tau, position and udot at tau, evaluations of the gap, and impacts missed (0 or 1).
-
-    x, b, c, s and g are as for `flight.first_impact`.
-    """
+    """Return tau, position and udot at tau, evaluations of the gap, and impacts missed."""
     if root_finder is None:
         tau, p, q, evaluations = first_impact(x, b, c, s, g)
         return tau, p, q, evaluations, 0
@@ -32,11 +29,7 @@ def next_impact(x, b, c, s, g, root_finder):
 
 @jit
 def step(x, v, w, k, g, coefficients, root_finder):
-    """Apply the impact map, eq. (28), once: one impact and the flight after it.
-
-    Returns x, v, w just before the next impact, the time of flight tau (1/omega), the evaluations
-    of the gap, and the impacts missed.
-    """
+    """Apply the map, eq. (28): return x, v, w, tau (1/omega), evaluations of the gap, misses."""
     b, c, s = rebound(v, w, k, coefficients)
     tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, root_finder)
     v = b + g * tau
@@ -104,10 +97,7 @@ def steps(x, v, w, k, g, impacts, tau, root_finder):
 
 @jit
 def steps_back(x, v, w, k, g, impacts, tau, root_finder):
-    """Apply the inverse map F^-1 = R F R `impacts` times in place; R is the reversor.
-
-    `tau` (n,) receives the times of the flights from the states reached to their successors.
-    """
+    """Apply F^-1 = R F R in place; `tau` (n,) has the last flights from the states reached."""
     coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
@@ -138,10 +128,7 @@ def history(x, v, w, k, g, out, root_finder):
 
 @jit
 def jacobians(x, v, w, k, g, impacts, out, root_finder):
-    """Write the Jacobian of the iterated map at each state, eq. (33), to out (n, 3, 3).
-
-    Row i, column j holds the derivative of the i-th new variable by the j-th old one.
-    """
+    """Write the Jacobian of the iterated map at each state, eq. (33), to out (n, 3, 3)."""
     coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):

@@ -124,10 +124,7 @@ def _follow(lanes, g):
 
 @jit
 def _end_flights(lanes, k, g, coefficients):
-    """Advance lanes whose flight has ended to the next state, and begin their next flight.
-
-    Return 0 if every lane goes on in the common case and no orbit has ended.
-    """
+    """Advance lanes whose flight has ended, and return 0 if every lane is in the common case."""
     exceptions = 0
     for i in range(LANES):
         x, v, w, tau, t = (lanes[X + i], lanes[V + i], lanes[W + i], lanes[TAU + i], lanes[T + i])

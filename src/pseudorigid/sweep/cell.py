@@ -143,10 +143,7 @@ def _spiral(e, k, x, v, w):
 
 
 def sunflower_points(k: float, e: float, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section's area.
-
-    Radii divide the area equally; angles advance by the golden section.
-    """
+    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section."""
     x, v, w = np.empty(count), np.empty(count), np.empty(count)
     _spiral(e, k, x, v, w)
     return x, v, w

@@ -3,7 +3,7 @@
 All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
 on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
 vector (`analyses.regularity`), and the difference between the winding numbers of the two halves,
-which are weighted Birkhoff averages as in `analyses.winding`.
+which are weighted Birkhoff averages as in `analyses.rotation`.
 
 Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
 numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and

@@ -114,10 +114,7 @@ class Box:
                         self._edge(start, along, color, 0.6)
 
     def _axes(self):
-        """Return the start of each axis, and the direction of its ticks on the sheet.
-
-        The axes are edges of the box with nothing before them: two on the floor, one upright.
-        """
+        """Return the start of the three edges that are axes, and the direction of their ticks."""
         (x0, x1), (y0, y1), (z0, _) = self.spans
         east, north, _ = self.view.eye
         front = (x1 if east > 0 else x0), (y1 if north > 0 else y0)

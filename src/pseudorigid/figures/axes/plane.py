@@ -56,11 +56,7 @@ class Plane(Panel):
             self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
 
     def legend(self, *entries):
-        """Name lines and dots above the right end of the frame, where no data can be.
-
-        An entry is (text, its width in points, line style); the style of dots has their size as
-        `dots`.
-        """
+        """Name lines and dots, (text, width in points, style), above the right end of the frame."""
         across, up = self.frame[2], self.frame[3] + 8.5 * POINT
         for text, width, line_style in reversed(entries):
             across -= width * POINT

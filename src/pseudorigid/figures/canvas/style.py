@@ -3,8 +3,7 @@
 from contextlib import contextmanager
 
 import matplotlib
-
-from . import fonts
+from matplotlib import font_manager
 
 DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
@@ -42,9 +41,27 @@ _SETTINGS = {
 
 
 @contextmanager
+def shipped_fonts():
+    """Let matplotlib find only the fonts that it ships with.
+
+    Fonts of the system may be other versions of these. There is no setting that leaves them out, so
+    a private attribute is used; a test fails if it stops having an effect.
+    """
+    manager, folder = font_manager.fontManager, matplotlib.get_data_path()
+    all_fonts = manager.ttflist
+    try:
+        manager.ttflist = [font for font in all_fonts if font.fname.startswith(folder)]
+        manager._findfont_cached.cache_clear()
+        yield
+    finally:
+        manager.ttflist = all_fonts
+        manager._findfont_cached.cache_clear()
+
+
+@contextmanager
 def pinned():
     """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system."""
-    with matplotlib.rc_context(), fonts.shipped_only():
+    with matplotlib.rc_context(), shipped_fonts():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
         yield

@@ -20,12 +20,7 @@ _CAP = 0.04  # half the width of the line at a bar's end, in lags
 
 @style.pinned()
 def draw(scene, clusters):
-    """Draw flight times, and the correlation and dependence between clusters against their lag.
-
-    Above is the distribution of flight times, with the cuts. In the middle are correlations between
-    the first states of two clusters. Below is the share of the variance that is explained by the
-    cell in which the earlier cluster begins.
-    """
+    """Draw flight times, and the correlation and dependence between clusters against their lag."""
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)

@@ -15,10 +15,9 @@ _INSET_ROOM = 170  # pixels: the least distance of the first two exponents that 
 
 @style.pinned()
 def draw(scene, lyapunov):
-    """Draw the histories of the exponents, one hue an orbit, named at their ends.
+    """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
 
-    An inset above its own part of the impacts shows the largest exponents on a finer scale. Raises
-    ValueError if the axes show nothing.
+    The inset stands above its own impacts. Raises ValueError if the axes show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     greatest = exponent.max(axis=2)

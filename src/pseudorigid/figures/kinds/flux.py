@@ -17,12 +17,7 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 
 @style.pinned()
 def draw(scene, flux):
-    """Draw regions and lobes of the inner and the outer branches.
-
-    Above is the section with both regions. Below, left, are the outer branches near their crossing,
-    where they enclose two lobes of one area. Below, right, is the distance of the inner unstable
-    branch from the stable one near their crossing, since they look like one line.
-    """
+    """Draw regions and lobes of the inner and the outer branches, and both crossings."""
     sheet = Sheet(style.COLUMN, 1725)
     top = sheet.high - 75
     above = _LEFT, top - _WIDE, _LEFT + _WIDE, top

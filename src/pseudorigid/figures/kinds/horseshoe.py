@@ -16,11 +16,9 @@ _ROOM = 1.3  # height of the lower panel over that of its square; the square's n
 
 @style.pinned()
 def draw(scene, manifolds, horseshoe):
-    """Draw the sets of a horseshoe in the chart (x, y = xdot - k udot), over the manifolds.
+    """Draw the sets of a horseshoe, as large dots over the manifolds, and one covering relation.
 
-    Above are the sets, as dots that are far larger than they are. Below is the middle set of the
-    chain as the square from -1 to 1, and across it the image of the set before, with its two ends
-    heavy. Raises ValueError if the axes show none of the sets or nothing of the image.
+    Raises ValueError if the axes show none of the sets or nothing of the image.
     """
     line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
     scene = complete(

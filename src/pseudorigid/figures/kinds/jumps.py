@@ -16,11 +16,7 @@ _SEA = "#d4d4d4"
 
 @style.pinned()
 def draw(scene, jumps, orbits):
-    """Draw the section with the curves where the map and its inverse jump.
-
-    Above is the section at the first energy, with the orbits in scene["sea"] in grey. Below are
-    sections at up to three energies next to that at which the curves are born.
-    """
+    """Draw the section with the jumps of the map and its inverse, and further energies below."""
     sheet = Sheet(style.COLUMN, 1500)
     top = sheet.high - 75
     frame = (_LEFT, top - _LARGE, _LEFT + _LARGE, top)

@@ -17,12 +17,7 @@ _HUES = (*style.HUES, style.SEA)
 
 @style.pinned()
 def draw(scene, rotation):
-    """Draw rotation numbers and exponents.
-
-    Above are those at the first energy, chaotic starts in grey. In the middle is a detail of the
-    rotation number, with the plateaus of chains of islands. Below is the difference from the fixed
-    point's rotation number, at all energies, over the main island.
-    """
+    """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
     sheet = Sheet(style.COLUMN, 2025)
     entries = [
         ("regular", style.BLUE, "o", False),

@@ -17,12 +17,7 @@ _LN10 = 2.302585092994046
 
 @style.pinned()
 def draw(scene, spread, lyapunov):
-    """Draw exponents against length, and the distribution of exponents of short runs.
-
-    Above are range, quartiles and mean of the largest exponent over all stretches of a length. In
-    the middle is the histogram of stretches as long as the runs of `lyapunov`, which are marked.
-    Below are exponents of regular orbits, and ln n/n.
-    """
+    """Draw exponents against length, the distribution of short runs, and regular orbits."""
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
