@@ -18,9 +18,9 @@ numbers = st.floats(-2.0, 2.0)
 balls = st.builds(Ball, k=st.floats(0.01, 1.0), g=st.floats(1e-4, 1.0))
 
 
-def states(count, seed=0):
+def states(count):
     """Return `count` random states x, v, w with v + w >= 0."""
-    x, v, w = np.random.default_rng(seed).uniform(-0.5, 0.5, (3, count))
+    x, v, w = np.random.default_rng(0).uniform(-0.5, 0.5, (3, count))
     turn = np.where(v + w < 0, -1.0, 1.0)
     return x, turn * v, turn * w
 
@@ -29,18 +29,12 @@ def parts(result):
     return result if isinstance(result, tuple) else (result,)
 
 
-@pytest.mark.parametrize(
-    "k, g, name", [(0, 1, "k"), (1.0000001, 1, "k"), (1, 0, "g"), (1, -1, "g")]
-)
-def test_parameters_out_of_range(k, g, name):
-    with pytest.raises(ValueError, match=rf"^{name} = "):
-        Ball(k, g)
-
-
-def test_parameters_at_the_ends_of_their_ranges():
+def test_the_ranges_of_the_parameters():
+    for k, g, name in ((0, 1, "k"), (1.0000001, 1, "k"), (1, 0, "g"), (1, -1, "g")):
+        with pytest.raises(ValueError, match=rf"^{name} = "):
+            Ball(k, g)
     for k, g in ((1, 1), (5e-324, 1e308), (1.0, 5e-324), (np.float64(0.2), np.float32(0.5))):
-        ball = Ball(k, g)
-        assert type(ball.k) is type(ball.g) is float
+        assert type(Ball(k, g).k) is type(Ball(k, g).g) is float
 
 
 def test_balls_are_equal_by_value():
@@ -56,23 +50,14 @@ def test_balls_are_equal_by_value():
         BALL.k = 0.3
 
 
-def test_energy():
+def test_the_energy_its_bounds_and_the_section():
     # 0.3^2/2 + 0.2 0.5^2/2 - 0.04 0.1 + 0.2 0.1^2/2
     assert BALL.energy(0.1, 0.3, 0.5) == pytest.approx(0.067, rel=1e-15)
-
-
-def test_energy_bounds():
     low, high = BALL.energy_bounds()
-    assert low == pytest.approx(-0.004, rel=1e-15)
-    assert high == pytest.approx(0.06, rel=1e-15)
+    assert (low, high) == pytest.approx((-0.004, 0.06), rel=1e-15)
     assert BALL.energy(0.2, 0.0, 0.0) == pytest.approx(low, rel=1e-14)
-
-
-def test_section():
-    centre, radius = BALL.section(0.01)
-    assert centre == 0.04 / 0.2
-    assert radius == pytest.approx(math.sqrt(0.14), rel=1e-15)
-    assert BALL.section(BALL.energy_bounds()[0])[1] == pytest.approx(0.0, abs=1e-8)
+    assert BALL.section(0.01) == pytest.approx((0.04 / 0.2, math.sqrt(0.14)), rel=1e-15)
+    assert BALL.section(low)[1] == pytest.approx(0.0, abs=1e-8)
     with pytest.raises(ValueError, match=r"energy = -0\.005"):
         BALL.section(-0.005)
 
@@ -103,21 +88,22 @@ def test_state_and_state_xy_give_the_energy_back(ball, x, v, w):
 
 
 def test_both_branches_of_a_state():
-    upper = BALL.state(0.2, 0.16, 0.01)
-    lower = BALL.state(0.2, 0.16, 0.01, branch=-1)
-    assert upper[2] > 0.0 > lower[2]
-    assert upper[2] == -lower[2]
+    upper, lower = (BALL.state(0.2, 0.16, 0.01, branch) for branch in (1, -1))
+    assert upper[2] == -lower[2] > 0.0
 
 
-def test_states_that_do_not_exist_are_rejected():
-    with pytest.raises(ValueError, match="no state"):
-        BALL.state(0.9, 0.0, 0.01)
-    with pytest.raises(ValueError, match="section"):
-        BALL.state(0.2, -0.01, 0.01, branch=-1)
-    with pytest.raises(ValueError, match="section"):
-        BALL.state_xy(0.2, 0.9, 0.01)
-    with pytest.raises(ValueError, match="branch = 2"):
-        BALL.state(0.2, 0.0, 0.01, branch=2)
+@pytest.mark.parametrize(
+    ("method", "arguments", "message"),
+    [
+        (BALL.state, (0.9, 0.0, 0.01), "no state"),
+        (BALL.state, (0.2, -0.01, 0.01, -1), "section"),
+        (BALL.state_xy, (0.2, 0.9, 0.01), "section"),
+        (BALL.state, (0.2, 0.0, 0.01, 2), "branch = 2"),
+    ],
+)
+def test_states_that_do_not_exist_are_rejected(method, arguments, message):
+    with pytest.raises(ValueError, match=message):
+        method(*arguments)
 
 
 @every
@@ -134,12 +120,16 @@ def test_reflect_is_an_involution_of_the_chart(ball, x, v, w):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_arrays_have_the_bits_of_scalars(method):
-    state = states(200)
-    whole = parts(getattr(BALL, method)(*state))
+def test_arrays_have_the_bits_of_scalars_and_are_not_changed(method):
+    call, state = getattr(BALL, method), states(200)
+    for a in state:
+        a.flags.writeable = False
+    whole = parts(call(*state))
     for i, one in enumerate(zip(*state, strict=True)):
-        for all_of, single in zip(whole, parts(getattr(BALL, method)(*one)), strict=True):
+        for all_of, single in zip(whole, parts(call(*one)), strict=True):
             assert np.array_equal(all_of[i], single)
+    for part, every_second in zip(whole, parts(call(*(a[::2] for a in state))), strict=True):
+        assert np.array_equal(part[::2], every_second)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -162,17 +152,6 @@ def test_results_have_the_broadcast_shape(method):
     assert np.array_equal(parts(call(1, 2, 3))[0], parts(call(1.0, 2.0, 3.0))[0])
     with pytest.raises(ValueError, match="broadcast"):
         call(np.zeros(2), np.zeros(3), 0.1)
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_arguments_are_not_changed(method):
-    state = states(20, seed=1)
-    copies = [a.copy() for a in state]
-    getattr(BALL, method)(*state)
-    assert all(np.array_equal(a, b) for a, b in zip(state, copies, strict=True))
-    for a in state:
-        a.flags.writeable = False
-    getattr(BALL, method)(state[0][::2], state[1][::2], state[2][::2])
 
 
 CALLS = [getattr(BALL, method) for method in METHODS if method != "energy"]

@@ -58,19 +58,20 @@ def test_against_numpy_over_two_thousand_impacts(k, g, energy, start):
     assert np.max(np.abs(found - by_numpy(ball, state, 2000))) < 1e-11
 
 
-@pytest.mark.parametrize("start", [-0.440981, -0.23519, -0.132294, 0.142183])
-def test_regular_orbits_have_exponents_near_zero(start):
-    assert np.max(np.abs(final(BALL.start(start, 0.01), 50_000))) < 5e-4
+def test_regular_orbits_have_exponents_near_zero():
+    elliptic = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic").isel(point=0)
+    starts = BALL.start([-0.440981, -0.23519, -0.132294, 0.142183], 0.01)
+    for state in (starts, [float(elliptic[name]) for name in ("x", "xdot", "udot")]):
+        assert np.max(np.abs(final(state, 60_000))) < 5e-4
 
 
-@pytest.mark.parametrize("start", [0.534522, 0.6, 0.8])
-def test_the_sum_is_zero_and_so_is_the_middle_one(start):
+def test_the_sum_is_zero_and_so_is_the_middle_one():
     """The product of det J = s/s' telescopes, and energy is kept."""
-    found = final(BALL.start(start, 0.01), 100_000)
-    assert abs(np.sum(found)) < 2e-4
-    assert abs(found[1]) < 2e-4
-    assert found[0] > 0.2
-    assert np.all(np.diff(found) < 0)
+    for found in final(BALL.start([0.534522, 0.6, 0.8], 0.01), 100_000):
+        assert abs(np.sum(found)) < 2e-4
+        assert abs(found[1]) < 2e-4
+        assert found[0] > 0.2
+        assert np.all(np.diff(found) < 0)
 
 
 def test_a_periodic_orbit_has_the_logarithm_of_its_multiplier():
@@ -87,12 +88,6 @@ def test_a_periodic_orbit_has_the_logarithm_of_its_multiplier():
         assert np.median(growth[-6:]) / period == pytest.approx(expected, rel=1e-3)
 
 
-def test_an_elliptic_periodic_orbit_has_exponents_near_zero():
-    one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
-    state = [float(one[name][0]) for name in ("x", "xdot", "udot")]
-    assert np.max(np.abs(final(state, 60_000))) < 5e-4
-
-
 @pytest.mark.parametrize(
     ("impacts", "records"), [(1, 1), (7, 400), (1000, 7), (1000, 1), (999, 400)]
 )
@@ -101,11 +96,9 @@ def test_history_ends_with_the_final_value(impacts, records):
     found = lyapunov_spectrum(BALL, state, impacts, records)
     at = found["impact"].values
     assert at.dtype == np.int64
-    assert at.size == min(records, impacts)
-    assert at[-1] == impacts
+    assert (at.size, at[-1]) == (min(records, impacts), impacts)
     assert np.all(np.diff(at, prepend=0) > 0)
     full = lyapunov_spectrum(BALL, state, impacts, records=impacts)
-    assert full["impact"].values.tolist() == list(range(1, impacts + 1))
     # Logarithms are summed in different groups, which changes roundings.
     expected = full["exponent"].values[at - 1]
     assert np.max(np.abs(found["exponent"].values - expected)) < 1e-13
@@ -138,8 +131,7 @@ def test_growth_beyond_the_range_of_doubles():
 def test_a_scene_has_a_history_for_each_start():
     starts = [0.6, 0.62]
     found = scene_exponents(BALL, 0.01, starts, 500, 5)
-    assert found["exponent"].dims == ("impact", "orbit", "index")
-    assert found["exponent"].shape == (5, 2, 3)
+    assert dict(found["exponent"].sizes) == {"impact": 5, "orbit": 2, "index": 3}
     assert found["start"].values.tolist() == starts
     assert found["impact"].values.tolist() == [100, 200, 300, 400, 500]
     alone = lyapunov_spectrum(BALL, BALL.start(0.62, 0.01), 500, 5)["exponent"].values

@@ -92,35 +92,27 @@ def test_a_branch_is_mapped_into_itself(orbit, energy, side, length, mapped_leng
     assert np.max(distances(mapped(part, orbit.sizes["point"]), branch)) < limit * radius
 
 
-def test_a_branch_leaves_its_point_by_the_multiplier():
-    branch = line(saddle=2, length=0.01)
+@pytest.mark.parametrize("stable", [False, True])
+def test_a_branch_leaves_or_approaches_its_point_by_the_multiplier(stable):
+    branch = line(saddle=2, stable=stable, length=0.01)
     distance = norm(branch - branch[:, :1])
     near = (distance > 1e-6 * RADIUS) & (distance < 1e-5 * RADIUS)
-    after = norm(mapped(branch[:, near], 6) - branch[:, :1])
-    assert after / distance[near] == pytest.approx(float(SADDLE["multiplier"]), rel=1e-3)
+    ratio = norm(mapped(branch[:, near], 6) - branch[:, :1]) / distance[near]
+    multiplier = float(SADDLE["multiplier"])
+    assert ratio == pytest.approx(1.0 / multiplier if stable else multiplier, rel=1e-3)
 
 
 def test_the_stable_branch_is_the_mirror_image():
     mirrored = np.stack(BALL.reflect(*line(saddle=1, length=0.5)))
-    stable = line(stable=True, length=0.5)
     # Rounding may shift points along the line.
-    assert np.max(distances(mirrored, stable)) < 1e-4 * RADIUS
+    assert np.max(distances(mirrored, line(stable=True, length=0.5))) < 1e-4 * RADIUS
 
 
-def test_a_stable_branch_approaches_its_point():
-    branch = line(saddle=3, stable=True, length=0.05)
-    ends = [branch[:, [-1]]]
-    for _ in range(6):
-        ends.append(mapped(ends[-1], 6))
-    distance = norm(np.concatenate(ends, axis=1) - branch[:, :1])
-    assert np.all(distance[1:] < 0.75 * distance[:-1])
-
-
-def test_inner_and_outer_leave_on_opposite_sides():
-    for saddle in range(6):
-        branches = [line(saddle=saddle, side=side, length=0.001) for side in SIDES]
-        a, b = (branch[:, -1] - branch[:, 0] for branch in branches)
-        assert np.sum(a * b) < -0.99 * norm(a) * norm(b)
+@pytest.mark.parametrize("saddle", range(6))
+def test_inner_and_outer_leave_on_opposite_sides(saddle):
+    branches = [line(saddle=saddle, side=side, length=0.001) for side in SIDES]
+    a, b = (branch[:, -1] - branch[:, 0] for branch in branches)
+    assert np.sum(a * b) < -0.99 * norm(a) * norm(b)
 
 
 @pytest.mark.parametrize(("side", "other"), [SIDES, SIDES[::-1]])
@@ -203,27 +195,20 @@ def test_no_jumps_below_their_onset():
     assert not np.any(np.isnan(line(orbit, energy=0.0017, side="outer", length=3.0)))
 
 
-def test_the_papers_saddle_is_not_weak():
-    assert float(SADDLE["multiplier"]) > rule.WEAK > float(WEAK["multiplier"]) > 1
-
-
+@pytest.mark.parametrize("energy", [WEAK_ENERGY, 0.0012])
 @pytest.mark.parametrize("side", SIDES)
-def test_a_weak_branch_needs_few_vertices(side):
-    branch = trace_manifold(BALL, WEAK_ENERGY, WEAK, side=side, length=0.5)
-    sides = sides_of(states_of(branch)) / BALL.section(WEAK_ENERGY)[1]
+def test_a_weak_branch_has_few_vertices_and_the_documented_accuracy(energy, side):
+    orbit = of_type(orbits_of(energy, 10), "hyperbolic")
+    assert float(SADDLE["multiplier"]) > rule.WEAK > float(orbit["multiplier"]) > 1
+    branch = trace_manifold(BALL, energy, orbit, side=side, length=0.5)
+    points, radius = states_of(branch), BALL.section(energy)[1]
+    sides = sides_of(points) / radius
     assert sides.max() <= 0.01
     assert sides.sum() == pytest.approx(0.5, abs=0.02)
-    assert sides.size < 4000  # 14,000 and 47,000 if mapped from the segment
+    assert sides.size < 4000  # 14,000 and 47,000 at the first energy if mapped from the segment
     assert "ended" not in branch.attrs
-
-
-@pytest.mark.parametrize("energy", [0.001, 0.0012])
-@pytest.mark.parametrize("side", SIDES)
-def test_a_weak_branch_is_as_accurate_as_documented(energy, side):
-    orbit = of_type(orbits_of(energy, 10), "hyperbolic")
-    branch = line(orbit, energy=energy, side=side, length=0.5)
     fine = line(orbit, energy=energy, side=side, length=0.52, distance=0.001, bend=1.0)
-    assert np.max(distances(branch[:, :-2], fine)) < 2e-6 * BALL.section(energy)[1]
+    assert np.max(distances(points[:, :-2], fine)) < 2e-6 * radius
 
 
 @pytest.mark.parametrize(("side", "length"), [("inner", 0.8), ("outer", 0.6)])
