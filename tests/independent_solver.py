@@ -280,8 +280,7 @@ def exact_map(k, g, x, v, w):
 
 def exact_jacobian(k, g, x, v, w, step=1e-20):
     """The rows of the Jacobian by central differences of exact_map, with an error of step^2."""
-    k, g = mpf(float(k)), mpf(float(g))
-    at = [mpf(float(a)) for a in (x, v, w)]
+    k, g, *at = (mpf(a) for a in (k, g, x, v, w))
     columns = []
     for j in range(3):
         ends = []
