@@ -1,6 +1,9 @@
 """Time to the next impact against a proved first root, on families of hard states."""
 
 import hashlib
+import os
+import subprocess
+import sys
 
 import mpmath
 import numpy as np
@@ -8,6 +11,7 @@ import pytest
 from flights import FAMILIES, TAU, ahead, before, by_mpmath, error
 from independent_solver import judge
 from mpmath import mpf
+from project import ROOT
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.reference_solver import first_root
@@ -137,6 +141,23 @@ def test_frozen_bits_of_many_flights():
     tau = np.concatenate([Ball(0.2, g).time_to_impact(x, v, w) for g in (2.0**-12, 0.04, 0.9)])
     digest = hashlib.sha256(tau.astype("<f8").tobytes()).hexdigest()
     assert digest == FROZEN
+
+
+@pytest.mark.parametrize(
+    ("phase", "state"), [("march", (-0.22, -0.01, 0.48)), ("landing", (0.01, 0.45, -0.36))]
+)
+def test_caps_raise(phase, state):
+    """With the cap at one evaluation a flight ends in an error, with the real cap in an impact."""
+    assert Ball(0.2, 0.04).time_to_impact(*state) > 0.0
+    code = (
+        "from pseudorigid import Ball\nfrom pseudorigid.kernel import flight\n"
+        "flight.MOST_EVALUATIONS = 1\n"
+        f"try: print(Ball(0.2, 0.04).impact{state})\nexcept ArithmeticError as e: print(e)"
+    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, "-c", code]
+    run = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+    assert (run.returncode, phase in run.stdout) == (0, True), run.stdout + run.stderr
 
 
 @pytest.mark.parametrize("exponent", [-1000, -700, 700, 1000])

@@ -137,17 +137,13 @@ def test_the_rim(ball):
             assert error((ball.k, ball.g, x, v, -v)) <= TAU, (x.hex(), v.hex())
 
 
-def within(found, true, grain):
-    return abs(found - float(true)) <= 1e-14 * abs(float(true)) + grain
-
-
 @pytest.mark.parametrize("unit", [5e-324, 1e-320, 1e-312, 2.3e-308])
 def test_subnormal_states(unit):
     """The error of subnormal impacts is that of some units of 5e-324 in b and c."""
     for x, v, w in ((3, 5, 7), (-4, 2, 9), (0, 1, 0), (100, -30, 31), (-200, 60, 60)):
         state = (x * unit, v * unit, w * unit)
-        *_, tau = BALL.impact(*state)
-        assert within(tau, judge(0.2, 0.04, *state).tau, 200 * 5e-324), state
+        true = float(judge(0.2, 0.04, *state).tau)
+        assert abs(BALL.time_to_impact(*state) - true) <= 1e-14 * true + 200 * 5e-324, state
         # With an equally small gravity nothing is small in comparison.
         tau = Ball(0.2, 8 * unit).time_to_impact(*state)
         assert 0.0 < tau < 1e3
@@ -172,15 +168,3 @@ def test_any_state_of_any_ball(k, g, x, v, w, near):
     v, w = (v, w) if v + w >= 0.0 else (-v, -w)
     state = (k, g, x, v, w)
     assert error(state) <= TAU, [a.hex() for a in state]
-
-
-@settings(max_examples=500, derandomize=True, deadline=None)
-@given(st.floats(-2, -0.5), st.floats(0.01, 0.99), st.floats(-0.999, 0.999), st.floats(0, 1))
-def test_any_energy(k, share, fraction, height):
-    """Cover the whole section at energies between both bounds."""
-    k = 10.0**k
-    ball = Ball(k, share * 0.5 * k)
-    low, high = ball.energy_bounds()
-    state = ball.start(fraction, low + height * (high - low))
-    if state[1] + state[2] > 0.0:
-        assert error((ball.k, ball.g, *state)) <= TAU, [a.hex() for a in (ball.k, ball.g, *state)]

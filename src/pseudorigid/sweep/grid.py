@@ -4,6 +4,8 @@ A sweep is a mapping of config.yaml, in which `k` and `energy` are lists of numb
 counted along the energies of one k, then along those of the next k.
 """
 
+from itertools import islice, product
+
 
 def cells(sweep: dict) -> int:
     """Number of cells of a sweep."""
@@ -18,15 +20,8 @@ def ranges(sweep: dict) -> list[tuple[int, int]]:
 
 def block(sweep: dict, number: int) -> dict:
     """Parameters that decide the data of a block, counted from 0: cells [k, E/g^2] and orbits."""
-    start, stop = ranges(sweep)[number]
-    across = len(sweep["energy"])
-    return {
-        "cells": [
-            [sweep["k"][i // across], sweep["energy"][i % across]] for i in range(start, stop)
-        ],
-        "starts": sweep["starts"],
-        "impacts": sweep["impacts"],
-    }
+    cells = islice(product(sweep["k"], sweep["energy"]), *ranges(sweep)[number])
+    return {"cells": [*map(list, cells)], "starts": sweep["starts"], "impacts": sweep["impacts"]}
 
 
 def whole(sweep: dict) -> dict:
