@@ -48,12 +48,12 @@ _VARIABLES = {
 def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) -> xr.Dataset:
     """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
-    Of each noble number there are so many convergents, beginning with that of its given quotients.
-    A noble is a continued fraction [0, a1, a2, ...], after which all quotients are 1; by default
-    they are those of `edge_nobles`. Orbits are searched in the part `between` of y = 0, in section
-    radii, whose first end is nearer to the fixed point. The orbit that starts at the last
-    convergent's point has so many impacts, of which `drawn` are kept. ValueError is raised if there
-    is no orbit of a convergent in `between`, or, if nobles are chosen, no edge of an island.
+    `nobles` are continued fractions [0, a1, a2, ...], after which all quotients are 1; by default
+    they are those of `edge_nobles`. Of each there are so many `convergents`, beginning with that of
+    its given quotients. Orbits are searched in the part `between` of y = 0, in section radii, whose
+    first end is nearer to the fixed point. The orbit that starts at the last convergent's point is
+    followed for `impacts`, of which `drawn` are kept. ValueError is raised if there is no orbit of
+    a convergent in `between`, or, if nobles are chosen, no edge of an island.
 
     >>> from pseudorigid import Ball
     >>> between, nobles = (-0.2, -0.03), [[0, 5, 1, 15]]

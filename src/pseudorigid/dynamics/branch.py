@@ -34,9 +34,8 @@ class Branch:
     """Unstable branch as a function of u >= 0, or its mirror image, a stable branch.
 
     The side is the sign of the direction's product with that from the orbit's middle. At one point
-    of Figure 5's orbit, x = -0.08267, y = -0.04873, the angle between them is 89.99 degrees: the
-    product is 0.084485 - 0.084441 = 4.4e-5, and its sign swaps inner and outer (docs/method.md). A
-    rule that carried one clear side along the orbit would change the figure's data.
+    of Figure 5's orbit their angle is 89.99 degrees; a rule that carried one clear side along the
+    orbit would swap inner and outer there and change the figure's data (docs/method.md).
 
     `points` (3, n) are the orbit's states, and `saddle` is the index of one of them. `multiplier`
     is the ratio of the lengths of successive images, which are mapped from one another if it is

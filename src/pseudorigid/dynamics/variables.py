@@ -39,7 +39,7 @@ def described(table) -> dict:
 
 
 def attributes_of(meaning: str, scale: str = "1") -> dict:
-    """Return the attributes of a dimensionless number that stands for itself times the scale."""
+    """Return long_name, units and scale: a variable's quantity is the number times the scale."""
     return {"long_name": meaning, "units": "1", "scale": scale}
 
 

@@ -41,19 +41,18 @@ VARIABLES = {
 def cell(k: float, e: float, starts: int, impacts: int) -> dict:
     """Compute the numbers of one cell, with the keys of VARIABLES.
 
-    The interval of the regular share goes from the lower end of Wilson's interval with half the
-    threshold to the upper end of the one with twice the threshold. The sea's exponent is the growth
-    rate of tangent vectors over the impacts that all orbits have, so that it does not depend on
-    when the verdict on an orbit was safe.
+    At most `impacts` impacts, at least 4, of each orbit are followed. The orbits start evenly over
+    one half, y >= 0, of the section's area; the reversor maps regular orbits of this half to those
+    of the other half. The interval of the regular share goes from the lower end of Wilson's
+    interval with half the threshold to the upper end of the one with twice the threshold. The sea's
+    exponent is the growth rate of tangent vectors over the impacts that all orbits have, so that it
+    does not depend on when the verdict on an orbit was safe.
 
     A regular orbit belongs to a chain of q islands if its winding number around the fixed point is
     within LOCKED of a fraction p/q, q <= PERIODS, but not of the fixed point's own rotation number.
     On curves around the fixed point the winding number changes from curve to curve; in islands it
     does not. Chains inside the main island, islands around islands, and a second orbit of the same
     period count as well.
-
-    The orbits, at least 4 impacts long, start evenly over one half, y >= 0, of the section's area;
-    the reversor maps regular orbits of this half to those of the other half.
     """
     return cells(k, [e], starts, impacts)[0]
 

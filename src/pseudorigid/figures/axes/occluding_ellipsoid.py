@@ -24,7 +24,7 @@ class OccludingEllipsoid:
         return y + z >= 0.0
 
     def before(self, eye, x, y, z):
-        """Return the points of the whole ellipsoid between points and the eye, NaN if none."""
+        """Return two points of the ellipsoid from each point towards the eye, NaN if behind it."""
         x = x - self.centre
         eye_x, eye_y, eye_z = eye
         square = self.k * eye_x * eye_x + eye_y * eye_y + self.k * eye_z * eye_z

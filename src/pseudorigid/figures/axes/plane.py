@@ -15,8 +15,8 @@ class Plane(Panel):
     """A figure of a column's width that cuts off what lies beyond its axes.
 
     `axes` are two keys of scene["axes"], and `names` the names of these axes. The height `high` is
-    a multiple of 75; `right` is the margin in pixels. The ball is written above the frame, with
-    `energy` that too.
+    a multiple of 75 pixels, `right` the margin in pixels. The ball, and with `energy` the scene's
+    energy, are written above the frame.
     """
 
     tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN
