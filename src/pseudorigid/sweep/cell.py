@@ -9,7 +9,7 @@ import numpy as np
 from ..dynamics import fixed_point
 from ..kernel.arithmetic import sincos
 from ..kernel.compiled import jit
-from .verdict import Verdicts, classify_orbits
+from .verdict import classify_orbits
 
 PERIODS = 24  # islands of the longest chain that is told from curves around the fixed point
 LOCKED = 1e-5  # turns an impact; winding numbers as near to a fraction are taken for it
@@ -77,7 +77,7 @@ def _batch(k: float, energies: Sequence[float], starts: int, impacts: int) -> li
     ]
 
 
-def _summary(orbits: Verdicts, rotation: float) -> dict:
+def _summary(orbits: np.recarray, rotation: float) -> dict:
     """Return the numbers of a cell that follow from the verdicts on its orbits."""
     starts, regular = orbits.regular.size, orbits.regular
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])

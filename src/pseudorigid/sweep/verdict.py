@@ -12,9 +12,7 @@ is regular if its growth is below GROWTH_THRESHOLD. An orbit with an exactly gra
 the map has no derivative, is not regular.
 """
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -27,6 +25,17 @@ from ..analyses.regularity import (
 from ..dynamics.tangent_orbits import SIZE, begin, propagate_with_tangent, weight
 
 FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
+# Verdict on an orbit and what it rests on. `strict` and `lenient` are the verdicts with half and
+# with twice the threshold.
+VERDICT = [
+    ("regular", bool),
+    ("strict", bool),
+    ("lenient", bool),
+    ("winding", float),  # turns an impact
+    ("growth", float),
+    ("exponent", float),  # of a tangent vector, over FIRST_LENGTH without its first quarter
+    ("followed", np.int64),  # impacts
+]
 
 
 def lengths_to_decide(impacts: int) -> list[int]:
@@ -37,30 +46,8 @@ def lengths_to_decide(impacts: int) -> list[int]:
     return [*lengths[:-1], impacts]
 
 
-@dataclass
-class Verdicts:
-    """Verdicts on orbits and what they rest on, arrays of shape (n,).
-
-    `strict` and `lenient` are the verdicts with half and with twice the threshold. `winding` is in
-    turns an impact. `exponent` is the growth rate of a tangent vector, in nats an impact, over the
-    impacts that all orbits have, without the first quarter of them.
-    """
-
-    regular: np.ndarray
-    strict: np.ndarray
-    lenient: np.ndarray
-    winding: np.ndarray
-    growth: np.ndarray
-    exponent: np.ndarray
-    followed: np.ndarray  # impacts
-
-    def __getitem__(self, part: slice) -> "Verdicts":
-        """Verdicts on some of the orbits."""
-        return Verdicts(*(getattr(self, field.name)[part] for field in fields(self)))
-
-
-def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
-    """Follow orbits for at most `impacts` impacts, at least 4, and classify them.
+def classify_orbits(k, states, centre, expected, impacts) -> np.recarray:
+    """Follow orbits for at most `impacts` impacts, at least 4, and return their VERDICT (n,).
 
     `states` are x, v, w (n,) just before an impact, lengths in g R. `centre` (n,) is the x of the
     point at y = 0 around which turns are counted, and `expected` (n,) the turns of an impact, or
@@ -72,11 +59,7 @@ def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
     growing = np.concatenate([growing, shared])
     orbits = begin(k, states, centre, expected)
     turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
-    verdicts = Verdicts(
-        *(np.zeros(len(centre), bool) for _ in range(3)),
-        *(np.full(len(centre), math.nan) for _ in range(3)),
-        np.zeros(len(centre), np.int64),
-    )
+    verdicts = np.zeros(len(centre), VERDICT).view(np.recarray)
     undecided = np.arange(len(centre))
     start = 0
     for level, length in enumerate(lengths):
@@ -94,10 +77,10 @@ def classify_orbits(k, states, centre, expected, impacts) -> Verdicts:
         else:
             regular, lenient = grown < GROWTH_THRESHOLD, grown < MARGIN_FACTOR * GROWTH_THRESHOLD
             decided = np.ones(undecided.size, bool)
-        verdicts.winding[undecided], verdicts.growth[undecided] = winding[0], grown
-        verdicts.followed[undecided] = length
-        for name, values in (("regular", regular), ("strict", strict), ("lenient", lenient)):
-            getattr(verdicts, name)[undecided[decided]] = values[decided]
+        values = {"regular": regular, "strict": strict, "lenient": lenient}
+        values |= {"winding": winding[0], "growth": grown, "followed": length}
+        for name, value in values.items():
+            verdicts[name][undecided] = value
         start, undecided = length, undecided[~decided]
         if not undecided.size:
             break
