@@ -290,3 +290,20 @@ def exact_jacobian(k, g, x, v, w, step=1e-20):
             ends.append(exact_map(k, g, *moved)[:3])
         columns.append([(p - m) / (2 * step) for p, m in zip(*ends, strict=True)])
     return [list(row) for row in zip(*columns, strict=True)]
+
+
+def periodic_point(ball, energy, state, period):
+    """Do a step of Newton's method to a periodic point; return it and the Jacobian of P^n."""
+    k, g, point = mpf(ball.k), mpf(ball.g), mpmath.matrix([mpf(float(a)) for a in state])
+    after, product = point, mpmath.eye(3)
+    for _ in range(period):
+        product = mpmath.matrix(exact_jacobian(k, g, *after)) * product
+        after = exact_map(k, g, *after)[:3]
+    x, v, w = point
+    # Orbits form a family, so the energy is prescribed.
+    missing = mpf(energy) - (v * v / 2 + k * w * w / 2 - g * x + k * x * x / 2)
+    system = mpmath.matrix(4, 3)
+    system[:3, :] = product - mpmath.eye(3)
+    system[3, :] = mpmath.matrix([[k * x - g, v, k * w]])
+    gaps = [a - b for a, b in zip(point, after, strict=True)]
+    return point + mpmath.lu_solve(system, mpmath.matrix([*gaps, missing])), product

@@ -180,10 +180,15 @@ class _OrbitSearch:
             start = _bisect(excess_turns, *bracket)
             if odd:
                 start = self._symmetric_flight(start, half)
-            if start is not None:
-                residue, closure = self._residue_and_closure(start, period)
-                if closure < _MAX_CLOSURE:
-                    return start, residue, closure
+            if start is None:
+                continue
+            state = self.ball.start(start, self.energy)
+            after = states_of(orbit(self.ball, state, period, keep="last"))
+            closure = np.max(np.abs(after - state)) / self.radius
+            if closure < _MAX_CLOSURE:
+                jacobian = self.ball.jacobian(*state, impacts=period)
+                trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
+                return start, 0.25 * (2.0 - trace), closure
         first, last = self.between
         nearby, _ = winding(self.ball, self.energy, np.linspace(first, last, _CELLS), _IMPACTS)
         raise ValueError(
@@ -191,13 +196,6 @@ class _OrbitSearch:
             f"found on the part of y = 0 between {first:g} and {last:g}, where orbits have "
             f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
-
-    def _residue_and_closure(self, start: float, period: int) -> tuple[float, float]:
-        state = self.ball.start(start, self.energy)
-        jacobian = self.ball.jacobian(*state, impacts=period)
-        trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
-        after = states_of(orbit(self.ball, state, period, keep="last"))
-        return 0.25 * (2.0 - trace), np.max(np.abs(after - state)) / self.radius
 
     def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
         """Yield starts with too many and with too few turns, for `between` and for its cells."""
