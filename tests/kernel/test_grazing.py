@@ -168,3 +168,15 @@ def test_any_state_of_any_ball(k, g, x, v, w, near):
     v, w = (v, w) if v + w >= 0.0 else (-v, -w)
     state = (k, g, x, v, w)
     assert error(state) <= TAU, [a.hex() for a in state]
+
+
+@settings(max_examples=500, derandomize=True, deadline=None)
+@given(st.floats(-2, -0.5), st.floats(0.01, 0.99), st.floats(-0.999, 0.999), st.floats(0, 1))
+def test_any_energy(k, share, fraction, height):
+    """Cover the whole section at energies between both bounds."""
+    k = 10.0**k
+    ball = Ball(k, share * 0.5 * k)
+    low, high = ball.energy_bounds()
+    state = ball.start(fraction, low + height * (high - low))
+    if state[1] + state[2] > 0.0:
+        assert error((ball.k, ball.g, *state)) <= TAU, [a.hex() for a in (ball.k, ball.g, *state)]
