@@ -21,7 +21,7 @@ def written(tree, path):
 def compared(tree, path, capsys):
     """Return exit status, file -> state, and all lines of verify --against."""
     capsys.readouterr()
-    status = archive.verify(tree.path, config.load(tree.config), path)
+    status = archive.compare(tree.path, config.load(tree.config), path)
     lines = capsys.readouterr().out.splitlines()
     rows = (line.split(maxsplit=1) for line in lines if line[:1].strip() and "/" in line[:20])
     return status, {name: state for name, state in rows}, lines
@@ -108,7 +108,7 @@ def test_each_difference_is_named(moved, packed, capsys):
     [
         ("results/paper/motion_fig3.nc", None, "is missing", "./reproduce"),
         ("results/paper/motion_fig3.nc", "x", "changed after it was made", "./reproduce"),
-        ("paper_figures/fig3.png", "x", "is not the one that was drawn", "./reproduce"),
+        ("paper_figures/fig3.png", "x", "is not results/paper/figures/fig3.png", "./reproduce"),
         ("paper_figures/SHA256SUMS", f"{'0' * 64}  fig3.png\n", "fig2.png", "./reproduce accept"),
         ("paper_figures/MANIFEST.json", "{}", "was edited", "./reproduce accept"),
     ],

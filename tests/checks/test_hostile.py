@@ -5,6 +5,7 @@ import hashlib
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import tarfile
@@ -43,7 +44,7 @@ def packed(accepted, tmp_path_factory):
 def against(tree, place):
     """Return exit status and lines of verify --against."""
     with redirect_stdout(io.StringIO()) as text:
-        status = archive.verify(tree.path, config.load(tree.config), place)
+        status = archive.compare(tree.path, config.load(tree.config), place)
     return status, text.getvalue().splitlines()
 
 
@@ -145,7 +146,7 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
     text = "\n".join(lines)
     assert f"drawing: the other {FIG3}: damaged, or not a picture" in text
     assert f"data: the other {DATA}: damaged, or not netCDF" in text
-    assert "variable strain differs from block 0 on" in text and " ulp, compared with the " in text
+    assert re.search(r"strain differs from block 0 on .*; 1 of 5 variables differ, strain", text)
 
 
 def test_a_folder_that_is_no_tree_is_one_line(accepted, tmp_path):

@@ -58,9 +58,9 @@ def test_sums_with_a_missing_or_broken_line(moved):
         return words.removeprefix("paper_figures/SHA256SUMS: ")
 
     path.write_text("".join(line for line in lines if "fig3.svg" not in line))
-    assert finding() == "no line for fig3.svg"
+    assert finding() == "the line of fig3.svg is not as in MANIFEST.json"
     path.write_text(text.replace(lines[0][:64], "0" * 64))
-    assert finding() == f"not the hash of {lines[0].split()[1]} that MANIFEST.json has"
+    assert finding() == f"the line of {lines[0].split()[1]} is not as in MANIFEST.json"
     path.write_text("not a sum\n")
     assert finding() == "line 1 is not a sha256 and a file's name"
     path.unlink()

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from verdicts import verified
 
-from pipeline.checks.difference import ulps
 from pipeline.records import pictures
 from pseudorigid.figures.canvas.render import png
 
@@ -192,10 +191,3 @@ def test_file_encoding(moved):
     found = verified(moved)
     assert found.wrong == {"fig3.png": [f"file: {FIG3}: the same picture in other bytes"]}
     assert found.findings == []
-
-
-def test_ulps():
-    a = np.array([1.0, -0.0, 5e-324, -1.0, np.nan, np.inf])
-    b = np.array([np.nextafter(1.0, 2.0), 0.0, -5e-324, 1.0, np.nan, np.finfo(float).max])
-    between = 2 * int(np.array(1.0).view("i8"))
-    assert ulps(a, b).tolist() == [1, 0, 2, between, 0, 1]

@@ -4,11 +4,10 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from ..records.files import file_hash, obstacle, replacing
+from ..records.files import replacing
 from . import manifest, published_sets
 from .checksums import SUMS, ChecksumError, read_sums
 from .difference import UPSTREAM
-from .freshness import MISSING
 from .published_sets import PublishedSet
 from .verify import Findings, inspect, unlisted
 
@@ -24,7 +23,7 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue
         findings = inspect(root, published_set)
-        problem = _not_ready(root, findings)
+        problem = findings.not_published(root)
         if problem is None:
             _publish_measured(root, published_set)
             _renew(root, findings)
@@ -34,20 +33,6 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
             print(f"reproduce accept: {problem}: run {command} first")
             return 1
     return 0
-
-
-def _not_ready(root: Path, findings: Findings) -> str | None:
-    """Return why the results cannot be accepted, or None."""
-    published_set = findings.published_set
-    for path, why in findings.stale.items():
-        return f"{path} is missing" if why == MISSING else f"{path}: {why}"
-    for name, drawing in published_set.drawn.items():
-        published = f"{published_set.folder}/{name}"
-        if words := obstacle(root / published):
-            return f"{published}: {words}"
-        if file_hash(root / published) != file_hash(root / drawing):
-            return f"{published} is not {drawing}"
-    return None
 
 
 def _publish_measured(root: Path, published_set: PublishedSet) -> None:

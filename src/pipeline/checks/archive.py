@@ -10,7 +10,7 @@ import json
 import os
 import tarfile
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 from typing import IO
@@ -19,14 +19,13 @@ from ..config.paths import LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
 from ..records import files
 from ..records.artifacts import ArtifactError, load
-from ..records.files import FileError, file_hash, obstacle, read_bytes
+from ..records.files import FileError, file_hash, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
-from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, format_sums, known_sums, read_sums
-from .difference import Comparison, dataset_difference, not_as_made
-from .freshness import MISSING
-from .published_sets import PublishedSet
+from . import manifest, published_sets, verify
+from .checksums import SUMS, ChecksumError, format_sums, known_sums
+from .compare import norms
+from .difference import Comparison, dataset_difference
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -51,7 +50,7 @@ def write(root: Path, checked: YamlMapping, path: Path | str) -> str:
     Raises
     ------
     ArchiveError
-        Results are missing or not current, published files differ from their checksums, or `path`
+        Results are missing or not current, published files are not the committed ones, or `path`
         is a file that is no archive.
     """
     path = Path(path)
@@ -59,15 +58,26 @@ def write(root: Path, checked: YamlMapping, path: Path | str) -> str:
         raise ArchiveError(f"{path} is a folder")
     if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
-    for published_set in published_sets.committed_sets(checked):
-        if problem := _problem(root, published_set):
-            raise ArchiveError(problem)
+    for findings in verify.verify(root, checked):
+        published_set = findings.published_set
+        if problem := findings.not_published(root, partial=published_set.on_request):
+            raise ArchiveError(f"{problem}: run {published_set.command}")
+        if problems := [*findings.problems, *_uncommitted(findings)]:
+            raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
     archived = contents(root, checked)
     with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
         for name, data in archived.items():
             entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
             tar.addfile(entry, io.BytesIO(data))
     return str(file_hash(path))
+
+
+def _uncommitted(findings: verify.Findings) -> Iterator[str]:
+    """Yield a line for each published file that is new or not the committed one."""
+    for name, layers in findings.layers.items():
+        if layers is None or name in findings.differences:
+            words = "; ".join((layers or {"file": "new"}).values())
+            yield f"{findings.published_set.folder}/{name} is not the committed one: {words}"
 
 
 def contents(root: Path, checked: YamlMapping) -> Contents:
@@ -105,38 +115,6 @@ def _public_record(root: Path, path: str) -> bytes:
         return b""
     public = {name: record[name] for name in SHAPE}
     return (json.dumps(public, sort_keys=True, indent=1) + "\n").encode()
-
-
-def _problem(root: Path, published_set: PublishedSet) -> str | None:
-    """Return why files cannot be archived and what to run, in one line, or None."""
-    if published_set.on_request and not manifest.is_present(root, published_set):
-        return None
-    folder, run_again = published_set.folder, f"run {published_set.command}"
-    try:
-        committed = manifest.read(root, folder)
-        sums = read_sums(root, folder)
-    except ChecksumError as error:
-        return f"{error}: run ./reproduce accept"
-    comparison = Comparison(root, published_set, committed)
-    for path, reason in not_as_made(root, published_set, comparison).items():
-        if reason != MISSING:
-            return f"{path}: {reason}: {run_again}"
-        if not published_set.on_request:
-            return f"{path} is missing: {run_again}"
-    for name in sorted({*published_set.drawn, *sums}):
-        path = f"{folder}/{name}"
-        if words := obstacle(root / path):
-            return f"{path}: {words}"
-        published = file_hash(root / path)
-        drawn = file_hash(root / published_set.drawn.get(name, path))
-        if published is None or drawn not in (None, published):
-            return f"{path} is not the one that was drawn: {run_again}"
-        if published != sums.get(name):
-            return f"{path} is not as in {folder}/{SUMS}: run ./reproduce accept"
-    for path in published_set.texts:
-        if file_hash(root / path) != committed["texts"].get(path):
-            return f"{path} is not as in {folder}/{manifest.MANIFEST}: {run_again}"
-    return None
 
 
 def read(path: Path | str) -> Contents:
@@ -229,18 +207,11 @@ def _read_folder(folder: Path, checked: YamlMapping) -> Contents:
     return archived
 
 
-def verify(root: Path, checked: YamlMapping, path: Path) -> int:
+def compare(root: Path, checked: YamlMapping, path: Path) -> int:
     """Compare this tree with an archive, an unpacked one, or another tree; print a line a file.
 
-    Returns
-    -------
-    int
-        0 if both have the same files with the same bytes.
-
-    Raises
-    ------
-    ArchiveError
-        `path` is none of these.
+    Returns 0 if both have the same files with the same bytes. Raises ArchiveError if `path` is none
+    of these.
     """
     theirs = _read_folder(path, checked) if path.is_dir() else read(path)
     absent = f"not in the {'folder' if path.is_dir() else 'archive'}"
@@ -251,53 +222,41 @@ def verify(root: Path, checked: YamlMapping, path: Path) -> int:
     counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
     width = max(map(len, names))
     with tempfile.TemporaryDirectory() as folder:
-        differing_layers = _comparison(root, checked, ours, theirs, Path(folder))
+        for name in ours.keys() & theirs.keys():
+            files.write_whole(Path(folder, name), theirs[name])
         for name in names:
             state = "identical" if ours.get(name) == theirs.get(name) else "differs"
             if name not in theirs or name not in ours:
                 state = absent if name not in theirs else "missing here"
             counts[state] += 1
             print(f"{name:{width}}  {state}")
-            for layer, words in differing_layers(name).items() if state == "differs" else ():
-                print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
+            if state == "differs":
+                for layer, words in _layers(root, checked, name, Path(folder)).items():
+                    print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
     print("", ", ".join(f"{n} {state}" for state, n in counts.items() if n), sep="\n")
     return int(counts["identical"] < len(names))
 
 
-def _comparison(
-    root: Path, checked: YamlMapping, ours: Contents, theirs: Contents, folder: Path
-) -> Callable[[str], dict[str, str]]:
-    """Return a function that says, layer by layer, how a file differs.
-
-    It compares manifests and files. Their files are copied into `folder` for it.
-    """
-    for name in ours.keys() & theirs.keys():
-        if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
-            files.write_whole(folder / name, theirs[name])
-    comparisons = {}
-    for published_set in published_sets.committed_sets(checked):
-        with suppress(ChecksumError):
-            committed = manifest.read(folder, published_set.folder)
-            comparison = Comparison(root, published_set, committed, folder)
-            for name in published_set.drawn:
-                comparisons[f"{published_set.folder}/{name}"] = comparison, name
-
-    def differing_layers(path: str) -> dict[str, str]:
-        layers: dict[str, str] = {}
-        layer = "data" if path.endswith(".nc") else "drawing"
-        try:
-            if layer == "data":
-                described = manifest.describe_data(load(folder / path))
-                words = dataset_difference(root, path, described, folder)
-                layers = {"data": words or "the same in other bytes"}
-            elif path in comparisons:
-                comparison, name = comparisons[path]
-                layers = comparison.layers(name) or {}
-                if not {"drawing", "file"} & {*layers}:
-                    image = root / comparison.published_set.results / "differences" / name
-                    layers["drawing"] = difference(root / path, folder / path, image)[0]
-        except (ArtifactError, PictureError, FileError) as error:
-            layers[layer] = str(error)
-        return layers
-
-    return differing_layers
+def _layers(root: Path, checked: YamlMapping, path: str, other: Path) -> dict[str, str]:
+    """Return layer -> how a file of this tree differs from its copy in the folder `other`."""
+    layers: dict[str, str] = {}
+    layer = "data" if path.endswith(".nc") else "drawing"
+    try:
+        if layer == "data":
+            ours, theirs = load(root / path), load(other / path)
+            words = dataset_difference(root, path, manifest.describe_data(theirs))
+            size = norms.summary(ours, theirs, ("this tree", "the other"))
+            return {"data": f"{words}; {size}" if words else "the same in other bytes"}
+        for published_set in published_sets.committed_sets(checked):
+            folder, name = os.path.split(path)
+            if folder == published_set.folder and name in published_set.drawn:
+                with suppress(ChecksumError):
+                    committed = manifest.read(other, folder)
+                    layers = Comparison(root, published_set, committed).layers(name) or {}
+                image = root / published_set.results / "differences" / name
+                if "file" not in layers:
+                    words = difference(root / path, other / path, image)[0]
+                    layers["drawing"] = f"{path}: {words}"
+    except (ArtifactError, PictureError, FileError) as error:
+        layers[layer] = str(error)
+    return layers

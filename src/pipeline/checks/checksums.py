@@ -1,5 +1,6 @@
 """SHA256SUMS: the checksum list of a folder of published files."""
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -7,6 +8,8 @@ from ..config.paths import SHOWN
 from ..records.files import FileError, read_text
 
 SUMS = "SHA256SUMS"
+# A name that contains a folder could lead out of this folder.
+_LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 
 
 class ChecksumError(Exception):
@@ -19,19 +22,14 @@ def format_sums(sums: Mapping[str, str]) -> str:
 
 
 def read_sums(root: Path, folder: str) -> dict[str, str]:
-    """Read file name -> sha256 from a folder's SHA256SUMS.
-
-    Raises ChecksumError if the list is missing or broken.
-    """
+    """Read file name -> sha256 of a folder; raises ChecksumError for a missing or broken list."""
     path = f"{folder}/{SUMS}"
     sums = {}
     for number, line in enumerate(read_published_text(root, path).splitlines(), 1):
-        digest, separator, name = line[:64], line[64:66], line[66:]
-        hexadecimal = len(digest) == 64 and not set(digest) - set("0123456789abcdef")
-        # A name that contains a folder could lead out of this folder.
-        if not hexadecimal or separator != "  " or name in ("", "..") or Path(name).name != name:
+        match = _LINE.fullmatch(line)
+        if match is None:
             raise ChecksumError(f"{path}: line {number} is not a sha256 and a file's name")
-        sums[name] = digest
+        sums[match[2]] = match[1]
     return sums
 
 

@@ -6,7 +6,6 @@ on the day, the folder or the commit.
 
 import hashlib
 import json
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -64,11 +63,7 @@ class _Manifest(pydantic.BaseModel):
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the manifest's entry for a dataset: hashes of its attributes and its variables.
-
-    A variable's values are hashed whole and in blocks of BLOCK values. The bytes of the netCDF
-    container do not count.
-    """
+    """Return the manifest's entry for a dataset: hashes of its attributes and its variables."""
     variables = {}
     for name, variable in dataset.variables.items():
         kind, values = canonical_values(variable)
@@ -87,17 +82,14 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:
-    """Return the manifest of a tree that has its results and figures.
-
-    Raises ValueError or OSError if one of these cannot be read.
-    """
+    """Return the manifest of a tree; raises ValueError or OSError if a file cannot be read."""
     artifacts = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
     files = sorted(set().union(*sources.values()))
     folder = root / published_set.folder
     return {
         "environment": versions(),
-        "texts": hash_files(root, published_set.texts),
+        "texts": {path: file_hash(root / path) for path in published_set.texts},
         "sources": {path: syntax_hash(root / path) for path in files},
         "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(artifacts)},
         "scenes": {
@@ -118,21 +110,13 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
     }
 
 
-def hash_files(root: Path, paths: Iterable[str]) -> dict[str, str | None]:
-    """Return path -> sha256, None where there is no regular file."""
-    return {path: file_hash(root / path) for path in paths}
-
-
 def is_present(root: Path, published_set: PublishedSet) -> bool:
     """Return whether a manifest or a checksum list of a published set is committed."""
     return any((root / published_set.folder / name).exists() for name in (MANIFEST, SUMS))
 
 
 def read(root: Path, folder: str) -> Manifest:
-    """Read a folder's manifest.
-
-    Raises ChecksumError if it is missing, broken or was edited by hand.
-    """
+    """Read a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
         manifest = json.loads(read_published_text(root, name))
@@ -149,18 +133,10 @@ def read(root: Path, folder: str) -> Manifest:
     return manifest
 
 
-def figures(manifest: Manifest) -> dict[str, dict[str, Any]]:
-    """Return file name -> its entry in the manifest."""
-    return {
-        name: entry
-        for scene in manifest["scenes"].values()
-        for name, entry in scene["figures"].items()
-    }
-
-
 def sums(manifest: Manifest) -> dict[str, str]:
     """Return file name -> sha256, sorted by name."""
-    return {name: entry["sha256"] for name, entry in sorted(figures(manifest).items())}
+    figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
+    return {name: entry["sha256"] for name, entry in sorted(figures)}
 
 
 def write(root: Path, folder: str, manifest: Manifest) -> None:

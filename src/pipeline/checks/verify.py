@@ -13,8 +13,8 @@ from typing import Any
 from ..records.files import file_hash, obstacle
 from . import manifest, published_sets
 from .checksums import SUMS, ChecksumError, read_sums, unlisted_files
-from .difference import UPSTREAM, Comparison, not_as_made
-from .freshness import MISSING
+from .difference import UPSTREAM, Comparison
+from .freshness import MISSING, Freshness
 from .published_sets import PublishedSet
 
 NEW = "new: ./reproduce accept adds it to the manifest"
@@ -81,6 +81,21 @@ class Findings:
         current = published_set.on_request or published_set.drawn[name] not in self.stale
         return set(self.layers[name] or ()) <= (UPSTREAM if current else UPSTREAM - {"config"})
 
+    def not_published(self, root: Path, partial: bool = False) -> str | None:
+        """Return which result is not current or published, or None; if `partial`, some may lack."""
+        for path, why in self.stale.items():
+            if why != MISSING:
+                return f"{path}: {why}"
+            if not partial:
+                return f"{path} is missing"
+        for name, drawing in self.published_set.drawn.items():
+            published, drawn = f"{self.published_set.folder}/{name}", file_hash(root / drawing)
+            if words := obstacle(root / published):
+                return f"{published}: {words}"
+            if drawn != file_hash(root / published) and not (partial and drawn is None):
+                return f"{published} is not {drawing}"
+        return None
+
     def report(self) -> Iterator[str]:
         """Yield the lines for the user: one or more a published file, then all other findings."""
         published_set, differences = self.published_set, self.differences
@@ -118,72 +133,74 @@ def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
 def inspect(root: Path, published_set: PublishedSet) -> Findings:
     """Compare one published set of a tree with its committed state."""
     folder, findings = published_set.folder, Findings(published_set)
-    comparison, sums = None, None
+    comparison, sums = None, {}
     try:
         findings.committed = manifest.read(root, folder)
         comparison = Comparison(root, published_set, findings.committed)
-        findings.problems += _surplus(root, published_set, findings.committed)
+        findings.problems += _other_files(root, published_set, findings.committed)
     except ChecksumError as error:
         findings.problems.append(f"{error}: the layers cannot be compared")
     try:
         sums = read_sums(root, folder)
+        listed = manifest.sums(findings.committed) if findings.committed else sums
+        findings.problems += [
+            f"{folder}/{SUMS}: the line of {name} is not as in {manifest.MANIFEST}"
+            for name in sorted({*sums, *listed})
+            if sums.get(name) != listed.get(name)
+        ]
     except ChecksumError as error:
         findings.problems.append(str(error))
-    if findings.committed and sums is not None:
-        findings.problems += _sum_problems(f"{folder}/{SUMS}", sums, findings.committed)
-    if findings.committed:
-        hashes = manifest.hash_files(root, published_set.texts)
-        findings.problems += [
-            f"{path}: not the committed one: {published_set.command} writes it"
-            for path, digest in hashes.items()
-            if digest != findings.committed["texts"].get(path)
-        ]
-    findings.stale = not_as_made(root, published_set, comparison)
-    for name in published_set.drawn:
-        findings.layers[name] = (
-            comparison.layers(name)
-            if comparison
-            else {"file": _by_sum(root, f"{folder}/{name}", (sums or {}).get(name))}
-        )
+    findings.stale = _not_as_made(root, published_set, comparison)
+    findings.layers = {
+        name: comparison.layers(name)
+        if comparison
+        else {"file": _by_sum(root / folder / name, sums.get(name))}
+        for name in published_set.drawn
+    }
     return findings
 
 
-def _by_sum(root: Path, path: str, committed: str | None) -> str:
+def _not_as_made(
+    root: Path, published_set: PublishedSet, comparison: Comparison | None
+) -> dict[str, str]:
+    """Return result -> why, for the results of a set that are not what this tree makes.
+
+    A result's record decides. If the manifest lists the result and all that makes it is as
+    committed, the result must be the committed one too, whatever its record says.
+    """
+    reasons = comparison.unexplained() if comparison else {}
+    reasons |= Freshness(root, published_set.build_specs).outdated()
+    for path, spec in published_set.build_specs.items():  # inputs come before results
+        for used in spec.inputs:
+            if used in reasons:
+                reasons.setdefault(path, f"made from {used}, which is not current")
+    return reasons
+
+
+def _by_sum(path: Path, committed: str | None) -> str:
     """Compare a published file with its line in SHA256SUMS, if there is no manifest."""
-    digest = file_hash(root / path)
+    digest = file_hash(path)
     if digest is None:
-        return obstacle(root / path) or MISSING
+        return obstacle(path) or MISSING
     if committed is None:
         return "nothing to compare it with"
-    return f"{'as in' if digest == committed else 'differs from'} SHA256SUMS"
+    return f"{'as in' if digest == committed else 'differs from'} {SUMS}"
 
 
-def _sum_problems(path: str, sums: dict[str, str], committed: manifest.Manifest) -> list[str]:
-    """Compare a checksum list with the manifest."""
-    listed = manifest.sums(committed)
-    return [
-        *(f"{path}: no line for {name}" for name in listed if name not in sums),
-        *(
-            f"{path}: a line for {name}, which the manifest has not"
-            for name in sorted(set(sums) - set(listed))
-        ),
-        *(
-            f"{path}: not the hash of {name} that MANIFEST.json has"
-            for name, digest in listed.items()
-            if sums.get(name, digest) != digest
-        ),
-    ]
-
-
-def _surplus(root: Path, published_set: PublishedSet, committed: manifest.Manifest) -> list[str]:
-    """Return a line for each file that is there or in the manifest but that nothing makes."""
-    listed = [
-        f"{published_set.folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does not "
-        "publish: ./reproduce accept takes it out"
-        for name in manifest.sums(committed)
-        if name not in published_set.drawn
-    ]
-    return listed + unlisted(root, published_set)
+def _other_files(
+    root: Path, published_set: PublishedSet, committed: manifest.Manifest
+) -> Iterator[str]:
+    """Yield a line for each file that nothing makes, and for each text that is not as committed."""
+    for name in manifest.sums(committed):
+        if name not in published_set.drawn:
+            yield (
+                f"{published_set.folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does "
+                "not publish: ./reproduce accept takes it out"
+            )
+    yield from unlisted(root, published_set)
+    for path in published_set.texts:
+        if file_hash(root / path) != committed["texts"].get(path):
+            yield f"{path}: not the committed one: {published_set.command} writes it"
 
 
 def unlisted(root: Path, published_set: PublishedSet) -> list[str]:

@@ -23,9 +23,3 @@ PAPER_NUMBERS: dict[str, dict[str, str]] = {
 def measured(block: dict[str, Any], load: Callable[[str], xr.Dataset]) -> dict[str, str]:
     """Return the quantities of a scene in words; `load(stage)` reads one of its datasets."""
     return KINDS[block["picture"]].numbers(block, **{stage: load(stage) for stage in stages(block)})
-
-
-def beside(scene: str, values: dict[str, str]) -> list[tuple[str, str, str]]:
-    """Return rows of quantity, the paper's value or "not printed", and the measured value."""
-    printed = PAPER_NUMBERS.get(scene, {})
-    return [(name, printed.get(name, "not printed"), value) for name, value in values.items()]

@@ -4,8 +4,6 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 """
 
 import base64
-import hashlib
-import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,18 +14,17 @@ from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
-from ...records.pictures import PictureError
+from ...records.pictures import pixels
 from ...records.record import read_record, record_path
-from .. import manifest, published_sets
-from ..checksums import ChecksumError, known_sums
+from .. import published_sets
+from ..checksums import known_sums
 from ..claims import ledger
 from ..claims.schema import CORRECTED, FALSE, Verdict
-from ..difference import not_as_made
 from ..freshness import MISSING, Freshness
+from ..verify import Findings, inspect
 from . import numbers
 from .captions import caption_of
 
-_PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -70,10 +67,9 @@ class _Page:
         self.root, self.absent = root, absent
         self.variants = checked["variants"]
         self.artifact_paths = paths.artifact_paths(self.variants)
+        self.sets = [inspect(root, each) for each in published_sets.committed_sets(checked)]
         self.outdated = Freshness(root, build_specs.of_variants(self.variants)).outdated()
-        self.published = {each.folder: each for each in published_sets.committed_sets(checked)}
-        paper = self.published[PUBLISHED[PAPER]]
-        self.outdated |= not_as_made(root, paper)
+        self.outdated |= self.sets[0].stale  # of the paper
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def variant(self, name: str) -> list[Picture]:
@@ -81,13 +77,14 @@ class _Page:
         pictures = []
         for scene, block in self.variants[name].items():
             file = paths.drawn(scene, "png", name)
-            reason = self.absent.get(name, {}).get(scene) or self._reason_if_outdated(file)
-            picture = caption_of(scene, block)._asdict()
-            picture |= {"id": f"{name}-{scene}", "missing": reason}
-            picture |= {"image": None, "rows": [], "headline": None}
+            reason = self.absent.get(name, {}).get(scene)
+            if not reason and (stale := self.outdated.get(file)):
+                reason = "not made" if stale == MISSING else f"not current: {stale}"
+            picture = caption_of(scene, block)._asdict() | {"id": f"{name}-{scene}"}
+            picture |= {"missing": reason, "image": None, "rows": [], "headline": None}
             if not reason:
-                picture |= self._measured(name, scene)
-                picture |= {"image": self._read(file), "file": self._file(name, scene)}
+                picture |= self._image(file) | self._measured(name, scene)
+                picture["file"] = self._file(name, scene)
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
                 self.shown |= dict.fromkeys([*data, file])
             pictures.append(picture)
@@ -96,51 +93,39 @@ class _Page:
     def on_request(self) -> list[tuple[str, list[Picture]]]:
         """Return the command and the pictures of claims, proofs, study and atlas."""
         sets = []
-        for published_set in self.published.values():
-            if published_set.on_request:
-                outdated = not_as_made(self.root, published_set)
-                names = [name for name in published_set.drawn if name.endswith(".png")]
-                names += published_set.measured
-                pictures = [self._on_request(published_set, name, outdated) for name in names]
-                sets.append((published_set.command, [each for each in pictures if each]))
+        for findings in self.sets[1:]:
+            published_set = findings.published_set
+            names = [name for name in published_set.drawn if name.endswith(".png")]
+            pictures = [self._on_request(findings, n) for n in (*names, *published_set.measured)]
+            sets.append((published_set.command, [each for each in pictures if each]))
         return sets
 
-    def _on_request(
-        self, published_set: published_sets.PublishedSet, name: str, outdated: dict[str, str]
-    ) -> Picture | None:
+    def _on_request(self, findings: Findings, name: str) -> Picture | None:
         """Return the picture of this tree if it is current, else the committed one, or None."""
+        published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
         scene = published_set.scenes.get(name, name.removesuffix(".png"))
         block = published_set.config.get(scene)
         picture: Picture = caption_of(scene, block)._asdict()
         picture |= {"headline": None, "image": None, "id": published.replace("/", "-")}
-        if drawing and drawing not in outdated:
+        if drawing and drawing not in findings.stale:
             if block and "picture" in block:
                 picture |= self._measured(Path(published_set.results).name, scene)
             self.shown |= dict.fromkeys([*published_set.data[scene].values(), drawing])
-            return picture | {"image": self._read(drawing), "file": published}
+            return picture | self._image(drawing) | {"file": published}
         if not (self.root / published).is_file():
             return None
-        data = read_bytes(self.root / published)
         committed_hash = known_sums(self.root, published_set.folder).get(name)
-        same = drawing is None or hashlib.sha256(data).hexdigest() == committed_hash
-        if not (same and data.startswith(_PNG_SIGNATURE)):
+        if drawing and file_hash(self.root / published) != committed_hash:
             missing = f"{published} is not the committed one, nor made by this tree"
             return picture | {"missing": missing}
         origin = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
-        if block and not self._has_values_of_config(published_set, scene):
+        entry = committed["scenes"].get(scene) if committed else None
+        if block and not (entry and entry["config"] == block):
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
             origin += "; made from other values than config.yaml's"
         file = f"{published}: the committed one ({origin}), not made by this tree"
-        return picture | {"image": _image(data), "file": file}
-
-    def _has_values_of_config(self, published_set: published_sets.PublishedSet, scene: str) -> bool:
-        """Return whether a committed picture was made from the values in config.yaml."""
-        try:
-            scenes = manifest.read(self.root, published_set.folder)["scenes"]
-            return bool(scenes[scene]["config"] == published_set.config[scene])
-        except (ChecksumError, KeyError, TypeError):
-            return False
+        return picture | self._image(published) | {"file": file}
 
     def claims(self) -> list[Verdict]:
         """Return the rows of CLAIMS.json in the order of CLAIMS.md, or none."""
@@ -164,10 +149,6 @@ class _Page:
                 "seconds": seconds if isinstance(seconds, float) else None,
             }
 
-    def _reason_if_outdated(self, file: str) -> str | None:
-        reason = self.outdated.get(file)
-        return reason and ("not made" if reason == MISSING else f"not current: {reason}")
-
     def _measured(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
         block = self.variants[variant][scene]
@@ -177,15 +158,16 @@ class _Page:
         except (LookupError, TypeError, AttributeError, ArithmeticError):
             files = ", ".join(data.values())
             raise ValueError(f"not datasets of {scene}: delete {files} and run again") from None
-        rows = numbers.beside(scene, values)
+        printed = numbers.PAPER_NUMBERS.get(scene, {})
+        rows = [(name, printed.get(name, "not printed"), value) for name, value in values.items()]
         headline = KINDS[block["picture"]].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
 
-    def _read(self, file: str) -> Picture:
-        data = read_bytes(self.root / file)
-        if len(data) < 24:
-            raise PictureError(f"{file}: damaged, or not a picture")
-        return _image(data)
+    def _image(self, file: str) -> Picture:
+        """Return a PNG as text, with its size in pixels."""
+        high, wide, _ = pixels(self.root / file).shape
+        data = base64.b64encode(read_bytes(self.root / file)).decode()
+        return {"image": {"data": data, "wide": wide, "high": high}}
 
     def _file(self, variant: str, scene: str) -> str:
         """Return where a picture is published, and whether it is the committed one."""
@@ -197,9 +179,3 @@ class _Page:
         same = "identical to" if committed_hash == file_hash(self.root / drawn) else "not"
         state = f"{same} the committed one" if committed_hash else "not among the committed ones"
         return f"{folder}/{scene}.png: {state}"
-
-
-def _image(data: bytes) -> Picture:
-    """Return the bytes of a PNG as text, and its size in pixels."""
-    wide, high = struct.unpack(">II", data[16:24])
-    return {"data": base64.b64encode(data).decode(), "wide": wide, "high": high}

@@ -24,4 +24,4 @@ def run(args: Arguments) -> int:
     from ...checks import archive
 
     with one_line("verify: ", archive.ArchiveError):
-        return int(archive.verify(ROOT, args.checked, other))
+        return int(archive.compare(ROOT, args.checked, other))
