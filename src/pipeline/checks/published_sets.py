@@ -55,26 +55,23 @@ def committed_sets(checked: dict[str, Any]) -> list[PublishedSet]:
 
 def _figures(checked: dict[str, Any], variant: str) -> PublishedSet:
     """Return the figures of the paper, or the pictures of the claims or the proofs."""
-    scenes, artifact_paths = checked["variants"][variant], paths.artifact_paths(checked["variants"])
-    folder = paths.PUBLISHED[variant]
-    files = {
-        Path(path).name: (scene, results[-1])
-        for path, (scene, results) in paths.figures(checked["variants"], variant).items()
-        if path.startswith(f"{folder}/")
-    }
+    variants, folder = checked["variants"], paths.PUBLISHED[variant]
+    scenes, artifact_paths = variants[variant], paths.artifact_paths(variants)
+    figures = paths.figures(variants, variant).items()
+    files = {Path(path).name: figure for path, figure in figures if path.startswith(f"{folder}/")}
     return PublishedSet(
         noun="figures",
         folder=folder,
         results=f"results/{variant}",
         command=_COMMANDS[variant],
-        drawn={name: drawing for name, (_, drawing) in files.items()},
+        drawn={name: results[-1] for name, (_, results) in files.items()},
         scenes={name: scene for name, (scene, _) in files.items()},
         config={scene: paths.drawing(block) for scene, block in scenes.items()},
         data={
             scene: {stage: artifact_paths[variant, scene, stage] for stage in paths.stages(block)}
             for scene, block in scenes.items()
         },
-        build_specs=build_specs.of_scenes(checked["variants"], variant),
+        build_specs=build_specs.of_scenes(variants, variant),
         texts=(paths.LEDGER, paths.LEDGER_DATA) if variant == "claims" else (),
         on_request=variant != PAPER,
     )
@@ -83,8 +80,8 @@ def _figures(checked: dict[str, Any], variant: str) -> PublishedSet:
 def _study(checked: dict[str, Any]) -> PublishedSet:
     """Return the study's charts of what is computed; charts of times are listed as measured."""
     specs = build_specs.of_study(checked["variants"])
-    charts = {name: data for name, (data, *_) in parts.CHARTS.items() if data in parts.FIXED}
-    fixed = {parts.data(data) for data in parts.FIXED} | {parts.drawn(name) for name in charts}
+    charts = {name: part for name, (part, *_) in parts.CHARTS.items() if part in parts.FIXED}
+    fixed = {parts.data(part) for part in parts.FIXED} | {parts.drawn(name) for name in charts}
     return PublishedSet(
         noun="charts",
         folder=parts.FOLDER,
@@ -92,11 +89,8 @@ def _study(checked: dict[str, Any]) -> PublishedSet:
         command="./reproduce study",
         drawn={f"{name}.png": parts.drawn(name) for name in charts},
         scenes={f"{name}.png": name for name in charts},
-        config={
-            name: parts.drawing(name) | specs[parts.data(data)].config
-            for name, data in charts.items()
-        },
-        data={name: {data: parts.data(data)} for name, data in charts.items()},
+        config={n: parts.drawing(n) | specs[parts.data(p)].config for n, p in charts.items()},
+        data={name: {part: parts.data(part)} for name, part in charts.items()},
         build_specs={path: spec for path, spec in specs.items() if path in fixed},
         measured=tuple(f"{name}.png" for name in parts.CHARTS if name not in charts),
         on_request=True,
@@ -106,18 +100,14 @@ def _study(checked: dict[str, Any]) -> PublishedSet:
 def _atlas(checked: dict[str, Any]) -> PublishedSet:
     """Return the pictures of the sweeps."""
     sweeps = checked["sweeps"]
-    pictures = {
-        Path(path).name: (name, path)
-        for name in sweeps
-        for path in paths.sweep_pictures(name, sweeps[name])
-    }
+    pictures = [(n, path) for n in sweeps for path in paths.sweep_pictures(n, sweeps[n])]
     return PublishedSet(
         noun="pictures",
         folder=paths.ATLAS,
         results="results/sweep",
         command="./reproduce atlas",
-        drawn={file: path for file, (_, path) in pictures.items()},
-        scenes={file: name for file, (name, _) in pictures.items()},
+        drawn={Path(path).name: path for _, path in pictures},
+        scenes={Path(path).name: name for name, path in pictures},
         config={name: grid.whole(sweep) for name, sweep in sweeps.items()},
         data={name: {"sweep": paths.sweep_dataset(name)} for name in sweeps},
         build_specs=build_specs.of_sweeps(sweeps),

@@ -36,11 +36,7 @@ def judge_claims(
 ) -> list[schema.Verdict]:
     """Return the verdicts on all claims, by number.
 
-    Parameters
-    ----------
-    datasets : mapping from name to Dataset
-        All of `required_datasets()`.
-    proofs : mapping from a theorem's name to "proved" or another word
-        A theorem that is not named counts as not proved.
+    `datasets` are all of `required_datasets()`; a theorem that `proofs` does not name counts as not
+    proved.
     """
     return [claim.judge(datasets, proofs) for claim in _CLAIMS]

@@ -1,6 +1,6 @@
 """Checks of claims about the chaotic sea: clusters, exponents, the energy (section 4.1)."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,12 +11,20 @@ from pseudorigid.analyses.spread import in_sea, stretches
 from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
 from pseudorigid.dynamics.variables import final_exponents
 
-from .schema import CORRECTED, FALSE, HOLDS, UNDECIDED, Outcome, Series, formula, outcome_of
+from .schema import (
+    CORRECTED,
+    FALSE,
+    HOLDS,
+    UNDECIDED,
+    Outcome,
+    Series,
+    formula,
+    outcome_of,
+    regular_share,
+)
 
 SHORT = FIGURES["fig7"]["impacts"]  # impacts of a run of Figure 7
 ENERGIES = (FIGURES["fig8"]["energy"], FIGURES["fig2"]["energy"])
-SCALED_ENERGY = FIGURES["fig2"]["energy"] / BALL["g"] ** 2  # E/g^2
-ENDS = ("", "_low", "_high")  # of a share's variables: the share and its interval
 FLIGHT_MINIMUM = 3.0  # flight time above which the valley between short and long flights lies
 VALLEY_DEPTH = 0.25  # of the lower of the two peaks beside it
 CONNECTED = 0.95  # share of the sea's cells that each chaotic orbit enters
@@ -33,17 +41,12 @@ MARGIN = 0.01
 def clustered(clusters: xr.Dataset) -> Outcome:
     """Find the valley in the distribution of flights, and measure clusters at each cut."""
     count, edge = clusters["flights"].values, clusters["bin_edge"].values
-    last = count.size - 2  # the last bin may be cut short
-    short = edge[: last + 1] < FLIGHT_MINIMUM
-    valley = int(np.argmin(count[: last + 1] + np.where(short, count.max(), 0)))
-    peaks = count[:valley].max(), count[valley:].max()
-    columns = {"cut": "cut", "size": "cluster_impacts", "period": "period"}
-    rows = [
-        dict(zip(columns, row, strict=True))
-        for row in zip(*(clusters[name].values for name in columns.values()), strict=True)
-    ]
-    error = float(clusters["period_error"].values.max())
-    deep = count[valley] < VALLEY_DEPTH * min(peaks)
+    inner = count[:-1]  # the last bin may be cut short
+    valley = int(np.argmin(np.where(edge[: inner.size] < FLIGHT_MINIMUM, np.inf, inner)))
+    deep = count[valley] < VALLEY_DEPTH * min(count[:valley].max(), count[valley:].max())
+    table = clusters[["cluster_impacts", "period"]].to_dataframe().reset_index()
+    error = clusters["period_error"].values.max()
+    rows = table.to_dict("records")
     return outcome_of(deep, valley=edge[valley], clusters=rows, period_error=error)
 
 
@@ -51,25 +54,26 @@ def uncorrelated(clusters: xr.Dataset) -> Outcome:
     """Measure how much of the next cluster's first state the first state of a cluster explains."""
     explained = clusters["dependence_low"].values[:, 0].max(axis=1)
     word = HOLDS
-    if float(explained.max()) > MAX_EXPLAINED_VARIANCE:
-        word = FALSE if float(explained.min()) > MAX_EXPLAINED_VARIANCE else CORRECTED
+    if explained.max() > MAX_EXPLAINED_VARIANCE:
+        word = FALSE if explained.min() > MAX_EXPLAINED_VARIANCE else CORRECTED
     numbers: dict[str, Any] = {"cuts": Series(clusters["cut"].values)}
     widest = 0.0
     for index, name in enumerate("xy"):
         chosen = {"correlation": np.s_[:, 0, index, index], "dependence": np.s_[:, 0, index]}
         for measure, entries in chosen.items():
-            value, low, high = (clusters[f"{measure}{end}"].values[entries] for end in ENDS)
+            ends = (clusters[f"{measure}{end}"].values[entries] for end in ("", "_low", "_high"))
+            value, low, high = ends
             numbers[f"{measure}_{name}"] = Series(value)
-            widest = max(widest, float((high - value).max()), float((value - low).max()))
+            widest = max(widest, (high - value).max(), (value - low).max())
     return Outcome(word, numbers | {"widest": widest})
 
 
 def connected(spread: xr.Dataset) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters."""
-    every, least = _entered(spread)
+    every, least = (int(spread[f"entered_{name}"].values[-1]) for name in ("any", "least"))
     word = CORRECTED if least > CONNECTED * every else FALSE
-    impacts = int(spread["visit"].values[-1])
-    return Outcome(word, _orbits(spread) | {"impacts": impacts, "every": every, "least": least})
+    numbers = {"impacts": int(spread["visit"].values[-1]), "every": every, "least": least}
+    return Outcome(word, _orbits(spread) | numbers)
 
 
 def _orbits(spread: xr.Dataset) -> dict[str, int]:
@@ -77,22 +81,17 @@ def _orbits(spread: xr.Dataset) -> dict[str, int]:
     return {"chaotic": int(in_sea(spread).sum()), "orbits": spread.sizes["orbit"]}
 
 
-def _entered(spread: xr.Dataset) -> Iterator[int]:
-    """Return how many cells any chaotic orbit enters, and how many each of them at least."""
-    return (int(spread[f"entered_{name}"].values[-1]) for name in ("any", "least"))
-
-
 def sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters, beside the horseshoes."""
-    every, least = _entered(spread)
-    word = UNDECIDED if least > CONNECTED * every else FALSE
-    return Outcome(word, {"crossings": all(proved.values()), "every": every, "least": least})
+    word, numbers, _ = connected(spread)
+    crossings = {"crossings": all(proved.values())}
+    return Outcome(FALSE if word == FALSE else UNDECIDED, numbers | crossings)
 
 
 def vanish(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of regular orbits with the bound for their length."""
     length = int(spread["length"].values[-1])
-    largest = float(np.abs(spread["regular_exponent"].values[-1]).max())
+    largest = np.abs(spread["regular_exponent"].values[-1]).max()
     small = largest < regular_bound(length)
     return outcome_of(small, largest=largest, length=length, orbits=spread.sizes["island"])
 
@@ -111,9 +110,9 @@ def independent(spread: xr.Dataset) -> Outcome:
     parts = np.array_split(block, min(ORBIT_PARTS, block.shape[0]))
     within = np.array([part.mean(axis=0).max(axis=-1) for part in parts]) - means
     freedom = (len(parts) - 1) * means.size
-    error = np.sqrt(float(np.sum(within * within)) / freedom / len(parts))
-    furthest = float(np.abs(means - means.mean()).max()) / error
-    alike = furthest < MAX_STANDARD_ERRORS and float(means.min()) > 0.0
+    error = np.sqrt(np.sum(within * within) / freedom / len(parts))
+    furthest = np.abs(means - means.mean()).max() / error
+    alike = furthest < MAX_STANDARD_ERRORS and means.min() > 0.0
     ends = {"least": means.min(), "most": means.max()}
     return outcome_of(alike, furthest=furthest, **ends, **_orbits(spread))
 
@@ -121,8 +120,7 @@ def independent(spread: xr.Dataset) -> Outcome:
 def chaotic_nature(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of chaotic orbits with the bound for regular ones of their length."""
     impacts = spread.sizes["block"] * int(spread.attrs["block_impacts"])
-    least = float(_largest_exponents(spread).min())
-    bound = regular_bound(impacts)
+    least, bound = _largest_exponents(spread).min(), regular_bound(impacts)
     positive = least > CHAOTIC_EXPONENT_RATIO * bound
     return outcome_of(positive, least=least, impacts=impacts, bound=bound, **_orbits(spread))
 
@@ -132,19 +130,17 @@ def figure_7(lyapunov: xr.Dataset) -> Outcome:
     impacts, orbits = int(lyapunov["impact"].values[-1]), lyapunov.sizes["orbit"]
     ends = final_exponents(lyapunov)[:, 0]
     as_printed = impacts == SHORT and orbits == FIGURES["fig7"]["starts"]
-    holds = as_printed and float(ends.min()) > CHAOTIC_EXPONENT
+    holds = as_printed and ends.min() > CHAOTIC_EXPONENT
     return outcome_of(holds, orbits=orbits, impacts=impacts, ends=Series(ends))
 
 
 def long_run(spread: xr.Dataset) -> Outcome:
     """Compare the printed exponent with the mean of long runs and the spread of short ones."""
     means = _largest_exponents(spread)
-    error = float(means.std(ddof=1)) / np.sqrt(means.size)
-    mean = float(means.mean())
+    mean, error = means.mean(), means.std(ddof=1) / np.sqrt(means.size)
     block = int(spread.attrs["block_impacts"])
     # Runs are as long as those of Figure 7, or as a block if that is longer.
-    runs = stretches(spread, max(SHORT // block, 1) * block)
-    above = float(np.mean(runs > EXPONENT))
+    above = np.mean(stretches(spread, max(SHORT // block, 1) * block) > EXPONENT)
     likely = 0.025 < above < 0.975
     word = HOLDS if abs(mean - EXPONENT) < 2 * error else CORRECTED if likely else FALSE
     numbers = {"mean": mean, "percent": 100 * above, "printed": EXPONENT, "standard_error": error}
@@ -155,43 +151,31 @@ def opposite(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Find how far exponents are from vanishing in pairs, beside the algebra of determinants."""
     means = spread["exponent"].values.mean(axis=0)
     impacts = int(spread.attrs["block_impacts"]) * spread.sizes["block"]
-    drift = max(float(np.abs(means[:, 0] + means[:, 2]).max()), float(np.abs(means[:, 1]).max()))
+    drift = max(np.abs(means[:, 0] + means[:, 2]).max(), np.abs(means[:, 1]).max())
     holds = formula(algebra, "determinants")[0] and drift < 100.0 / impacts
     return outcome_of(holds, drift=drift, impacts=impacts)
 
 
 def depends_on_energy(line: xr.Dataset) -> Outcome:
     """Compare the least and the largest regular share over the energies."""
-    least, most = float(line["regular"].min()), float(line["regular"].max())
-    energies = _energies(line)
-    shares = [_share(line, (0, int(np.argmin(np.abs(energies - energy))))) for energy in ENERGIES]
-    for row, energy in zip(shares, ENERGIES, strict=True):
-        row["energy"] = energies[np.argmin(np.abs(energies - energy))]
+    least, most = line["regular"].values.min(), line["regular"].values.max()
+    unit = line.attrs["g"] ** 2
+    shares = [regular_share(line, 0, energy / unit) for energy in ENERGIES]
+    shares = [share | {"energy": share["energy"] * unit} for share in shares]
     return outcome_of(least < 0.5 * most, low=least, high=most, shares=shares, width=_widest(line))
-
-
-def _energies(line: xr.Dataset) -> np.ndarray:
-    """Return the energies of a sweep in m omega^2 R^2."""
-    return line["energy"].values * float(line.attrs["g"]) ** 2
-
-
-def _share(sweep: xr.Dataset, index: tuple[int, int]) -> dict[str, float]:
-    """Return the regular share of a cell with its interval."""
-    names = ("share", "low", "high")
-    return {n: float(sweep[f"regular{e}"].values[index]) for n, e in zip(names, ENDS, strict=True)}
 
 
 def destroyed(line: xr.Dataset) -> Outcome:
     """Find where the regular share rises with the energy by more than its intervals."""
-    share, low, high = (line[f"regular{end}"].values[0] for end in ENDS)
-    falls, rises = float(share[-1]) < 0.5 * float(share[0]), _rises(share, low, high)
-    word = FALSE if not falls else CORRECTED if rises else HOLDS
-    energy = _energies(line)
+    share, low, high = (line[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
+    falls, rises = share[-1] < 0.5 * share[0], _rises(share, low, high)
+    energy = line["energy"].values * line.attrs["g"] ** 2
     rows = [
         {"before": share[a], "low": energy[a], "after": share[b], "high": energy[b]}
         for a, b in rises
     ]
     numbers = {"first": share[0], "last": share[-1], "rows": rows, "rises": bool(rises)}
+    word = FALSE if not falls else CORRECTED if rises else HOLDS
     return Outcome(word, numbers | {"width": _widest(line)})
 
 
@@ -223,21 +207,16 @@ def _rises(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[i
 
 def discontinuous(rotation: xr.Dataset) -> Outcome:
     """Count how often regular and chaotic starts change places along y = 0."""
-    switches = []
-    for energy in ENERGIES:
-        row = int(np.argmin(np.abs(rotation["energy"].values - energy)))
-        good = regular(rotation["exponent"].values[row], rotation.attrs["impacts"])
-        switches.append(int(np.sum(good[1:] != good[:-1])))
-    numbers = {"counts": switches, "energies": ENERGIES, "starts": good.size}
-    return outcome_of(min(switches) >= 3, **numbers)
+    rows = rotation.sortby("energy").sel(energy=list(ENERGIES), method="nearest")["exponent"].values
+    switches = np.sum(np.diff(regular(rows, rotation.attrs["impacts"]), axis=1), axis=1)
+    numbers = {"counts": switches, "energies": ENERGIES, "starts": rows.shape[1]}
+    return outcome_of(switches.min() >= 3, **numbers)
 
 
 def mixture(plane: xr.Dataset) -> Outcome:
     """Count the pairs of k and E/g^2 whose regular share is neither near 0 nor near 1."""
     low, high = (plane[f"regular_{end}"].values for end in ("low", "high"))
-    mixed, bare = (
-        float(np.mean((low > margin) & (high < 1.0 - margin))) for margin in (MARGIN, 1e-9)
-    )
+    mixed, bare = (np.mean((low > m) & (high < 1.0 - m)) for m in (MARGIN, 1e-9))
     return outcome_of(
         mixed > 0.5,
         mixed=100 * mixed,
@@ -251,11 +230,9 @@ def mixture(plane: xr.Dataset) -> Outcome:
 
 def material(plane: xr.Dataset) -> Outcome:
     """Compare the least and the largest regular share over k at the energy of Figure 2."""
-    column = int(np.argmin(np.abs(plane["energy"].values - SCALED_ENERGY)))
-    share = plane["regular"].values[:, column]
-    least, most = (
-        _share(plane, (row, column)) | {"k": plane["k"].values[row]}
-        for row in (int(np.argmin(share)), int(np.argmax(share)))
-    )
-    energy = plane["energy"].values[column]
-    return outcome_of(most["low"] > least["high"], energy=energy, least=least, most=most)
+    energy = FIGURES["fig2"]["energy"] / BALL["g"] ** 2
+    share = plane["regular"].sel(energy=energy, method="nearest").values
+    rows = int(share.argmin()), int(share.argmax())
+    least, most = (regular_share(plane, row, energy) for row in rows)
+    holds = most["low"] > least["high"]
+    return outcome_of(holds, energy=least["energy"], least=least, most=most)

@@ -20,20 +20,12 @@ def no_twist_map(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     counts = [_rises_and_falls(rotation, row) for row in range(energies.size)]
     turning = Series(
         energy
-        for energy, (rises, falls) in zip(energies, counts, strict=True)
-        if min(rises, falls) > TURNS_BACK * (rises + falls)
+        for energy, steps in zip(energies, counts, strict=True)
+        if min(steps) > TURNS_BACK * sum(steps)
     )
-    return Outcome(
-        HOLDS if turning else UNDECIDED,
-        {
-            "turns": bool(turning),
-            "energies": turning,
-            "monotone": min(counts[0]) == 0,
-            "energy": energies[0],
-            "evidence": proved["twist-fixed-point"],
-            "zero": proved["twist-zero"],
-        },
-    )
+    numbers = {"turns": bool(turning), "energies": turning, "monotone": min(counts[0]) == 0}
+    numbers |= {"energy": energies[0], "evidence": proved["twist-fixed-point"]}
+    return Outcome(HOLDS if turning else UNDECIDED, numbers | {"zero": proved["twist-zero"]})
 
 
 def _rises_and_falls(rotation: xr.Dataset, row: int) -> tuple[int, int]:
@@ -41,8 +33,7 @@ def _rises_and_falls(rotation: xr.Dataset, row: int) -> tuple[int, int]:
     size = island(rotation, row)
     good = regular(rotation["exponent"].values[row, :size], rotation.attrs["impacts"])
     steps = np.diff(rotation["rotation"].values[row, :size][good])
-    large = np.abs(steps) > ROTATION_ACCURACY
-    return int(np.sum(large & (steps > 0.0))), int(np.sum(large & (steps < 0.0)))
+    return int(np.sum(steps > ROTATION_ACCURACY)), int(np.sum(steps < -ROTATION_ACCURACY))
 
 
 def conjecture(algebra: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:

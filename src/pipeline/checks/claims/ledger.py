@@ -24,10 +24,8 @@ def read_json(text: str) -> list[Verdict]:
 
 def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
     """Return verdict word -> its rows by number, in the order of CLAIMS.md: corrections first."""
-    rows: dict[str, list[Verdict]] = {word: [] for word in VERDICTS}
-    for verdict in sorted(verdicts, key=lambda each: each.number):
-        rows[verdict.verdict].append(verdict)
-    return rows
+    rows = sorted(verdicts, key=lambda row: row.number)
+    return {word: [row for row in rows if row.verdict == word] for word in VERDICTS}
 
 
 def render(verdicts: list[Verdict]) -> str:

@@ -18,9 +18,8 @@ def strain_energy(clusters: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Compare the mean share of strain energy over the sea with zero and its standard error."""
     strain, kinetic = (clusters[f"{name}_energy"].values for name in ("strain", "kinetic"))
     share = strain / (strain + kinetic)
-    error = float(share.std(ddof=1)) / np.sqrt(share.size)
-    mean = float(share.mean())
-    exponent = float(stretches(spread, int(spread.attrs["block_impacts"])).mean())
+    mean, error = share.mean(), share.std(ddof=1) / np.sqrt(share.size)
+    exponent = stretches(spread, int(spread.attrs["block_impacts"])).mean()
     large = mean - 3 * error > APPRECIABLE and exponent > 0.0
     return outcome_of(large, mean=mean, exponent=exponent, standard_error=error)
 
@@ -28,17 +27,16 @@ def strain_energy(clusters: xr.Dataset, spread: xr.Dataset) -> Outcome:
 def homogeneous(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
     """Compare the k of Figure 2 with that of a homogeneous ball."""
     solid = numbers_of(algebra)["euler_tensor"]
-    used = abs(float(orbits.attrs["k"]) - solid) < ROUNDING
+    used = abs(orbits.attrs["k"] - solid) < ROUNDING
     word = CORRECTED if used and formula(algebra, "euler_tensor")[1] else FALSE
     return Outcome(word, {"solid": solid})
 
 
 def infinitesimal(clusters: xr.Dataset) -> Outcome:
     """Compare the extreme strains of the sea with what is infinitesimal."""
-    least, most = float(clusters["least_strain"].min()), float(clusters["largest_strain"].max())
-    small = max(-least, most) < INFINITESIMAL
-    numbers = {"least": least, "most": most, "energy": float(clusters.attrs["energy"])}
-    return Outcome(HOLDS if small else CORRECTED, numbers)
+    least, most = clusters["least_strain"].values.min(), clusters["largest_strain"].values.max()
+    word = HOLDS if max(-least, most) < INFINITESIMAL else CORRECTED
+    return Outcome(word, {"least": least, "most": most, "energy": clusters.attrs["energy"]})
 
 
 def parameters(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
@@ -50,4 +48,4 @@ def parameters(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
     same = same and abs(k - BALL["k"]) < ROUNDING and abs(k - solid) < ROUNDING
     holds = same and formula(algebra, "softness")[0]
     example = abs(ratio - DENSITY_RATIO) < 1e-9
-    return outcome_of(holds, energy=energy, k=k, g=g, ratio=ratio, example=example)
+    return outcome_of(holds, energy=energy, k=k, g=g, ratio=ratio, example=bool(example))

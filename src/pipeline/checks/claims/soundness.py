@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from pseudorigid.analyses.sea import section_points
 from pseudorigid.analyses.spread import in_sea
@@ -27,7 +26,7 @@ from ...config.schema.stages import STAGES
 from ...records.artifacts import ABOUT
 from ...records.stage_call import compute_stage
 
-RELATIVE_TOLERANCE = 1e-9  # of a number that is computed twice
+TOLERANCE = 1e-9  # of a number that is computed twice
 ENERGY_TOLERANCE = 1e-11  # of a state
 SAMPLE_SIZE = 8  # orbits
 CHECKED_IMPACTS = 4096  # that are recomputed of a regular orbit
@@ -53,11 +52,17 @@ def _ball(dataset: xr.Dataset) -> tuple[Ball, float]:
     return Ball(k, g), energy
 
 
-def _off(ours: ArrayLike, given: ArrayLike, tolerance: float = RELATIVE_TOLERANCE) -> bool:
-    """Return whether numbers differ by more than `tolerance`, relative if they exceed 1."""
-    a, b = np.broadcast_arrays(np.asarray(ours, dtype=float), np.asarray(given, dtype=float))
-    same = np.abs(a - b) <= tolerance * np.maximum(1.0, np.abs(b))
-    return not np.all(same | (np.isnan(a) & np.isnan(b)))
+def _same(ours: Any, given: Any, absolute: float = 0.0) -> np.ndarray:
+    """Return where values are the same, numbers up to a relative or an absolute tolerance."""
+    ours, given = np.asarray(ours), np.asarray(given)
+    if ours.dtype.kind in "OU":
+        return np.asarray(ours == given)
+    return np.asarray(np.isclose(given, ours, rtol=TOLERANCE, atol=absolute, equal_nan=True))
+
+
+def _differ(ours: Any, given: Any) -> bool:
+    """Return whether any numbers of the order of 1 differ."""
+    return not np.all(_same(ours, given, TOLERANCE))
 
 
 def _recompute(stage: str, dataset: xr.Dataset) -> str | None:
@@ -83,38 +88,28 @@ def _recompute(stage: str, dataset: xr.Dataset) -> str | None:
 @cache
 def _made(stage: str, ball: Ball, energy: float, config: str) -> xr.Dataset:
     """Compute the dataset of a stage from a config, given as JSON."""
-    dataset: xr.Dataset
     if stage == "derivations":
-        dataset = derivations(ball, energy)
+        dataset: xr.Dataset = derivations(ball, energy)
         return dataset
     block, row = json.loads(config), STAGES[stage]
     if not isinstance(block, dict):
         raise ValueError("its config is no mapping")
-    method = block.get("method", {}) if row.follows else {}
     inputs = [_made(name, ball, energy, config) for name in row.inputs]
     fields = {name: block[name] for name in row.fields if name in block}
     function = getattr(import_module(row.module), row.function)
+    method = block.get("method", {}) if row.follows else {}
     return compute_stage(function, ball, energy, inputs, fields, method)
-
-
-def _same(ours: Any, given: Any) -> np.ndarray:
-    """Return where values are the same, numbers up to rounding."""
-    ours, given = np.asarray(ours), np.asarray(given)
-    if ours.dtype.kind in "OU":
-        return np.asarray(ours == given)
-    return np.asarray(np.isclose(given, ours, rtol=RELATIVE_TOLERANCE, atol=0.0, equal_nan=True))
 
 
 def _orbits(dataset: xr.Dataset) -> str | None:
     ball, energy = _ball(dataset)
     x, v, w = states = states_of(dataset)
-    if _off(ball.energy(x, v, w), energy, ENERGY_TOLERANCE):
+    if not np.all(np.abs(ball.energy(x, v, w) - energy) <= ENERGY_TOLERANCE):
         return "its states are not of its energy"
-    after = [np.asarray(a) for a in ball.impact(x.copy(), v.copy(), w.copy())]
+    after = np.stack(ball.impact(x.copy(), v.copy(), w.copy())[:3])
     followed = np.ones(x.size, bool)
     followed[np.cumsum(dataset["row_size"].values) - 1] = False
-    followed = followed[:-1]
-    if any(_off(after[i][:-1][followed], states[i][1:][followed]) for i in range(3)):
+    if _differ(after[:, :-1][:, followed[:-1]], states[:, 1:][:, followed[:-1]]):
         return "its states do not follow one another under the map"
     return None
 
@@ -122,12 +117,12 @@ def _orbits(dataset: xr.Dataset) -> str | None:
 def _spread(dataset: xr.Dataset) -> str | None:
     ball, energy = _ball(dataset)
     x, y = section_points(ball, energy, dataset.sizes["orbit"])
-    if _off([x, y], [dataset["start_x"].values, dataset["start_y"].values]):
+    if _differ([x, y], [dataset["start_x"].values, dataset["start_y"].values]):
         return "its orbits do not start uniformly over the section"
-    impacts = int(dataset.attrs["block_impacts"])
     states = ball.state_xy(x[:SAMPLE_SIZE], y[:SAMPLE_SIZE], energy)
+    impacts = int(dataset.attrs["block_impacts"])
     ours = lyapunov_spectrum(ball, states, impacts, 1)["exponent"].values[0]
-    if _off(ours, dataset["exponent"].values[0, :SAMPLE_SIZE]):
+    if _differ(ours, dataset["exponent"].values[0, :SAMPLE_SIZE]):
         return "its first block has other exponents"
     sea = in_sea(dataset)
     first, rest = ours[sea[:SAMPLE_SIZE], 0], dataset["exponent"].values[:, sea, 0]
@@ -138,7 +133,7 @@ def _spread(dataset: xr.Dataset) -> str | None:
     row = int(np.searchsorted(lengths, CHECKED_IMPACTS, side="right")) - 1
     states = ball.start(dataset["regular_start"].values, energy)
     ours = lyapunov_spectrum(ball, states, int(lengths[row]), 1)["exponent"].values[0]
-    if _off(ours, dataset["regular_exponent"].values[row]):
+    if _differ(ours, dataset["regular_exponent"].values[row]):
         return "its regular orbits have other exponents"
     return None
 
@@ -149,7 +144,7 @@ def _sweep(dataset: xr.Dataset) -> str | None:
         names = (f"regular_{low}", "regular", f"regular_{high}")
         shape = dataset["regular"].shape
         shares = [np.zeros(shape), *(dataset[name].values for name in names), np.ones(shape)]
-        if not np.all(np.diff(shares, axis=0) >= -RELATIVE_TOLERANCE):
+        if not np.all(np.diff(shares, axis=0) >= -TOLERANCE):
             return f"a share is not between its {low} and its {high} one, or not between 0 and 1"
     k, energy = dataset["k"].values, dataset["energy"].values
     rows, columns = ({0, axis.size // 2, axis.size - 1} for axis in (k, energy))
