@@ -5,11 +5,11 @@ Run `.venv/bin/python -m pipeline.checks.datasets` to renew it.
 
 import tempfile
 import tomllib
-from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+import jinja2
 import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
@@ -27,7 +27,12 @@ BALL, ENERGY = Ball(0.2, 0.04), 0.01
 TEXT = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 SMALL = TEXT["small"]  # stage -> fields of a scene
 
-Files = dict[str, tuple[str, xr.Dataset]]  # name on the page -> (path, dataset)
+
+class File(NamedTuple):
+    """A dataset after a round through its file, and the path where the project has it."""
+
+    path: str
+    data: xr.Dataset
 
 
 def page() -> str:
@@ -37,108 +42,85 @@ def page() -> str:
     for name, (_, data) in files.items():
         for attribute in dict.fromkeys([*data.attrs, *TEXT["optional"].get(name, ())]):
             owners.setdefault(attribute, []).append(f"`{name}`")
-    lines = ["| attribute | of | meaning | scale |", "|---|---|---|---|"]
-    for name, (meaning, scale) in TEXT["attributes"].items():
-        of = owners.pop(name)
-        of_text = "all" if len(of) == len(files) else ", ".join(of)
-        lines.append(f"| `{name}` | {of_text} | {meaning} | {scale} |")
-    if owners:
-        raise KeyError(f"attributes without a meaning: {owners}")
-    parts = [TEXT["head"].strip(), *(_section(name, *file) for name, file in files.items())]
-    return "\n\n".join([*parts, "## Attributes of files", "\n".join(lines)]) + "\n"
+    if unknown := owners.keys() - TEXT["attributes"].keys():
+        raise KeyError(f"attributes without a meaning: {unknown}")
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined, trim_blocks=True, keep_trailing_newline=True
+    )
+    template = Path(__file__).with_suffix(".md.jinja").read_text(encoding="utf-8")
+    return environment.from_string(template).render(
+        files=files,
+        measured=MEASURED,
+        attributes=TEXT["attributes"],
+        owners={k: "all" if len(v) == len(files) else ", ".join(v) for k, v in owners.items()},
+    )
 
 
-def _section(name: str, path: str, data: xr.Dataset) -> str:
-    """Describe one dataset and its variables."""
-    sentences = [f"`{path}`: {data.attrs['title']}."]
-    if (row_size := data.get("row_size")) is not None:
-        sample = row_size.attrs["sample_dimension"]
-        sentences += [f"Ragged: `row_size` on `{row_size.dims[0]}` counts `{sample}`."]
-    if name.removeprefix("study: ") in MEASURED:
-        sentences += [TEXT["study"].strip()]
-    lines = [f"### {name}", "", " ".join(sentences), ""]
-    lines += ["| variable | dimensions | type | meaning | scale |", "|---|---|---|---|---|"]
-    for variable, values in data.variables.items():
-        dims = ", ".join(f"`{dim}`" for dim in values.dims)
-        dtype = "text" if values.dtype.kind in "OUT" else str(values.dtype)
-        texts = values.attrs["long_name"], values.attrs.get("scale", "")
-        meaning, scale = (text.replace("|", "\\|") for text in texts)
-        lines.append(f"| `{variable}` | {dims} | {dtype} | {meaning} | {scale} |")
-    return "\n".join(lines)
-
-
-def _stages() -> Files:
+def _stages() -> dict[str, File]:
     files = {}
     for name, stage in STAGES.items():
         fields = SMALL[name]
         inputs = [_computed(used, {"period": fields["period"]}) for used in stage.inputs]
-        data = _saved(_computed(name, fields, *inputs), _function(name), stage=name)
-        files[name] = f"results/VARIANT/{name}_SCENE.nc", data
+        title = artifacts.title_of(_function(name))
+        data = _computed(name, fields, *inputs)
+        files[name] = _saved(f"results/VARIANT/{name}_SCENE.nc", data, stage=name, title=title)
     return files
 
 
-def _sweep_and_derivations() -> Files:
+def _function(stage: str) -> Any:
+    return getattr(import_module(STAGES[stage].module), STAGES[stage].function)
+
+
+def _computed(stage: str, fields: dict[str, Any], *inputs: xr.Dataset) -> xr.Dataset:
+    dataset: xr.Dataset = _function(stage)(BALL, ENERGY, *inputs, **fields)
+    return dataset
+
+
+def _sweep_and_derivations() -> dict[str, File]:
     block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
     whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
-    path = "results/sweep/SWEEP"
-    algebra = _saved(derivations(BALL, ENERGY), derivations, stage="derivations")
+    path, titles = "results/sweep/SWEEP", [*map(artifacts.title_of, (blocks.join, blocks.compute))]
+    algebra = {"stage": "derivations", "title": artifacts.title_of(derivations)}
     return {
-        "sweep": (f"{path}.nc", _saved(whole, blocks.join, ball=False)),
-        "sweep, a block": (f"{path}_0000.nc", _saved(block, blocks.compute, ball=False)),
-        "derivations": ("results/claims/derivations.nc", algebra),
+        "sweep": _saved(f"{path}.nc", whole, ball=False, title=titles[0]),
+        "sweep, a block": _saved(f"{path}_0000.nc", block, ball=False, title=titles[1]),
+        "derivations": _saved(
+            "results/claims/derivations.nc", derivations(BALL, ENERGY), **algebra
+        ),
     }
 
 
-def _study() -> Files:
+def _study() -> dict[str, File]:
     from pseudorigid.study import failures, figure_errors, verdicts, work
     from pseudorigid.study.methods.counted_methods import METHODS
 
     methods = failures.EDGE_METHODS[:1]
     needs = TEXT["needs"], {"fig3": "motion"}
     periodic = {("periodic", "fig3"): _computed("periodic", {"period": 1})}
-    compute = {
-        "work": lambda: work.counted(2),
-        "edges": lambda: failures.edges(methods, 2),
-        "orbits": lambda: failures.orbits(1000),
-        "needs": lambda: figure_errors.figure_errors(*needs, periodic),
-        "verdicts": lambda: verdicts.verdicts(cells=1, orbits=2),
-        "work_all": lambda: work.measured(METHODS[:1], 2, 1),
-        "edges_all": lambda: failures.edges(methods, 2),
-        "missed_all": lambda: failures.missed(methods, 10_000),
+    parts = {
+        "work": work.counted(2),
+        "edges": failures.edges(methods, 2),
+        "orbits": failures.orbits(1000),
+        "needs": figure_errors.figure_errors(*needs, periodic),
+        "verdicts": verdicts.verdicts(cells=1, orbits=2),
+        "work_all": work.measured(METHODS[:1], 2, 1),
+        "edges_all": failures.edges(methods, 2),
+        "missed_all": failures.missed(methods, 10_000),
     }
     files = {}
     for part in (*FIXED, *MEASURED):
         attributes = {"stage": "study", "title": f"Methods compared: {part}"}
-        data = _saved(compute[part](), None, ball=part != "verdicts", **attributes)
-        files[f"study: {part}"] = study_path(part), data
+        ball = part != "verdicts"
+        files[f"study: {part}"] = _saved(study_path(part), parts[part], ball, **attributes)
     return files
 
 
-def _function(stage: str) -> Callable[..., xr.Dataset]:
-    function: Callable[..., xr.Dataset] = getattr(
-        import_module(STAGES[stage].module), STAGES[stage].function
-    )
-    return function
-
-
-def _computed(stage: str, fields: dict[str, Any], *inputs: xr.Dataset) -> xr.Dataset:
-    return _function(stage)(BALL, ENERGY, *inputs, **fields)
-
-
-def _saved(
-    data: xr.Dataset,
-    function: Callable[..., xr.Dataset] | None,
-    ball: bool = True,
-    **attributes: object,
-) -> xr.Dataset:
-    """Return a dataset after a round through its file, titled by the function that computed it."""
+def _saved(path: str, data: xr.Dataset, ball: bool = True, **attributes: object) -> File:
+    """Return a dataset after a round through its file."""
     attributes |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
-    if function is not None:
-        attributes["title"] = artifacts.title_of(function)
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "data.nc"
-        artifacts.save(data, path, {}, **attributes)
-        return artifacts.load(path)
+        artifacts.save(data, f"{folder}/data.nc", {}, **attributes)
+        return File(path, artifacts.load(f"{folder}/data.nc"))
 
 
 if __name__ == "__main__":
