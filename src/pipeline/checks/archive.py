@@ -31,7 +31,6 @@ TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 _ABOUT_TEXT = Path(__file__).with_suffix(".txt")
-_MOST_FILES = 10_000  # in an archive; a complete one has some hundreds
 
 Contents = dict[str, bytes]  # path of a file -> its bytes
 
@@ -122,17 +121,11 @@ def read(path: Path | str) -> Contents:
 
     Only what `write` writes is accepted: regular files with plain names, and no byte besides.
     """
-    archived: Contents = {}
     if os.path.exists(path) and not os.path.isfile(path):
         raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
         with files.open_regular(path) as file:
-            for name, data in _members(file):
-                if name in archived:
-                    raise tarfile.TarError(f"{name!r}: twice")
-                if len(archived) == _MOST_FILES:
-                    raise tarfile.TarError(f"{name!r}: more than {_MOST_FILES:,} files")
-                archived[name] = data
+            archived = _members(file)
     except _ForeignError as error:
         raise ArchiveError(f"{path}: not made by ./reproduce archive: {error}") from None
     except FileError as error:
@@ -151,26 +144,28 @@ def read(path: Path | str) -> Contents:
     return archived
 
 
-def _members(file: IO[bytes]) -> Iterator[tuple[str, bytes]]:
-    """Yield name and bytes of each file of a tar, whose header is checked before it is read."""
+def _members(file: IO[bytes]) -> Contents:
+    """Return the files of a tar, each of whose headers is checked before its file is read."""
+    archived: Contents = {}
     total = os.fstat(file.fileno()).st_size
     while (header := file.read(tarfile.BLOCKSIZE)).strip(b"\0"):
         entry = tarfile.TarInfo.frombuf(header, "utf-8", "strict")
         name = entry.name.removeprefix(f"{TOP}/")
         try:
-            ours = name != entry.name and _is_plain(name) and _header(name, entry.size) == header
+            ours = _is_plain(name) and _header(name, entry.size) == header
         except ValueError:  # a number or name that this format cannot have
             ours = False
-        if not ours:
+        if not ours or name in archived:
             raise _ForeignError(f"{entry.name!r:.100}")
         if entry.size > total - file.tell():
             raise tarfile.TarError(f"{entry.name!r} says that it has {entry.size:,} bytes")
-        yield name, file.read(entry.size)
+        archived[name] = file.read(entry.size)
         if file.read(-entry.size % tarfile.BLOCKSIZE).strip(b"\0"):
             raise tarfile.TarError(f"there are bytes between {entry.name!r} and the next file")
     end = file.tell() - len(header) + 2 * tarfile.BLOCKSIZE
     if total != end + -end % tarfile.RECORDSIZE or file.read().strip(b"\0"):
         raise tarfile.TarError("it is cut off, or there are bytes after its end")
+    return archived
 
 
 def _is_plain(name: str) -> bool:

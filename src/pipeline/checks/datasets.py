@@ -79,13 +79,14 @@ def _computed(stage: str, fields: dict[str, Any], *inputs: xr.Dataset) -> xr.Dat
 def _sweep_and_derivations() -> dict[str, File]:
     block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
     whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
-    path, titles = "results/sweep/SWEEP", [*map(artifacts.title_of, (blocks.join, blocks.compute))]
-    algebra = {"stage": "derivations", "title": artifacts.title_of(derivations)}
+    algebra, path = derivations(BALL, ENERGY), "results/sweep/SWEEP"
+    functions = blocks.join, blocks.compute, derivations
+    join, compute, derive = (artifacts.title_of(function) for function in functions)
     return {
-        "sweep": _saved(f"{path}.nc", whole, ball=False, title=titles[0]),
-        "sweep, a block": _saved(f"{path}_0000.nc", block, ball=False, title=titles[1]),
+        "sweep": _saved(f"{path}.nc", whole, ball=False, title=join),
+        "sweep, a block": _saved(f"{path}_0000.nc", block, ball=False, title=compute),
         "derivations": _saved(
-            "results/claims/derivations.nc", derivations(BALL, ENERGY), **algebra
+            "results/claims/derivations.nc", algebra, stage="derivations", title=derive
         ),
     }
 

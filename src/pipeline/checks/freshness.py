@@ -18,10 +18,9 @@ DAMAGED = "changed after it was made"
 class Freshness:
     """Which results of a tree have to be recomputed.
 
-    `build_specs` has every result that may be asked about. Three cached methods take a result:
-    `reason(path)` says why it has to be recomputed (MISSING if it is not there), `own_reason(path)`
-    why even if its inputs keep their bytes, and `refusal(path)` why it cannot exist, as a job for
-    it or for one of its inputs found. Each returns None if there is no such reason.
+    Three cached methods take a result: `reason(path)` says why it has to be recomputed (MISSING if
+    it is not there), `own_reason(path)` why even if its inputs keep their bytes, and
+    `refusal(path)` why it cannot exist. Each returns None if there is no such reason.
     """
 
     def __init__(self, root: Path, build_specs: dict[str, BuildSpec]) -> None:

@@ -30,7 +30,6 @@ def impacts(checked: dict[str, Any]) -> int:
     artifact_paths = paths.artifact_paths(checked["variants"])
     status, worst, sample = 0, 0.0, checked["prove"]["impacts"]
     for scene, block in checked["scenes"].items():
-        ball = Ball(**block["ball"])
         k, g = (Fraction(str(block["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:
@@ -40,7 +39,7 @@ def impacts(checked: dict[str, Any]) -> int:
             dataset: xr.Dataset = load(ROOT / path)
             return dataset
 
-        for name, (before, after, tau) in _impacts_behind(ball, block, data, sample):
+        for name, (before, after, tau) in _impacts_behind(block, data, sample):
             result = proofs.prove_impacts(k, g, before, after, tau, name=f"{scene} {name}")
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
@@ -50,22 +49,22 @@ def impacts(checked: dict[str, Any]) -> int:
 
 
 def _impacts_behind(
-    ball: Ball, block: dict[str, Any], data: Callable[[str], xr.Dataset], sample: int
+    block: dict[str, Any], data: Callable[[str], xr.Dataset], sample: int
 ) -> Iterator[tuple[str, Impacts]]:
     """Yield the name and the impacts of each stage of a scene."""
-    energy, stages = block["energy"], paths.stages(block)
+    ball, energy, stages = Ball(**block["ball"]), block["energy"], paths.stages(block)
+    if {"orbits", "manifolds"} <= stages.keys():
+        sample //= 2
     if "orbits" in stages:
         states = proofs.of_orbits(ball, energy, data("orbits"), block["starts"])
-        sampled = "manifolds" in stages
-        yield "orbits", _evenly(states, sample // 2) if sampled else states
+        yield "orbits", _evenly(states, sample) if "manifolds" in stages else states
     if "motion" in stages:
         yield "orbit", proofs.of_periodic(of_type(data("periodic"), block["type"]))
     if "manifolds" in stages:
         lines = states_of(data("manifolds"))
         lines = lines[:, ~np.isnan(lines[0])]
         lines[2] = np.maximum(lines[2], -lines[1])
-        (lines,) = _evenly((lines,), sample // 2 if "orbits" in stages else sample)
-        yield "manifolds", proofs.of_states(ball, lines)
+        yield "manifolds", proofs.of_states(ball, *_evenly((lines,), sample))
     if "lyapunov" in stages:
         starts = [start_state(ball, energy, start) for start in block["starts"]]
         for i, start in enumerate(starts):

@@ -3,7 +3,7 @@
 Nothing is computed here: both variants must have their results.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import xarray as xr
@@ -28,60 +28,45 @@ def compare(
 ) -> None:
     """Print what differs between two variants and save their figures side by side.
 
-    Parameters
-    ----------
-    root : Path
-        The project's folder.
-    variants : dict
-        The checked variants of the config.
-    names : sequence of str
-        Names of the two variants.
-    absent : sequence of mappings
-        For each of the two: scene -> why its figure cannot exist.
-    scenes : sequence of str
-        The scenes to compare.
-    everything : bool
-        Print a line for each variable and each orbit that differs, not one for each stage.
+    `absent` has, for each of the two, scene -> why its figure cannot exist. If `everything`, each
+    variable and each orbit that differs has a line, otherwise each stage has one.
     """
     artifact_paths = paths.artifact_paths(variants)
     blocks = {scene: [variants[name][scene] for name in names] for scene in scenes}
-    stages = {scene: paths.stages(pair[0]) for scene, pair in blocks.items()}
 
     def data(scene: str, stage: str) -> Pair:
         first, second = (load(root / artifact_paths[name, scene, stage]) for name in names)
         return first, second
 
     print(f"{names[0]} | {names[1]}")
-    for scene in scenes:
-        print(f"\n{scene}")
-        for line in _config_differences(*blocks[scene]):
-            print(f"  {line}")
-        reasons = [reasons_of_one.get(scene) for reasons_of_one in absent]
-        for name, reason in zip(names, reasons, strict=True):
-            if reason:
-                print(f"  cannot exist in {name}: {reason}")
-        for stage in stages[scene] if not any(reasons) else ():
+    for scene, pair in blocks.items():
+        reasons = dict(zip(names, (reasons.get(scene) for reasons in absent), strict=True))
+        lines = [*_config_differences(*pair)]
+        lines += [f"cannot exist in {name}: {reason}" for name, reason in reasons.items() if reason]
+        for stage in paths.stages(pair[0]) if not any(reasons.values()) else ():
             if stage != "periodic":
-                lines = _stage_differences(stage, data(scene, stage), names, everything)
-                for i, line in enumerate(lines):
-                    print(f"  {'' if i else stage:10}  {line}")
+                texts = _stage_differences(stage, data(scene, stage), names, everything)
+                lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
         image = root / f"results/compare/{names[0]}..{names[1]}/{scene}.png"
-        if all(reasons):
+        if all(reasons.values()):
             image.unlink(missing_ok=True)
-            continue
-        drawings = [
-            None if reason else root / paths.drawn(scene, "png", name)
-            for name, reason in zip(names, reasons, strict=True)
-        ]
-        picture.side_by_side(drawings, names, image)
-        print(f"  side by side: {image.relative_to(root)}")
+        else:
+            drawings = {
+                name: None if reason else root / paths.drawn(scene, "png", name)
+                for name, reason in reasons.items()
+            }
+            picture.side_by_side(drawings, image)
+            lines.append(f"side by side: {image.relative_to(root)}")
+        print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
     _print_periodic_orbits(blocks, names, data)
-    for scene in scenes:
-        if "lyapunov" in stages[scene]:
+    for scene, (block, _) in blocks.items():
+        if "lyapunov" in paths.stages(block):
             quantity = "mean over its orbits ± their standard deviation"
             print(f"\nLyapunov exponents of {scene}: {quantity}")
-            for line in exponents.table(*data(scene, "lyapunov"), names):
-                print(f"  {line}")
+            print(
+                *(f"  {line}" for line in exponents.table(*data(scene, "lyapunov"), names)),
+                sep="\n",
+            )
 
 
 def _stage_differences(stage: str, pair: Pair, names: Sequence[str], everything: bool) -> list[str]:
@@ -92,14 +77,11 @@ def _stage_differences(stage: str, pair: Pair, names: Sequence[str], everything:
     return lines
 
 
-def _config_differences(first: YamlMapping, second: YamlMapping) -> list[str]:
-    """Return a line for each key of the config that differs, except derived axes."""
-    lines = [
-        f"{key}: {brief(before)} | {brief(after)}"
-        for key, before, after in differing_keys(paths.drawing(first), paths.drawing(second))
-        if key != "axes"
-    ]
-    return lines or ["the same config"]
+def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:
+    """Yield a line for each key of the config that differs, except derived axes."""
+    before, after = (paths.drawing(block) | {"axes": None} for block in (first, second))
+    keys = differing_keys(before, after)
+    yield from [f"{key}: {brief(a)} | {brief(b)}" for key, a, b in keys] or ["the same config"]
 
 
 def _print_periodic_orbits(
@@ -117,6 +99,5 @@ def _print_periodic_orbits(
         far = f"an orbit further than {cycles.REACH:g} away counts as another"
         print(f"\nPeriodic orbits, and how far in section radii ({far})")
     for scenes in groups.values():
-        print(f"  {', '.join(scenes)}")
-        for line in cycles.table(*data(scenes[0], "periodic"), names):
-            print(f"    {line}")
+        lines = cycles.table(*data(scenes[0], "periodic"), names)
+        print(f"  {', '.join(scenes)}", *(f"    {line}" for line in lines), sep="\n")

@@ -1,6 +1,7 @@
 """Differences between two datasets of one stage, variable by variable."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -9,27 +10,33 @@ from ...records.artifacts import canonical_values
 from ...records.differences import columns
 
 _SAME = "the same data"
-_Row = tuple[str, str, str, str, str, str]
+
+
+class _Row(NamedTuple):
+    variable: str
+    values: str  # their number, or both shapes if these differ
+    rms: tuple[str, str] = ("", "")
+    largest: str = ""  # difference of two values
+    relative: float | None = None  # difference in the L2 norm, |B - A|/|A|, if A is not 0
 
 
 def table(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> list[str]:
-    """Tabulate the variables that differ.
-
-    The columns are the number of values (both shapes if these differ), the root mean squares, the
-    relative difference in the L2 norm, |B - A|/|A|, and the largest difference of two values.
-    """
-    rows = _rows(first, second, names)
-    head = ("variable", "values", *(f"rms {name}" for name in names), "relative", "largest")
-    return columns([head, *(row for row, _ in rows)]) if rows else [_SAME]
+    """Tabulate the variables that differ, with root mean squares and two measures of difference."""
+    rows = [*_rows(first, second, names)]
+    lines = [("variable", "values", *(f"rms {name}" for name in names), "relative", "largest")]
+    for row in rows:
+        relative = f"{row.relative:.3g}" if row.relative is not None else "-" * bool(row.largest)
+        lines.append((row.variable, row.values, *row.rms, relative, row.largest))
+    return columns(lines) if rows else [_SAME]
 
 
 def summary(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> str:
     """Say in one line how many variables differ, and which differs most."""
-    rows = _rows(first, second, names)
+    rows = [*_rows(first, second, names)]
     if not rows:
         return _SAME
     line = f"{len(rows)} of {len({*first.variables, *second.variables})} variables differ"
-    relative = {row[0]: size for row, size in rows if size is not None}
+    relative = {row.variable: row.relative for row in rows if row.relative is not None}
     if real := {n: size for n, size in relative.items() if first.variables[n].dtype.kind == "f"}:
         most = max(real, key=real.__getitem__)
         line += f", {most} the most: by {real[most]:.3g} of its norm"
@@ -37,33 +44,25 @@ def summary(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> str:
     return line + (f"; {others} of other lengths or in one only" if others else "")
 
 
-def _rows(
-    first: xr.Dataset, second: xr.Dataset, names: Sequence[str]
-) -> list[tuple[_Row, float | None]]:
-    """Return, for each variable that differs, its row of texts and its relative difference."""
-    rows: list[tuple[_Row, float | None]] = []
+def _rows(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> Iterator[_Row]:
+    """Yield a row for each variable that differs."""
     for name in sorted(map(str, {*first.variables, *second.variables})):
         if name not in first.variables or name not in second.variables:
-            owner = names[0] if name in first.variables else names[1]
-            rows.append(((name, f"in {owner} only", "", "", "", ""), None))
+            yield _Row(name, f"in {names[name not in first.variables]} only")
             continue
         variables = first.variables[name], second.variables[name]
         if any(v.dtype.kind not in "iuf" for v in variables) or _equal(*variables):
             continue
         a, b = (np.asarray(variable.values, dtype=float) for variable in variables)
+        rms = f"{_rms(a):.6g}", f"{_rms(b):.6g}"
         shapes = [" x ".join(map(str, part.shape)) for part in (a, b)]
-        sizes = f"{_rms(a):.6g}", f"{_rms(b):.6g}"
         if a.shape != b.shape:
-            rows.append(((name, f"{shapes[0]} | {shapes[1]}", *sizes, "", ""), None))
+            yield _Row(name, " | ".join(shapes), rms)
             continue
         finite = np.isfinite(a) & np.isfinite(b)
-        gap = (b - a)[finite]
-        norm = np.sqrt(np.sum(a[finite] ** 2))
-        relative = float(np.sqrt(np.sum(gap**2)) / norm) if norm else None
-        relative_text = "-" if relative is None else f"{relative:.3g}"
-        largest = f"{np.max(np.abs(gap), initial=0.0):.3g}"
-        rows.append(((name, shapes[0], *sizes, relative_text, largest), relative))
-    return rows
+        gap, norm = (b - a)[finite], np.linalg.norm(a[finite])
+        relative = float(np.linalg.norm(gap) / norm) if norm else None
+        yield _Row(name, shapes[0], rms, f"{np.max(np.abs(gap), initial=0.0):.3g}", relative)
 
 
 def _equal(a: xr.Variable, b: xr.Variable) -> bool:

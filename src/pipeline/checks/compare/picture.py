@@ -1,40 +1,37 @@
 """Two figures side by side."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
+from PIL import Image, ImageDraw, ImageFont
 
-from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.render import pixels, png
-from pseudorigid.figures.canvas.sheet import POINT, Sheet
-
-from ...records.files import write_whole
-from ...records.pictures import pixels as read
+from ...records.files import replacing
+from ...records.pictures import pixels
 
 _HEAD = 75  # pixels
+_SIZE = 42  # pixels
 
 
-def side_by_side(drawings: Sequence[Path | None], names: Sequence[str], path: Path) -> None:
+def side_by_side(drawings: Mapping[str, Path | None], path: Path) -> None:
     """Save two PNG side by side, each below its name. None is a figure that cannot exist."""
-    height, width, _ = next(read(drawing).shape for drawing in drawings if drawing)
-    images = [
-        read(drawing) if drawing else _label("cannot exist", width, height) for drawing in drawings
-    ]
-    high = max(image.shape[0] for image in images)
-    parts = []
-    for image, name in zip(images, names, strict=True):
-        below = np.full((high - image.shape[0], image.shape[1], 3), 255, dtype=np.uint8)
-        head = _label(name, image.shape[1], _HEAD, 5 * POINT, "bottom")
-        parts.append(np.concatenate([head, image, below]))
-    write_whole(path, png(np.concatenate(parts, axis=1), style.DPI))
+    images = {name: Image.fromarray(pixels(file)) for name, file in drawings.items() if file}
+    for name in drawings.keys() - images.keys():
+        images[name] = Image.new("RGB", next(iter(images.values())).size, "white")
+        _write(images[name], "cannot exist", images[name].height / 2)
+    width = sum(image.width for image in images.values())
+    height = max(image.height for image in images.values())
+    both, left = Image.new("RGB", (width, _HEAD + height), "white"), 0
+    for name in drawings:
+        head = Image.new("RGB", (images[name].width, _HEAD), "white")
+        _write(head, name, _HEAD / 2)
+        both.paste(head, (left, 0))
+        both.paste(images[name], (left, _HEAD))
+        left += images[name].width
+    with replacing(path) as part:
+        both.save(part, "PNG")
 
 
-@style.pinned()
-def _label(
-    text: str, width: int, height: int, y: float | None = None, va: str = "center"
-) -> np.ndarray:
-    """Draw a text on a white image of this size, by default in its middle."""
-    sheet = Sheet(width, height)
-    sheet.text(width / 2, height / 2 if y is None else y, text, ha="center", va=va, size=10.0)
-    return np.asarray(pixels(sheet.figure))
+def _write(image: Image.Image, text: str, y: float) -> None:
+    """Write a text in the middle of a line of an image."""
+    font = ImageFont.load_default(_SIZE)
+    ImageDraw.Draw(image).text((image.width / 2, y), text, "black", font, anchor="mm")

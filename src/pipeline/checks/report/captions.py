@@ -19,10 +19,7 @@ class Caption(NamedTuple):
 
 
 def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
-    """Return the caption of a scene, a sweep or a chart of the study.
-
-    `block` is the scene or the sweep, complete; a chart needs none.
-    """
+    """Return the caption of a complete scene or sweep, or of a chart, which has no block."""
     block = block or {}
     if "picture" in block:
         texts = CAPTIONS["kinds"].get(block["picture"])

@@ -136,18 +136,11 @@ class _Page:
         return [row for rows in ledger.by_verdict(verdicts).values() for row in rows]
 
     def provenance(self) -> Iterator[dict[str, Any]]:
-        """Yield file, sha256, commit, packages and seconds, if known, of each result shown."""
+        """Yield path, packages and record of each result shown."""
         for path in self.shown:
             record = read_record(self.root, record_path(path))
-            seconds = record.get("seconds")
-            commit = str(record.get("commit") or "no commit")[:12]
-            yield {
-                "path": path,
-                "sha256": record["output"]["sha256"],
-                "commit": commit + (", with changes" if record.get("dirty") else ""),
-                "packages": ", ".join(f"{n} {v}" for n, v in record["environment"].items()),
-                "seconds": seconds if isinstance(seconds, float) else None,
-            }
+            packages = ", ".join(f"{n} {v}" for n, v in record["environment"].items())
+            yield {"path": path, "packages": packages, "record": record}
 
     def _measured(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
