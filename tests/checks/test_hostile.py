@@ -16,7 +16,7 @@ import pytest
 from anything import FUZZ, JSON, PATHS, edited, spoilt
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from verdicts import accepting, verified
+from verdicts import accepting, against, verified
 
 from pipeline import config
 from pipeline.checks import archive, manifest
@@ -26,26 +26,12 @@ from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import clean
 from pipeline.config import build_specs
 from pipeline.records.files import FileError
-from pipeline.records.record import record_path
+from pipeline.records.record import record_path, refusal_path
 
 DATA = "results/paper/motion_fig3.nc"
 DRAWING = "results/paper/figures/fig3.png"
 FIG3 = "paper_figures/fig3.png"
 FORGED = "differs from the committed one, although its config, sources and packages do not"
-
-
-@pytest.fixture(scope="module")
-def packed(accepted, tmp_path_factory):
-    path = tmp_path_factory.mktemp("archive") / "a.tar"
-    archive.write(accepted.path, config.load(accepted.config), path)
-    return path
-
-
-def against(tree, place):
-    """Return exit status and lines of verify --against."""
-    with redirect_stdout(io.StringIO()) as text:
-        status = archive.compare(tree.path, config.load(tree.config), place)
-    return status, text.getvalue().splitlines()
 
 
 # ---- archives ----
@@ -131,18 +117,17 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
     other = accepted.copy(tmp_path / "other")
     assert against(accepted, other.path)[0] == 0
     subprocess.run(["tar", "-xf", packed, "-C", tmp_path], check=True)
-    status, lines = against(accepted, tmp_path / "pseudorigid")
-    assert (status, lines[-1]) == (0, f"{len(lines) - 2} identical")
+    status, rows, lines = against(accepted, tmp_path / "pseudorigid")
+    assert (status, lines[-1]) == (0, f"{len(rows)} identical")
     for file in (DATA, FIG3):
         (other.path / file).write_text("garbage")
     with netCDF4.Dataset(other.path / "results/paper/motion_fig4.nc", "a") as dataset:
         dataset["strain"][3] = 0.5
     (other.path / "paper_figures" / "fig7.svg").unlink()
-    status, lines = against(accepted, other.path)
-    words = {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if line[:1].strip()}
+    status, rows, lines = against(accepted, other.path)
     assert status == 1
-    assert words[FIG3] == words[DATA] == words["results/paper/motion_fig4.nc"] == "differs"
-    assert words["paper_figures/fig7.svg"] == "not in the folder"
+    assert rows[FIG3] == rows[DATA] == rows["results/paper/motion_fig4.nc"] == "differs"
+    assert rows["paper_figures/fig7.svg"] == "not in the folder"
     text = "\n".join(lines)
     assert f"drawing: the other {FIG3}: damaged, or not a picture" in text
     assert f"data: the other {DATA}: damaged, or not netCDF" in text
@@ -351,60 +336,51 @@ def test_any_archive(packed, accepted, tmp_path):
     assert [*tmp_path.iterdir()] == [path]
 
 
+def fitting(document):
+    """Give a manifest the checksum that fits: anybody can compute it."""
+    if isinstance(document, dict):
+        document.pop("checksum", None)
+        with suppress(ValueError):
+            document["checksum"] = manifest._checksum(document)
+    return document
+
+
+def of_json(text):
+    """Return the texts of edited documents and of other ones."""
+    return (edited(json.loads(text)) | JSON).map(json.dumps)
+
+
+def of_manifest(text):
+    documents = edited(json.loads(text)) | JSON
+    return (documents | documents.map(fitting)).map(json.dumps)
+
+
+def of_sums(text):
+    digest = hashlib.sha256(b"mine").hexdigest()
+    names = st.sampled_from([*PATHS[:4], "../../victim.nc", "a\x1bb"])
+    return spoilt(text.encode()) | names.map(lambda name: f"{text}{digest}  {name}\n".encode())
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "place", ["provenance/motion_fig3.nc", "provenance/fig3.png", "logs/fig3.png"]
+    ("place", "like", "contents"),
+    [
+        (record_path(DATA), record_path(DATA), of_json),
+        (record_path(DRAWING), record_path(DRAWING), of_json),
+        (refusal_path(DRAWING), record_path(DRAWING), of_json),  # which this tree has not
+        ("paper_figures/MANIFEST.json", "paper_figures/MANIFEST.json", of_manifest),
+        ("paper_figures/SHA256SUMS", "paper_figures/SHA256SUMS", of_sums),
+    ],
 )
-def test_any_record(moved, around, place):
-    """Also a record that a result cannot exist, which this tree has not."""
-    paper = moved.path / "results" / "paper"
-    path, checked, outside = paper / f"{place}.json", config.load(moved.config), around()
-    before = (paper / "provenance" / f"{path.name}").read_text()
+def test_any_content(moved, around, place, like, contents):
+    checked, outside, path = config.load(moved.config), around(), moved.path / place
+    strategy = contents((moved.path / like).read_text())
     path.parent.mkdir(exist_ok=True)
 
     @FUZZ
-    @given(document=edited(json.loads(before)) | JSON)
-    def trial(document):
-        path.write_text(json.dumps(document))
-        everything(moved, checked)
-        assert around() == outside
-
-    trial()
-
-
-@pytest.mark.slow
-def test_any_manifest(moved, around):
-    """Also with a checksum that fits: anybody can compute it."""
-    path = moved.path / "paper_figures" / "MANIFEST.json"
-    before, checked, outside = path.read_text(), config.load(moved.config), around()
-
-    @FUZZ
-    @given(document=edited(json.loads(before)) | JSON, fitting=st.booleans())
-    def trial(document, fitting):
-        if fitting and isinstance(document, dict):
-            document.pop("checksum", None)
-            with suppress(ValueError):
-                document["checksum"] = manifest._checksum(document)
-        path.write_text(json.dumps(document))
-        everything(moved, checked)
-        assert around() == outside
-
-    trial()
-
-
-@pytest.mark.slow
-def test_any_sums(moved, around):
-    path = moved.path / "paper_figures" / "SHA256SUMS"
-    before, checked, outside = path.read_bytes(), config.load(moved.config), around()
-    digest = hashlib.sha256(b"mine").hexdigest()
-    named = st.sampled_from([*PATHS[:4], "../../victim.nc", "a\x1bb"]).map(
-        lambda name: before + f"{digest}  {name}\n".encode()
-    )
-
-    @FUZZ
-    @given(data=spoilt(before) | named)
-    def trial(data):
-        path.write_bytes(data)
+    @given(content=strategy)
+    def trial(content):
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
         everything(moved, checked)
         assert around() == outside
 
