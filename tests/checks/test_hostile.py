@@ -76,6 +76,8 @@ HOSTILE = {
     "compressed": gzip.compress(whole(entry("pseudorigid/x"))),
     "no text": whole(entry("pseudorigid/x").replace(b"pseudorigid/x", b"pseudorigid/\xff")),
     "zeros": bytes(10240),
+    "another folder": whole(entry("a")),
+    "no sums": whole(entry("pseudorigid/a")),
     **{
         f"of type {kind}": whole(entry("pseudorigid/x", b"", kind))
         for kind in (b"\0", b"1", b"2", b"3", b"4", b"5", b"6", b"7", b"S", b"L", b"x")

@@ -17,7 +17,7 @@ from pipeline import config
 from pipeline.checks import claims
 from pipeline.checks.claims import ledger
 from pipeline.checks.claims.schema import CORRECTED, FALSE
-from pipeline.checks.report import captions, figures_page, numbers, page
+from pipeline.checks.report import captions, figures_page, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.study import CHARTS
@@ -92,31 +92,27 @@ def rendered(tree, absent=()):
 
 
 def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
-    figures = sorted((reported.path / "results" / "paper" / "figures").glob("*.png"))
-    assert [path.name for path in figures] == ["fig3.png", "fig6.png", "fig7.png"]
-    figures += [reported.path / "results" / "lower" / "figures" / "fig3.png"]
-    for path in figures:
+    results = reported.path / "results"
+    figures = [results / f"paper/figures/{name}.png" for name in ("fig3", "fig6", "fig7")]
+    for path in (*figures, results / "lower/figures/fig3.png"):
         assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1
     assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
 
-def test_the_page_needs_no_network(text):
+def test_the_page_needs_no_network_and_its_links_have_targets(text):
     outline = Outline(text)
     policy = [a["content"] for a in outline.all("meta") if "http-equiv" in a]
     assert policy == ["default-src 'none'; img-src data:; style-src 'unsafe-inline'"]
-    assert all(a["src"].startswith("data:image/png;base64,") for a in outline.all("img"))
     assert [a["href"] for a in outline.all("link")] == ["data:,"]
     assert not outline.all("script") and "@import" not in text and "url(" not in text
-
-
-def test_links_have_targets_and_pictures_have_texts(text):
-    outline = Outline(text)
+    for image in outline.all("img"):
+        assert image["src"].startswith("data:image/png;base64,")
+        assert len(image["alt"]) > 40 and image["width"] and image["height"]
     ids = Counter(a["id"] for _, a in outline.tags if "id" in a)
     assert set(ids.values()) == {1}
     links = [a["href"] for a in outline.all("a")]
     assert links[0] == "#main"  # the skip link comes first
-    assert {link[0] for link in links} == {"#"} and {link[1:] for link in links} <= set(ids)
-    assert all(len(a["alt"]) > 40 and a["width"] and a["height"] for a in outline.all("img"))
+    assert {*links} <= {f"#{name}" for name in ids}
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h\d", tag)]
     assert levels[0] == 1 and levels.count(1) == 1
     assert all(b <= a + 1 for a, b in pairwise(levels))
@@ -232,37 +228,34 @@ def test_the_page_of_figures_is_current_and_complete():
     assert not re.findall(r"^[-+*>=] ", text, re.MULTILINE)  # no line of a caption is a list
 
 
-def artifact_paths(scenes):
-    """Return (scene, stage) -> dataset of the paper's scenes."""
+@pytest.fixture(scope="module")
+def scenes(finished):
+    """Scene -> its block and its datasets."""
+    blocks = config.load(finished.config)["scenes"]
+    files = paths.artifact_paths({config.PAPER: blocks})
     return {
-        (scene, stage): path
-        for (_, scene, stage), path in paths.artifact_paths({config.PAPER: scenes}).items()
+        scene: (block, {s: load(finished.path / files["paper", scene, s]) for s in stages})
+        for scene, block in blocks.items()
+        for stages in [paths.stages(block)]
     }
 
 
-def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(finished):
-    scenes = config.load(finished.config)["scenes"]
-    files = artifact_paths(scenes)
-    for scene, block in scenes.items():
-        data = {stage: load(finished.path / files[scene, stage]) for stage in paths.stages(block)}
-        values = numbers.measured(block, data.__getitem__)
-        assert KINDS[block["picture"]].headline in values
-        assert set(numbers.PAPER_NUMBERS[scene]) <= set(values)
+def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(scenes):
+    for scene, (block, data) in scenes.items():
+        kind = KINDS[block["picture"]]
+        values = kind.numbers(block, **data)
+        assert kind.headline in values
+        assert set(page.PAPER_NUMBERS[scene]) <= set(values)
         other = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
         other |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
-        assert numbers.measured(other, data.__getitem__) == values
+        assert kind.numbers(other, **data) == values
 
 
-def test_other_data_other_numbers(finished):
-    scenes = config.load(finished.config)["scenes"]
-    files = artifact_paths(scenes)
-
+def test_other_data_other_numbers(scenes):
     def measured(scene, **changes):
-        stages = paths.stages(scenes[scene])
-        data = {stage: load(finished.path / files[scene, stage]) for stage in stages}
-        for stage, change in changes.items():
-            data[stage] = change(data[stage])
-        return numbers.measured(scenes[scene], data.__getitem__)
+        block, data = scenes[scene]
+        other = data | {stage: change(data[stage]) for stage, change in changes.items()}
+        return KINDS[block["picture"]].numbers(block, **other)
 
     shifted = measured("fig6", manifolds=lambda d: d.assign_attrs(point_x=0.3, window_x=[0.2, 0.4]))
     assert shifted["x of the point"] == "0.3000000" and shifted["window, x"] == "0.2 to 0.4"

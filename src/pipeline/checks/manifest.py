@@ -96,9 +96,7 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
             scene: {
                 "config": block,
                 "sources": sources[scene],
-                "data": {
-                    stage: Path(path).name for stage, path in published_set.data[scene].items()
-                },
+                "data": {s: Path(path).name for s, path in published_set.data[scene].items()},
                 "figures": {
                     name: {"drawing": describe(folder / name), "sha256": file_hash(folder / name)}
                     for name in sorted(published_set.drawn)

@@ -22,26 +22,15 @@ NEW = "new: ./reproduce accept adds it to the manifest"
 
 @dataclass
 class Findings:
-    """What differs between a tree and the committed state of one published set.
-
-    Attributes
-    ----------
-    committed : Manifest or None
-        None if the manifest cannot be read.
-    layers : dict
-        Name of each published file -> differing layer -> words; None for a new file. Without a
-        manifest the only layer is the file.
-    stale : dict
-        Result -> why it is not what this tree makes.
-    problems : list of str
-        Faults of manifest, checksum list, texts and surplus files.
-    """
+    """What differs between a tree and the committed state of one published set."""
 
     published_set: PublishedSet
-    committed: manifest.Manifest | None = None
+    committed: manifest.Manifest | None = None  # None if it cannot be read
+    # Name of each published file -> differing layer -> words; None for a new file. Without a
+    # manifest the only layer is the file.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
-    stale: dict[str, str] = field(default_factory=dict)
-    problems: list[str] = field(default_factory=list)
+    stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
+    problems: list[str] = field(default_factory=list)  # of manifest, sums, texts, surplus files
 
     @property
     def differences(self) -> dict[str, dict[str, str]]:
@@ -51,10 +40,8 @@ class Findings:
     @property
     def outdated(self) -> list[str]:
         """A line about results that are there but not what this tree makes."""
-        command = self.published_set.command
-        return _grouped(
-            (path, f"{why}: run {command}") for path, why in self.stale.items() if why != MISSING
-        )
+        words = f": run {self.published_set.command}"
+        return _grouped((path, why + words) for path, why in self.stale.items() if why != MISSING)
 
     @property
     def notes(self) -> list[str]:
@@ -116,9 +103,10 @@ class Findings:
         elif missing:
             yield f"not checked, since not there: {_listed(missing)}"
         total, new = len(self.layers), list(self.layers.values()).count(None)
-        counts = _counted(len(findings), "other finding") + _counted(len(self.notes), "note")
         identical = total - len(differences) - new
-        yield f"{identical} of {total} {published_set.noun} identical{counts}"
+        counts = {"other finding": len(findings), "note": len(self.notes)}
+        others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
+        yield f"{identical} of {total} {published_set.noun} identical{''.join(others)}"
 
 
 def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
@@ -220,7 +208,3 @@ def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:
 def _listed(names: list[str]) -> str:
     more = f" and {len(names) - 4} more" if len(names) > 5 else ""
     return ", ".join(names[:4] if more else names) + more
-
-
-def _counted(number: int, noun: str) -> str:
-    return f"; {number} {noun}{'s' * (number > 1)}" if number else ""

@@ -102,14 +102,14 @@ class Row(Block):
 
 
 class Claim(Row):
-    """A row of claims.toml with its number and its check.
+    """A row of claims.toml with its number and its check, unless it has formulas or a verdict.
 
     The check is a function of the datasets and, if theorems are named, of a mapping from their
     names to whether they are proved. It returns an Outcome.
     """
 
     number: int
-    function: Callable[..., Outcome]
+    function: Callable[..., Outcome] | None
 
     def judge(self, datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> Verdict:
         """Return the verdict on the claim; `proofs` maps theorems to "proved" or another word.
@@ -123,7 +123,10 @@ class Claim(Row):
         inputs: list[Any] = [datasets[name] for name in self.data]
         if self.theorems:
             inputs.append({name: proofs.get(name) == PROVED for name in self.theorems})
-        outcome = self.function(*inputs)
+        if self.function is not None:
+            outcome = self.function(*inputs)
+        else:
+            outcome = derived(*inputs, *self.formulas) if self.formulas else Outcome(self.verdict)
         sentences = self.cases[outcome.case] if outcome.case else self
         numbers = dict(outcome.numbers)
         try:
@@ -172,9 +175,7 @@ def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> tuple[Docum
         raise ConfigError(*(f"claims.toml: {line}" for line in lines))
     claims = [
         Claim(
-            number=int(number),
-            function=checks.get(row.check) or _check_without_data(row),
-            **row.model_dump(exclude_unset=True),
+            number=int(number), function=checks.get(row.check), **row.model_dump(exclude_unset=True)
         )
         for number, row in document.claims.items()
     ]
@@ -201,13 +202,6 @@ def _mistakes_of(row: Row, key: str, checks: Mapping[str, Callable[..., Outcome]
             if name not in known:
                 (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
                 yield f"{key}.{field}: {name!r} is not known: {hint}"
-
-
-def _check_without_data(row: Row) -> Callable[..., Outcome]:
-    """Return the check of a claim that has formulas, or a verdict of its own."""
-    if row.formulas:
-        return lambda algebra: derived(algebra, *row.formulas)
-    return lambda: Outcome(row.verdict)
 
 
 def outcome_of(holds: object, proved: bool = False, /, **numbers: Any) -> Outcome:

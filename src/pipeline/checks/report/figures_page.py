@@ -4,53 +4,41 @@ Run `.venv/bin/python -m pipeline.checks.report.figures_page`. The captions are 
 report, with the values from which the committed pictures were made.
 """
 
+from functools import partial
+from pathlib import Path
 from textwrap import fill
 
-from ...config import PAPER, PUBLISHED, paths
+import jinja2
+
+from ...config import load
 from ...config.schema import study
 from ...records.files import write_whole
 from ...records.sources import ROOT
-from .. import manifest
+from .. import manifest, published_sets
 from .captions import caption_of
 
-HEAD = """\
-# All figures
-
-This page has every committed picture with its caption. It is written by
-`.venv/bin/python -m pipeline.checks.report.figures_page`, which takes the texts from
-`src/pipeline/checks/report/captions.toml` and the values from the `MANIFEST.json` beside the
-pictures. `./reproduce report` makes a page with the same captions, and with the numbers measured in
-each figure."""
-# Heading, folder, and the command that makes the pictures.
-SECTIONS = (
-    ("The paper's figures", PUBLISHED[PAPER], "./reproduce"),
-    ("Statements of the paper", PUBLISHED["claims"], "./reproduce claims"),
-    ("Theorems", PUBLISHED["proofs"], "./reproduce prove --pictures"),
-    ("Accuracy and speed of methods", study.FOLDER, "./reproduce study"),
-    ("The atlas", paths.ATLAS, "./reproduce atlas"),
+HEADINGS = (
+    "The paper's figures",
+    "Statements of the paper",
+    "Theorems",
+    "Accuracy and speed of methods",
+    "The atlas",
 )
 
 
 def page() -> str:
     """Return the text of docs/figures.md."""
-    parts = [HEAD]
-    for heading, folder, command in SECTIONS:
-        parts += [f"## {heading}", f"`{command}` makes these pictures, in `{folder}/`."]
-        scenes = manifest.read(ROOT, folder)["scenes"]
-        names = study.CHARTS if folder == study.FOLDER else scenes
-        for name in names:
-            caption = caption_of(name, scenes.get(name, {}).get("config"))
-            parts += [
-                f"### {caption.name}: {caption.title}",
-                f"![{caption.name}](../{folder}/{name}.png)",
-                _wrapped(caption.shows),
-                _wrapped(f"*What to see.* {caption.see}"),
-            ]
-    return "\n\n".join(parts) + "\n"
-
-
-def _wrapped(text: str) -> str:
-    return fill(text, 100, break_long_words=False, break_on_hyphens=False)
+    sections = []
+    sets = published_sets.committed_sets(load(ROOT / "config.yaml"))
+    for heading, published_set in zip(HEADINGS, sets, strict=True):
+        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
+        names = study.CHARTS if published_set.folder == study.FOLDER else scenes
+        captions = [(name, caption_of(name, scenes.get(name, {}).get("config"))) for name in names]
+        sections.append((heading, published_set, captions))
+    template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
+    environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
+    wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)
+    return environment.from_string(template).render(sections=sections, fill=wrapped)
 
 
 if __name__ == "__main__":

@@ -4,11 +4,14 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 """
 
 import base64
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import jinja2
+
+from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
@@ -22,7 +25,6 @@ from ..claims import ledger
 from ..claims.schema import CORRECTED, FALSE, Verdict
 from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
-from . import numbers
 from .captions import caption_of
 
 _TEMPLATES = jinja2.Environment(
@@ -33,6 +35,13 @@ _TEMPLATES = jinja2.Environment(
     lstrip_blocks=True,
 )
 Picture = dict[str, Any]  # what the template shows of a picture
+# scene -> quantity -> the paper's value
+PAPER_NUMBERS: dict[str, dict[str, str]] = {
+    scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
+    for scene, texts in tomllib.loads(
+        Path(__file__).with_name("paper_numbers.toml").read_text(encoding="utf-8")
+    ).items()
+}
 
 
 def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]]) -> str:
@@ -145,13 +154,14 @@ class _Page:
     def _measured(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
         block = self.variants[variant][scene]
-        data = {stage: self.artifact_paths[variant, scene, stage] for stage in paths.stages(block)}
+        files = {stage: self.artifact_paths[variant, scene, stage] for stage in paths.stages(block)}
+        data = {stage: load(self.root / file) for stage, file in files.items()}
         try:
-            values = numbers.measured(block, lambda stage: load(self.root / data[stage]))
+            values = KINDS[block["picture"]].numbers(block, **data)
         except (LookupError, TypeError, AttributeError, ArithmeticError):
-            files = ", ".join(data.values())
-            raise ValueError(f"not datasets of {scene}: delete {files} and run again") from None
-        printed = numbers.PAPER_NUMBERS.get(scene, {})
+            wrong = ", ".join(files.values())
+            raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
+        printed = PAPER_NUMBERS.get(scene, {})
         rows = [(name, printed.get(name, "not printed"), value) for name, value in values.items()]
         headline = KINDS[block["picture"]].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
