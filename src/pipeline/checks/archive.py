@@ -15,6 +15,9 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 from typing import IO
 
+import numpy as np
+import xarray as xr
+
 from ..config.paths import LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
 from ..records import files
@@ -24,8 +27,8 @@ from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, read_record, record_path
 from . import manifest, published_sets, verify
 from .checksums import SUMS, ChecksumError, format_sums, known_sums
-from .compare import norms
 from .difference import Comparison, dataset_difference
+from .published_sets import PublishedSet
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -37,10 +40,6 @@ Contents = dict[str, bytes]  # path of a file -> its bytes
 
 class ArchiveError(ValueError):
     """An archive cannot be made or read. The message is one line."""
-
-
-class _ForeignError(Exception):
-    """An entry of a tar that `write` would not write. The message is its name."""
 
 
 def write(root: Path, checked: YamlMapping, path: Path | str) -> str:
@@ -126,8 +125,6 @@ def read(path: Path | str) -> Contents:
     try:
         with files.open_regular(path) as file:
             archived = _members(file)
-    except _ForeignError as error:
-        raise ArchiveError(f"{path}: not made by ./reproduce archive: {error}") from None
     except FileError as error:
         raise ArchiveError(str(error)) from None
     except (tarfile.TarError, OSError, ValueError) as error:
@@ -156,7 +153,7 @@ def _members(file: IO[bytes]) -> Contents:
         except ValueError:  # a number or name that this format cannot have
             ours = False
         if not ours or name in archived:
-            raise _ForeignError(f"{entry.name!r:.100}")
+            raise tarfile.TarError(f"./reproduce archive did not write {entry.name!r:.100}")
         if entry.size > total - file.tell():
             raise tarfile.TarError(f"{entry.name!r} says that it has {entry.size:,} bytes")
         archived[name] = file.read(entry.size)
@@ -215,10 +212,11 @@ def compare(root: Path, checked: YamlMapping, path: Path) -> int:
     theirs.pop(ABOUT, None)
     names = sorted({*ours, *theirs})
     counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
-    width = max(map(len, names))
+    width, sets = max(map(len, names)), published_sets.committed_sets(checked)
     with tempfile.TemporaryDirectory() as folder:
-        for name in ours.keys() & theirs.keys():
-            files.write_whole(Path(folder, name), theirs[name])
+        for name in ours.keys() & theirs.keys():  # `_layers` compares files
+            if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
+                files.write_whole(Path(folder, name), theirs[name])
         for name in names:
             state = "identical" if ours.get(name) == theirs.get(name) else "differs"
             if name not in theirs or name not in ours:
@@ -226,13 +224,23 @@ def compare(root: Path, checked: YamlMapping, path: Path) -> int:
             counts[state] += 1
             print(f"{name:{width}}  {state}")
             if state == "differs":
-                for layer, words in _layers(root, checked, name, Path(folder)).items():
+                for layer, words in _layers(root, sets, name, Path(folder)).items():
                     print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
     print("", ", ".join(f"{n} {state}" for state, n in counts.items() if n), sep="\n")
     return int(counts["identical"] < len(names))
 
 
-def _layers(root: Path, checked: YamlMapping, path: str, other: Path) -> dict[str, str]:
+def _largest_difference(ours: xr.Dataset, theirs: xr.Dataset) -> float:
+    """Return the largest difference of two numbers at the same place of a variable."""
+    gaps = [0.0]
+    for name in ours.variables.keys() & theirs.variables.keys():
+        a, b = ours.variables[name], theirs.variables[name]
+        if a.shape == b.shape and a.dtype.kind in "iuf" and b.dtype.kind in "iuf":
+            gaps.append(float(np.nanmax(np.abs(a.values - b.values), initial=0.0)))
+    return max(gaps)
+
+
+def _layers(root: Path, sets: list[PublishedSet], path: str, other: Path) -> dict[str, str]:
     """Return layer -> how a file of this tree differs from its copy in the folder `other`."""
     layers: dict[str, str] = {}
     layer = "data" if path.endswith(".nc") else "drawing"
@@ -240,10 +248,10 @@ def _layers(root: Path, checked: YamlMapping, path: str, other: Path) -> dict[st
         if layer == "data":
             ours, theirs = load(root / path), load(other / path)
             words = dataset_difference(root, path, manifest.describe_data(theirs))
-            size = norms.summary(ours, theirs, ("this tree", "the other"))
+            size = f"numbers differ by at most {_largest_difference(ours, theirs):.3g}"
             return {"data": f"{words}; {size}" if words else "the same in other bytes"}
-        for published_set in published_sets.committed_sets(checked):
-            folder, name = os.path.split(path)
+        folder, name = os.path.split(path)
+        for published_set in sets:
             if folder == published_set.folder and name in published_set.drawn:
                 with suppress(ChecksumError):
                     committed = manifest.read(other, folder)
