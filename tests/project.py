@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -173,6 +174,14 @@ def of_scenes(*names, **parts):
     document = small(shipped())
     scenes = {name: document["scenes"][name] | {"formats": ["png"]} for name in names}
     return {"ball": document["ball"], "scenes": scenes} | parts
+
+
+def wait_for(condition, seconds=60):
+    """Wait until `condition()` is true; fail after some seconds."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"not within {seconds} s"
+        time.sleep(0.05)
 
 
 @contextmanager

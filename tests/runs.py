@@ -20,9 +20,3 @@ def rows(output):
 def contents(tree):
     """Name -> bytes of each published file."""
     return {name: content for name, (content, _, _) in tree.published().items()}
-
-
-def last_line(result):
-    """The last line of a run that printed no traceback."""
-    assert "Traceback" not in result.stdout
-    return result.stdout.splitlines()[-1]
