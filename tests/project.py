@@ -36,6 +36,12 @@ def shipped():
     return yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
 
 
+def run(*command, **how):
+    """Run a command; its output is text, and a failure is no error."""
+    how = {"capture_output": True, "text": True} | how
+    return subprocess.run([*map(str, command)], check=False, **how)
+
+
 class Tree:
     """A copy of the project at `path`, sharing the running interpreter."""
 
@@ -84,16 +90,14 @@ class Tree:
 
     def run(self, *arguments, **environment):
         """Run a command; stdout of the result holds all that a user sees."""
-        return subprocess.run(
-            self.command(*arguments),
-            env=self.environment() | environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            cwd="/",
-            check=False,
-        )
+        output = {"capture_output": False, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        how = {"env": self.environment() | environment, "stdin": subprocess.DEVNULL, "cwd": "/"}
+        return run(*self.command(*arguments), **how, **output)
+
+    def python(self, *arguments, **environment):
+        """Run Python with the code of this tree, in its folder."""
+        environment = self.environment() | environment
+        return run(sys.executable, *arguments, env=environment, cwd=self.path)
 
     def start(self, *arguments, **how):
         """Start a run."""
@@ -103,13 +107,8 @@ class Tree:
 
     def planned(self, *targets):
         """Return the outdated results behind published figures, by default behind all of them."""
-        result = subprocess.run(
-            [sys.executable, "-P", "-c", PLANNED, *targets],
-            env=self.environment(),
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        result = self.python("-P", "-c", PLANNED, *targets)
+        assert result.returncode == 0, result.stderr
         return set(result.stdout.split())
 
     def published(self):

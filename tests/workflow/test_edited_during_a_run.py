@@ -1,8 +1,5 @@
 """Files that change during a run are not recorded as what made its results."""
 
-import subprocess
-import sys
-
 DRAWING = "results/paper/figures/fig3.png"
 AGAIN = "changed during the run; run ./reproduce again"
 STYLE = "src/pseudorigid/figures/canvas/style.py"
@@ -60,14 +57,7 @@ def test_what_was_drawn_before_an_edit_is_not_called_current(done):
 def test_a_job_of_plain_snakemake_fails_too(done):
     plant(done, "motion", append("src/pipeline/jobs/draw.py"))
     (done.path / DRAWING).unlink()
-    result = subprocess.run(
-        [sys.executable, "-m", "snakemake", "--cores", "1", DRAWING],
-        cwd=done.path,
-        env=done.environment(),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    result = done.python("-m", "snakemake", "--cores", "1", DRAWING)
     assert result.returncode == 1
     log = done.path / "results/paper/logs/fig3.png.log"
     line = f"pseudorigid: fig3: src/pipeline/jobs/draw.py {AGAIN}"

@@ -1,22 +1,22 @@
 """Scenes with a `method`: their data count what it missed, and nothing else changes."""
 
 import pytest
-from project import Tree, fresh_tree, shipped, small
+from project import Tree, fresh_tree, of_scenes, shipped
 
 from pipeline.records.artifacts import load
 
 FINE = {"scan": 0.1, "tolerance": 1e-12}
-DATA = [f"results/paper/{name}.nc" for name in ("orbits_fig2", "manifolds_fig6")]
 
 
 def make(folder):
     """Make figures 3 and 7, orbits and manifolds of small scenes by scan and bisection."""
-    document = small(shipped())
+    document = of_scenes("fig2", "fig3", "fig6", "fig7")
     for scene in ("fig2", "fig3", "fig6"):
         document["scenes"][scene]["method"] = FINE
     document["scenes"]["fig7"] |= {"method": {"scan": 1, "tolerance": 1e-3}, "impacts": 3000}
     tree = fresh_tree(folder, document)
-    result = tree.run(*(f"paper_figures/{scene}.png" for scene in ("fig3", "fig7")), *DATA)
+    data = [f"results/paper/{name}.nc" for name in ("orbits_fig2", "manifolds_fig6")]
+    result = tree.run("fig3", "fig7", *data)
     assert result.returncode == 0, result.stdout
     (folder / "output").write_text(result.stdout)
 
@@ -56,7 +56,7 @@ def test_the_run_prints_missed_impacts(published):
 def test_a_method_makes_its_own_data_alone(published, tmp_path):
     tree = published.copy(tmp_path / "without")
     tree.edit("fig3", method=None)
-    (planned,) = tree.run("paper_figures/fig3.png", "-n").stdout.splitlines()
+    (planned,) = tree.run("fig3", "-n").stdout.splitlines()
     assert planned.startswith("fig3: method") and planned.endswith(": motion, drawing")
 
 

@@ -168,7 +168,7 @@ def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
 
 @pytest.fixture(scope="module")
 def edited(shared, accepted):
-    """A read-only copy of a fresh clone with results from a cache and edits of three scenes, after a run.
+    """A read-only fresh clone with results from a cache and three edits, and what a run printed.
 
     Only what differs is made, at any times of files: figure 3 cannot exist, figure 4 has another
     source with other data, and figure 7 another config.

@@ -46,15 +46,9 @@ def hashes(tree):
 def begin(tree, cluster):
     """Start the sweep on Slurm, with the tree's own code in ./reproduce and in the jobs."""
     profile = tree.path / "profiles" / "slurm"
-    return subprocess.Popen(
-        tree.command("sweep", "--profile", str(profile), *QUICK),
-        env=tree.environment() | cluster.environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        cwd="/",
-    )
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    environment = tree.environment() | cluster.environment
+    return tree.start("sweep", "--profile", str(profile), *QUICK, env=environment, **output)
 
 
 def finish(process, seconds=300):

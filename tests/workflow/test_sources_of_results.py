@@ -39,14 +39,7 @@ def loaded(tree, folder, *targets):
         making.write(NOTES)
     notes = folder / "notes"
     notes.mkdir()
-    result = subprocess.run(
-        [sys.executable, "-m", "snakemake", "--cores", "2", *targets],
-        cwd=tree.path,
-        env=tree.environment() | {"NOTES": str(notes)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    result = tree.python("-m", "snakemake", "--cores", "2", *targets, NOTES=str(notes))
     assert result.returncode == 0, result.stderr
     src = f"{tree.path.resolve()}/"
     return {
@@ -74,28 +67,21 @@ def undeclared(tree, loaded_files):
 
 @pytest.mark.slow
 def test_a_job_loads_what_its_record_names(tmp_path):
-    tree = fresh_tree(tmp_path / "tree", of_scenes("fig2", "fig3", "fig5", "fig7"))
-    loaded_files = loaded(tree, tmp_path)
-    assert len(loaded_files) >= 9
-    assert dict(undeclared(tree, loaded_files)) == {}
-    assert all("src/pipeline/records/record.py" in files for files in loaded_files.values())
-
-
-@pytest.mark.slow
-def test_jobs_of_the_other_kinds_load_what_their_records_name(tmp_path):
-    """Draw theorems, a claim and a sweep."""
+    """Make and draw every kind of scene of the paper, theorems, a claim and a sweep."""
     whole = shipped()
-    few = of_scenes("fig3")
+    few = of_scenes("fig2", "fig3", "fig5", "fig7")
     few["proofs"] = whole["proofs"]
     few["claims"] = {"jumps": whole["claims"]["jumps"] | {"sides": 100}}
     few["sweeps"] = {"line": whole["sweeps"]["line"] | {"starts": 60, "impacts": 200}}
     few["sweeps"]["line"]["energy"] = {"from": 1.0, "to": 2.0, "count": 2}
     tree = fresh_tree(tmp_path / "tree", few)
-    drawn = ("proofs/figures/horseshoe.png", "proofs/figures/twist.png", "claims/figures/jumps.png")
-    targets = [f"results/{name}" for name in (*drawn, "sweep/figures/line.png")]
+    drawn = [f"paper/figures/fig{number}" for number in (2, 3, 5, 7)]
+    drawn += ["proofs/figures/horseshoe", "proofs/figures/twist", "claims/figures/jumps"]
+    targets = [f"results/{name}.png" for name in (*drawn, "sweep/figures/line")]
     loaded_files = loaded(tree, tmp_path, *targets)
-    assert len(loaded_files) >= 10
+    assert len(loaded_files) >= 19
     assert dict(undeclared(tree, loaded_files)) == {}
+    assert all("src/pipeline/records/record.py" in files for files in loaded_files.values())
 
 
 def test_comments_formatting_and_docstrings_outdate_nothing(done):
