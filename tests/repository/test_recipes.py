@@ -1,8 +1,6 @@
 """The recipes of CONTRIBUTING, followed in a copy: a kind or a stage needs three files."""
 
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ from runs import rows
 
 from pipeline.records.artifacts import load
 
-KIND = {
+FILES = {
     "src/pseudorigid/figures/kinds/returns.py": '''
 """Next position against the present one."""
 
@@ -22,7 +20,7 @@ from ..canvas.ragged_rows import rows
 
 
 @style.pinned()
-def draw(scene, orbits):
+def draw(scene, orbits, flights):
     """Return the Figure of x' against x, one hue per orbit."""
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
@@ -44,14 +42,14 @@ from ..scene import OfOrbits
 class Returns(OfOrbits):
     """the next position against the present one"""
 
-    stages = ("orbits",)
+    stages = ("orbits", "flights")
     headline = "orbits"
 
     axes: dict[Literal["x", "next"], Axis] = None
     """Limits and ticks."""
 
     @staticmethod
-    def numbers(block, orbits):
+    def numbers(block, orbits, flights):
         """Return how many orbits there are."""
         return {"orbits": f"{orbits.sizes['orbit']}"}
 ''',
@@ -68,15 +66,9 @@ def test_each_pair_is_a_dot():
     x = np.array([0.1, 0.2, 0.4, 0.3, 0.5])
     data = xr.Dataset({"x": ("point", x), "row_size": ("orbit", np.array([3, 2]))})
     scene = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
-    dots = [a for a in returns.draw(scene, data).artists if a.get_marker() == "o"]
+    dots = [a for a in returns.draw(scene, data, None).artists if a.get_marker() == "o"]
     assert [len(line.get_xdata()) for line in dots] == [2, 1]
 ''',
-}
-STAGES = "src/pipeline/config/schema/stages.py"
-ROW = """    "flights": Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False),
-}
-"""
-STAGE = {
     "src/pseudorigid/dynamics/flights.py": '''
 """Mean time of flight of orbits."""
 
@@ -107,6 +99,10 @@ def test_each_orbit_has_its_mean():
     assert means.tolist() == [orbits["tau"][:3].mean(), orbits["tau"][3:].mean()]
 ''',
 }
+STAGES = "src/pipeline/config/schema/stages.py"
+ROW = """    "flights": Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False),
+}
+"""
 SCENE = {"picture": "returns", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
 DOCUMENT = {
     "ball": {"k": 0.2, "g": 0.04},
@@ -130,39 +126,6 @@ returns:
 """
 
 
-def write_new(tree, files):
-    """Write new files, and append the caption and the example of their kind."""
-    for name, text in {
-        "checks/report/captions.toml": CAPTION,
-        "config/schema/kinds/examples.yaml": EXAMPLE,
-    }.items():
-        with (tree.path / "src/pipeline" / name).open("a") as file:
-            file.write(text)
-    for name, text in files.items():
-        path = tree.path / name
-        assert not path.exists()
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text.lstrip())
-    tree.warm()
-
-
-def python(tree, *arguments):
-    result = subprocess.run(
-        [sys.executable, *arguments],
-        env=tree.environment(),
-        cwd=tree.path,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
-    assert result.returncode == 0, result.stdout
-
-
-def run_test(tree, file):
-    python(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", file)
-
-
 def succeed(tree, *words):
     result = tree.run(*words)
     assert result.returncode == 0, result.stdout
@@ -172,24 +135,49 @@ def succeed(tree, *words):
 def renewed_page(tree):
     """The page of fields, written anew."""
     (tree.path / "docs").mkdir(exist_ok=True)
-    python(tree, "-P", "-m", "pipeline.config.reference")
+    result = tree.python("-P", "-m", "pipeline.config.reference")
+    assert result.returncode == 0, result.stderr
     return (tree.path / "docs" / "config.md").read_text()
 
 
 @pytest.fixture
 def copy(tmp_path):
-    return fresh_tree(tmp_path / "recipes", DOCUMENT)
+    """A copy of the project with a new kind, a new stage and a scene of them."""
+    tree = fresh_tree(tmp_path / "recipes", DOCUMENT)
+    for name, text in {
+        "checks/report/captions.toml": CAPTION,
+        "config/schema/kinds/examples.yaml": EXAMPLE,
+    }.items():
+        with (tree.path / "src/pipeline" / name).open("a") as file:
+            file.write(text)
+    for name, text in FILES.items():
+        path = tree.path / name
+        assert not path.exists()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text.lstrip())
+    table = tree.path / STAGES
+    text = table.read_text()
+    start = text.index("\n}\n", text.index("\nSTAGES = {")) + 1
+    table.write_text(text[:start] + ROW + text[start + 2 :])
+    tree.warm()
+    return tree
 
 
 @pytest.mark.slow
-def test_a_kind_is_three_files(copy):
-    """It has a figure, caption, number, refusals, docs, variant and a line of verify."""
-    write_new(copy, KIND)
-    run_test(copy, "tests/figures/test_returns.py")
+def test_a_kind_and_a_stage_are_three_files_each(copy):
+    """They have data, a figure, caption, number, refusals, docs, variant and a line of verify."""
+    tests = [name for name in FILES if name.startswith("tests")]
+    result = copy.python("-m", "pytest", "-q", "-p", "no:cacheprovider", *tests)
+    assert result.returncode == 0, result.stdout
     assert rows(succeed(copy, "report")) == {"paper_figures/map.png": "recomputed"}
     report = (copy.path / "results" / "report" / "report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
+    results = copy.path / "results" / "paper"
+    orbits, flights = (load(results / f"{name}_map.nc") for name in ("orbits", "flights"))
+    means = [np.mean(part) for part in np.split(orbits["tau"].values, 2)]
+    assert flights["mean"].values.tolist() == means
+    assert flights.attrs["stage"] == "flights"
 
     for change, line in (
         ({"start": [0.1]}, "map.start: unknown key: did you mean starts?"),
@@ -205,6 +193,7 @@ def test_a_kind_is_three_files(copy):
     page = renewed_page(copy)
     assert "### picture: returns\n\nThe next position against the present one." in page
     assert "a mapping with the keys x and next, or some of them." in " ".join(page.split())
+    assert "| `flights` |  | `orbits` | does not depend on it |" in page
 
     drawn = "results/low/figures/map.png"
     assert rows(succeed(copy, "variant", "low")) == {drawn: "recomputed"}
@@ -214,30 +203,6 @@ def test_a_kind_is_three_files(copy):
     result = copy.run("verify")
     assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
     assert "map.png  identical\n" in result.stdout
-
-
-@pytest.mark.slow
-def test_a_stage_is_three_files(copy):
-    """A kind of picture names it in its declaration, and its drawing takes the dataset."""
-    kind = {
-        name: text.replace('("orbits",)', '("orbits", "flights")').replace(
-            ", orbits):", ", orbits, flights):"
-        )
-        for name, text in KIND.items()
-    }
-    table = copy.path / STAGES
-    text = table.read_text()
-    start = text.index("\n}\n", text.index("\nSTAGES = {")) + 1
-    table.write_text(text[:start] + ROW + text[start + 2 :])
-    write_new(copy, kind | STAGE)
-    run_test(copy, "tests/dynamics/test_flights.py")
-    succeed(copy)
-    results = copy.path / "results" / "paper"
-    orbits, flights = (load(results / f"{name}_map.nc") for name in ("orbits", "flights"))
-    means = [np.mean(part) for part in np.split(orbits["tau"].values, 2)]
-    assert flights["mean"].values.tolist() == means
-    assert flights.attrs["stage"] == "flights"
-    assert "| `flights` |  | `orbits` | does not depend on it |" in renewed_page(copy)
     with (copy.path / "src" / "pseudorigid" / "dynamics" / "flights.py").open("a") as file:
         file.write("_EDITED = 1\n")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
