@@ -17,10 +17,12 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import paper_probe
 from numba import njit
 from numpy._core._multiarray_umath import __cpu_features__
 
-from pseudorigid.dynamics import lyapunov, motion, orbits, periodic, variables
+from pipeline import config
+from pseudorigid.dynamics import lyapunov, orbits, variables
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.kernel import arithmetic, impact
@@ -101,32 +103,9 @@ def scanned():
     return digest(*parts, ball.inverse_impact(*state), ball.jacobian(*state), ball.map.missed)
 
 
-AXES = {
-    "x": {"limits": [-0.2, 0.6], "ticks": [0, 0.4]},
-    "xdot": {"limits": [-0.4, 0.4], "ticks": [-0.4, 0, 0.4]},
-    "udot": {"limits": [-0.2, 0.4], "ticks": [0]},
-    "t": {"limits": [0, 20], "ticks": [0, 20]},
-    "displacement": {"limits": [-0.5, 0.2], "ticks": [-0.5, 0.2]},
-    "impact": {"limits": [0, 2000], "ticks": [0, 2000]},
-    "exponent": {"limits": [-0.5, 0.5], "ticks": [-0.5, 0, 0.5]},
-}
-STARTS = [-0.44, -0.2, 0.14, SEA]
-RESOLUTION = {"distance": 0.05, "bend": 20}
-
-
-def scene(*axes):
-    how = {"view": {"elevation": 40, "azimuth": 115}, "sea": [3], "type": "hyperbolic"}
-    how |= {"energy": ENERGY, "ball": {"k": BALL.k, "g": BALL.g}}
-    return how | {"axes": {name: AXES[name] for name in axes}}
-
-
 def everything():
     """Yield (name, hash) of the tables, and of data and figures of each kind, as saved."""
-    from pipeline.records import artifacts
-    from pseudorigid.dynamics import manifolds
-    from pseudorigid.figures.canvas.render import render
-    from pseudorigid.figures.kinds import closeup, exponents, portrait, tangle
-    from pseudorigid.figures.kinds import motion as motion_picture
+    from project import shipped, small
 
     yield "table", table(200_000)
     yield from short()
@@ -135,42 +114,15 @@ def everything():
     yield "ensemble", history(many, 300)
     yield "spectra", digest(lyapunov.lyapunov_spectrum(BALL, many, 300, 5)["exponent"])
     yield "scanned", scanned()
-    folder = tempfile.TemporaryDirectory()
-    hashes = {}
-
-    def keep(stage, dataset):
-        """The dataset after a round through its file, whose bytes are hashed."""
-        path = Path(folder.name) / f"{stage}.nc"
-        artifacts.save(dataset, path, {}, stage=stage, k=BALL.k, g=BALL.g, energy=ENERGY)
-        hashes[f"{stage}.nc"] = digest(path.read_bytes())
-        return artifacts.load(path)
-
-    found = keep("periodic", periodic.symmetric_orbits(BALL, ENERGY, 6))
-    sea = keep("orbits", orbits.scene_orbits(BALL, ENERGY, STARTS, [300, 300, 300, 600]))
-    moved = keep("motion", motion.scene_motion(BALL, ENERGY, found, 6, "elliptic", 20.0))
-    saddle = BALL, ENERGY, found, 6, "hyperbolic", RESOLUTION
-    branches = {"outer": {"length": 0.5}, "inner": {"length": 0.2}}
-    whole = keep("manifolds", manifolds.scene_manifolds(*saddle, branches=branches))
-    window = {"x": [-0.05, 0.05], "xdot": [-0.05, 0.05]}
-    near = manifolds.scene_manifolds(*saddle, point=0, window=window, length=0.3)
-    near = keep("window", near)
-    spread = keep("lyapunov", lyapunov.scene_exponents(BALL, ENERGY, [SEA, 0.62], 2000, 40))
-    yield from hashes.items()
-    centre = [near.attrs[f"window_{name}"] for name in ("x", "xdot")]
-    zoom = {
-        name: {"limits": list(map(float, ends)), "ticks": [float(ends[0])]}
-        for name, ends in zip(("x", "xdot"), centre, strict=True)
-    }
-    pictures = {
-        "portrait": portrait.draw(scene("x", "xdot", "udot"), sea),
-        "motion": motion_picture.draw(scene("t", "displacement"), moved),
-        "tangle": tangle.draw(scene("x", "xdot", "udot"), sea, whole, found),
-        "closeup": closeup.draw(scene() | {"axes": zoom}, near),
-        "exponents": exponents.draw(scene("impact", "exponent"), spread),
-    }
-    for name, figure in pictures.items():
-        for kind in ("png", "svg", "pdf") if name == "exponents" else ("png",):
-            yield f"{name}.{kind}", digest(render(figure, kind))
+    document = small(shipped())
+    scenes = document["scenes"]
+    document["scenes"] = {name: scenes[name] for name in ("fig2", "fig3", "fig5", "fig6", "fig7")}
+    scenes["fig2"]["impacts"] = [300 for _ in scenes["fig2"]["impacts"]]
+    scenes["fig7"]["formats"] = ["png", "svg", "pdf"]
+    with tempfile.TemporaryDirectory() as folder:
+        yield from paper_probe.figures(folder, config.check(document)["variants"])
+        for file in Path(folder).rglob("*.nc"):
+            yield file.name, digest(file.read_bytes())
     # What the switches themselves change, so that a test can tell that they were honoured.
     yield "library", library()
     yield "simd", [name for name, there in __cpu_features__.items() if there]

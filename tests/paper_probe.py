@@ -52,17 +52,23 @@ class Results:
         return [self.data(used) for used in self.specs[path].inputs]
 
 
-def paper(folder, names=()):
-    """Yield (file name, hash) of the figures of these scenes, or of all."""
-    variants = config.load(SHIPPED)["variants"]
+def figures(folder, variants, names=()):
+    """Yield (file name, hash) of the figures of these scenes of the paper, or of all."""
     variants = {paths.PAPER: variants[paths.PAPER]}
-    figures = paths.figures(variants).values()
     results = Results(folder, variants)
-    for path in (behind[-1] for scene, behind in figures if not names or scene in names):
+    for scene, upstream in paths.figures(variants).values():
+        if names and scene not in names:
+            continue
+        path = upstream[-1]
         block = results.specs[path].config
         kind = import_module(f"pseudorigid.figures.kinds.{block['picture']}")
         picture = render(kind.draw(block, *results.inputs(path)), Path(path).suffix[1:])
         yield Path(path).name, hashlib.sha256(picture).hexdigest()
+
+
+def paper(folder, names=()):
+    """Yield (file name, hash) of the published figures of these scenes, or of all."""
+    yield from figures(folder, config.load(SHIPPED)["variants"], names)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,10 @@
 """A scene and synthetic data of each of the paper's kinds of picture."""
 
-import hashlib
 from functools import cache
 from importlib import import_module
 
 import numpy as np
 import xarray as xr
-
-from pseudorigid.figures.canvas.render import FORMATS, render
 
 VIEW = {"elevation": 40, "azimuth": 115}
 SPACE = {
@@ -135,12 +132,3 @@ def draw(kind):
 def drawn(kind):
     """The figure of a kind, drawn once for all tests that do not change it."""
     return draw(kind)
-
-
-def digests(kinds):
-    """Draw kinds in every format; file -> hash."""
-    return {
-        f"{kind}.{suffix}": hashlib.sha256(render(draw(kind), suffix)).hexdigest()
-        for kind in kinds
-        for suffix in FORMATS
-    }

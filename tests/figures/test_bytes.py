@@ -2,87 +2,16 @@
 
 import os
 import shutil
-import subprocess
 import sys
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
-import samples
-from project import ROOT
+from project import ROOT, run
 from samples import KINDS, draw
-from slowly import slowly
 
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
-
-HOSTILE_MATPLOTLIBRC = """\
-font.family: monospace
-font.size: 30
-axes.facecolor: red
-savefig.dpi: 7
-savefig.bbox: tight
-savefig.facecolor: blue
-svg.fonttype: none
-svg.hashsalt: other
-pdf.compression: 9
-path.simplify: True
-lines.antialiased: False
-lines.scale_dashes: False
-mathtext.fontset: cm
-text.hinting: none
-text.usetex: True
-"""
-
-
-def hostile(folder):
-    """Return an environment with other settings, a false font for each of ours, another locale."""
-    from fontTools.ttLib import TTFont
-    from matplotlib import get_data_path
-
-    (folder / ".fonts").mkdir()
-    for number, family in enumerate(("DejaVu Sans", "STIXGeneral")):
-        font = TTFont(Path(get_data_path()) / "fonts" / "ttf" / "cmss10.ttf")
-        for record in font["name"].names:
-            if record.nameID in (1, 16):
-                record.string = family
-        font.save(folder / ".fonts" / f"{number}.ttf")
-    (folder / "matplotlibrc").write_text(HOSTILE_MATPLOTLIBRC)
-    return {
-        "HOME": str(folder),
-        "XDG_DATA_HOME": str(folder),
-        "MPLCONFIGDIR": str(folder),
-        "MPLBACKEND": "svg",
-        "LC_ALL": "C",
-        "LANG": "tr_TR.UTF-8",
-        "TZ": "Asia/Tokyo",
-        "PYTHONHASHSEED": "77",
-        "SOURCE_DATE_EPOCH": "1",
-        "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX512_ICL",
-        "OPENBLAS_CORETYPE": "Prescott",
-        "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4",
-    }
-
-
-def python(code, **environment):
-    """Run code in a new interpreter and return what it prints."""
-    folders = os.pathsep.join(map(str, (ROOT / "tests", ROOT / "src")))
-    result = subprocess.run(
-        [sys.executable, "-c", code],
-        env=os.environ | {"PYTHONPATH": folders} | environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert result.returncode == 0, result.stderr
-    return result.stdout.strip()
-
-
-@pytest.mark.parametrize("kinds", [["motion"], *slowly(KINDS)])
-def test_same_bytes_for_everyone(tmp_path, kinds):
-    code = f"import samples; print(samples.digests({kinds}))"
-    assert python(code, **hostile(tmp_path)) == str(samples.digests(kinds))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -150,7 +79,8 @@ def test_a_drawing_imports_only_what_it_uses():
         "from pseudorigid.figures.canvas import render\n"
         f"print([m for m in sys.modules for name in {names} if name in m.split('.')])"
     )
-    assert python(code) == "[]"
+    result = run(sys.executable, "-c", code, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
+    assert result.stdout == "[]\n", result.stderr
 
 
 def test_other_formats_are_refused():

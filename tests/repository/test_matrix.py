@@ -8,12 +8,13 @@ import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from project import NO_CACHES, ROOT
+from fontTools.ttLib import TTFont
+from matplotlib import get_data_path
+from project import NO_CACHES, ROOT, run
 from slowly import slowly
 
 from pseudorigid.kernel import arithmetic
@@ -27,6 +28,9 @@ OPENBLAS = {"OPENBLAS_CORETYPE": "Prescott"}
 GENERIC = {"NUMBA_CPU_NAME": "generic"}
 ELSEWHERE = {"LANG": "C", "LC_ALL": "tr_TR.UTF-8", "TZ": "Pacific/Chatham", "PYTHONHASHSEED": "7"}
 THREADS = {"OMP_NUM_THREADS": "3", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "2"}
+# FOLDER holds a matplotlibrc, and a false font for each of ours.
+PICTURES = {"MPLBACKEND": "svg", "SOURCE_DATE_EPOCH": "1", "MATPLOTLIBRC": "FOLDER/matplotlibrc"}
+PICTURES |= {"HOME": "FOLDER", "XDG_DATA_HOME": "FOLDER"}
 ALL_BUT_COMPILER = "all but the compiler"
 SETTINGS = {
     "numpy without SIMD": NUMPY,
@@ -35,44 +39,51 @@ SETTINGS = {
     "compiled for any x86-64": GENERIC,
     "another locale, time zone, hash seed and folder": ELSEWHERE,
     "other numbers of threads": THREADS,
-    "a hostile matplotlibrc": {},
-    ALL_BUT_COMPILER: NUMPY | GLIBC | OPENBLAS | ELSEWHERE | THREADS,
-    "all at once": NUMPY | GLIBC | OPENBLAS | GENERIC | ELSEWHERE | THREADS,
+    "a hostile matplotlibrc and fonts": PICTURES,
+    ALL_BUT_COMPILER: NUMPY | GLIBC | OPENBLAS | ELSEWHERE | THREADS | PICTURES,
+    "all at once": NUMPY | GLIBC | OPENBLAS | GENERIC | ELSEWHERE | THREADS | PICTURES,
 }
 # Each costs as much as a run of everything, and where code is compiled anew three times as much.
 SLOWLY = [ALL_BUT_COMPILER, *slowly(*(name for name in SETTINGS if name != ALL_BUT_COMPILER))]
 HOSTILE = """
-backend: pdf
+axes.facecolor: red
 figure.dpi: 37
 savefig.dpi: 41
 savefig.bbox: tight
+savefig.facecolor: blue
 savefig.transparent: True
 font.family: monospace
 font.size: 23
 lines.antialiased: False
 lines.linewidth: 7
+lines.scale_dashes: False
 mathtext.fontset: cm
 path.simplify: True
 svg.fonttype: none
 svg.hashsalt: other
 pdf.compression: 9
 text.antialiased: False
+text.hinting: none
+text.usetex: True
 """
 
 
 def probe(folder, mode, environment, src=ROOT / "src", python=(sys.executable,)):
     """The answer of the probe in a process and a folder of its own."""
     folder.mkdir(parents=True)
-    (folder / "matplotlibrc").write_text(HOSTILE if "matplotlibrc" in folder.name else "")
+    if environment.keys() >= PICTURES.keys():
+        (folder / "matplotlibrc").write_text(HOSTILE)
+        (folder / ".fonts").mkdir()
+        for family in ("DejaVu Sans", "STIXGeneral"):
+            font = TTFont(Path(get_data_path()) / "fonts" / "ttf" / "cmss10.ttf")
+            for record in font["name"].names:
+                if record.nameID in (1, 16):
+                    record.string = family
+            font.save(folder / ".fonts" / f"{family}.ttf")
     kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
-    result = subprocess.run(
-        [*python, str(PROBE), mode],
-        env=kept | {"PYTHONPATH": str(src), "MPLCONFIGDIR": str(folder)} | environment,
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    own = {"PYTHONPATH": str(src), "MPLCONFIGDIR": str(folder / "config")}
+    own |= {name: value.replace("FOLDER", str(folder)) for name, value in environment.items()}
+    result = run(*python, PROBE, mode, env=kept | own, cwd=folder)
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout)
 
@@ -82,7 +93,7 @@ def answer(shared):
     """name -> the answer of that probe, run once for all tests."""
 
     def ask(name):
-        def run(folder):
+        def make(folder):
             own_cache = {"NUMBA_CACHE_DIR": str(folder / "code")}
             mode, environment, src = "everything", SETTINGS.get(name, {}), ROOT / "src"
             if "NUMBA_CPU_NAME" in environment:
@@ -98,7 +109,7 @@ def answer(shared):
             found = probe(folder / name, mode, environment, src)
             (folder / "answer.json").write_text(json.dumps(found))
 
-        return json.loads((shared(f"matrix {name}", run) / "answer.json").read_text())
+        return json.loads((shared(f"matrix {name}", make) / "answer.json").read_text())
 
     return ask
 
