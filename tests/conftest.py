@@ -61,6 +61,14 @@ def derived(pickled):
     return pickled("derivations", lambda: made(derivations))
 
 
+@pytest.fixture(scope="session")
+def datasets(pickled, derived):
+    """All datasets that the checks of claims need, computed with little work."""
+    import claim_data
+
+    return pickled("claims", lambda: claim_data.datasets(derived))
+
+
 @pytest.fixture
 def tree(tmp_path):
     """The files of a fresh clone: sources, and figures that are newer than anything."""

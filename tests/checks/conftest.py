@@ -1,16 +1,9 @@
-"""Fixtures of the tests of claims and archives."""
+"""Fixtures of the tests of archives."""
 
 import pytest
-from claim_data import datasets as computed
 
 from pipeline import config
 from pipeline.checks import archive
-
-
-@pytest.fixture(scope="session")
-def datasets(pickled, derived):
-    """All datasets that the checks of claims need."""
-    return pickled("claims", lambda: computed(derived))
 
 
 @pytest.fixture(scope="session")
