@@ -72,12 +72,10 @@ class Gap:
         raise AssertionError("the gap is zero throughout")
 
 
-def _solve(f, slope, low, high, guess):
+def _solve(f, slope, low, high):
     """Find the root of f in [low, high], where f changes sign once, by bracketed Newton steps."""
     rising = f(high) > 0
-    t = mpf(guess)
-    if not low < t < high:
-        t = (low + high) / 2
+    t = (low + high) / 2
     for _ in range(4000):  # a flight of 1e-300 is a thousand halvings away
         value = f(t)
         if value == 0:
@@ -163,37 +161,12 @@ def _monotone_pieces(gap):
         f_low, f_high = gap(low), gap(high)
         d_low, d_high = gap.slope(low), gap.slope(high)
         if d_low * d_high < 0:
-            at = _solve(gap.slope, gap.bend, low, high, _float_critical(gap, low, high))
+            at = _solve(gap.slope, gap.bend, low, high)
             f_at = gap(at)
             yield low, at, f_low, f_at
             yield at, high, f_at, f_high
         else:
             yield low, high, f_low, f_high
-
-
-def _float_critical(gap, low, high):
-    """A double near the zero of f' in (low, high)."""
-    x, b, c, g = (float(a) for a in (gap.x, gap.b, gap.c, gap.g))
-    low, high = float(low), float(high)
-    up = b + g * high + x * math.sin(high) + c * math.cos(high) > 0.0
-    for _ in range(60):
-        t = 0.5 * (low + high)
-        if (b + g * t + x * math.sin(t) + c * math.cos(t) > 0.0) == up:
-            high = t
-        else:
-            low = t
-    return 0.5 * (low + high)
-
-
-def _guess(gap, low, high, f_low, f_high):
-    """A start for Newton's method, from the parabola at the end where |f| is smaller."""
-    near, value, side = (low, f_low, 1) if abs(f_low) < abs(f_high) else (high, f_high, -1)
-    steep, bend = gap.slope(near), gap.bend(near)
-    square = steep * steep - 2 * bend * value
-    if square < 0 or value == 0:
-        return (low + high) / 2
-    other = steep + side * mpmath.sqrt(square) if side * steep >= 0 else steep - mpmath.sqrt(square)
-    return near - 2 * value / other if other != 0 else (low + high) / 2
 
 
 def first_root(gap):
@@ -207,13 +180,13 @@ def first_root(gap):
             # the next root after a peak that barely came out of the floor
             if f_high > 0:
                 if depth < UNDECIDABLE and rival is None and f_low < 0:
-                    rival = _solve(gap, gap.slope, low, high, _guess(gap, low, high, f_low, f_high))
+                    rival = _solve(gap, gap.slope, low, high)
                 break
             continue
         if rises and f_high >= 0 and (f_low < 0 or low == 0):
             tau = high
             if f_high > 0:
-                tau = _solve(gap, gap.slope, low, high, _guess(gap, low, high, f_low, f_high))
+                tau = _solve(gap, gap.slope, low, high)
         if rises and gap.bend(high) < 0:
             # `high` is a local maximum, or an inflection on the way up to it
             peak = float(abs(f_high) / gap.terms(high))

@@ -157,8 +157,3 @@ def test_names_that_would_touch_are_moved_apart():
     left, right = atlas._apart([100.0, 110.0])
     assert right - left == atlas._NAME
     assert left + right == 210.0
-
-
-def test_the_quotation_is_the_papers():
-    quoted = "“appear to be progressively destroyed as the total energy increases”"
-    assert quoted in " ".join(atlas.QUOTATION)

@@ -8,7 +8,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 from project import ROOT, run
-from samples import KINDS, draw
+from samples import KINDS, draw, drawn
 
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
@@ -18,7 +18,7 @@ from pseudorigid.figures.canvas.render import pixels, render
 def test_a_last_bit_in_matplotlib_moves_no_pixel(kind, monkeypatch):
     from matplotlib import transforms
 
-    before = pixels(draw(kind))
+    before = pixels(drawn(kind))
     exact = transforms.affine_transform
     random = np.random.default_rng(5)
 

@@ -52,19 +52,15 @@ def tree(tmp_path_factory):
     return tree
 
 
-def run(tree, *arguments):
+def served(tree, *arguments):
     """Run MAIN, and return the words that it prints."""
-    command, streams = (
-        [sys.executable, "main.py", *arguments],
-        {"capture_output": True, "text": True},
-    )
-    result = subprocess.run(command, env=tree.environment(), cwd=tree.path, check=True, **streams)
-    assert result.stderr == ""
+    result = tree.python("main.py", *arguments)
+    assert (result.returncode, result.stderr) == (0, "")
     return result.stdout.split()
 
 
 def test_many_jobs_at_once_end_as_they_should(tree):
-    assert run(tree, "8", "txt", "step", "good", "bad", "bug", "killed") == ["0", "1", "1", "1"] * 8
+    assert served(tree, "8", "txt", "step", "good", "bad", "bug", "killed") == ["0", "1", "1", "1"] * 8
     assert (tree.path / "count").read_text() == "x" * 8
     folder = tree.path / "results/paper"
     logs = [folder / f"logs/{i}.txt.log" for i in range(4)]
@@ -81,7 +77,7 @@ def test_many_jobs_at_once_end_as_they_should(tree):
     [("png", "drawing", (1, 0, 0)), ("nc", "orbits", (1, 1, 0)), ("nc", "block 3", (1, 1, 1))],
 )
 def test_compiled_modules_are_loaded_only_for_results_that_need_them(tree, suffix, step, loaded):
-    assert run(tree, "1", suffix, step, "modules")[:3] == [str(bool(each)) for each in loaded]
+    assert served(tree, "1", suffix, step, "modules")[:3] == [str(bool(each)) for each in loaded]
 
 
 def test_jobs_start_as_usual_without_a_server(monkeypatch):

@@ -3,12 +3,11 @@
 import os
 import re
 import shutil
-import subprocess
 from fnmatch import fnmatch
 
 import pytest
 import yaml
-from project import ROOT, Tree, shipped
+from project import ROOT, Tree, run, shipped
 
 from pipeline import config
 
@@ -53,16 +52,7 @@ def is_long(command):
 
 
 def shell(script, folder, **environment):
-    return subprocess.run(
-        ["sh", "-c", script],
-        cwd=folder,
-        env=os.environ | environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
+    return run("sh", "-c", f"({script}) 2>&1", cwd=folder, env=os.environ | environment)
 
 
 def test_the_readme_is_short():

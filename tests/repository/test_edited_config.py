@@ -8,7 +8,7 @@ import subprocess
 import pytest
 import yaml
 from documents import SCENES
-from project import ROOT, SHIPPED, Tree
+from project import ROOT, SHIPPED, Tree, run
 
 from pipeline.config.schema.kinds import KINDS
 
@@ -35,11 +35,9 @@ def edited(document):
 def clone(tmp_path):
     """A clone of the last commit, with the files as they are now and an edited config."""
     path = tmp_path / "clone"
-    git = subprocess.run(["git", "clone", "-q", ROOT, path], check=False, capture_output=True)
-    if git.returncode:
+    if run("git", "clone", "-q", ROOT, path).returncode:
         pytest.skip("no git repository here: there is nothing to clone")
-    list_files = ["git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard"]
-    files = subprocess.run(list_files, check=True, capture_output=True, text=True).stdout
+    files = run("git", "-C", ROOT, "ls-files", "-z", "-co", "--exclude-standard").stdout
     for name in filter(None, files.split("\0")):
         if (ROOT / name).is_file():
             (path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -57,14 +55,8 @@ def test_the_suite_passes_with_an_edited_config(clone):
     planned = clone.planned()
     assert {f"results/paper/figures/{name}.png" for name in (*SCENES, "my_flux")} <= planned
     environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST_")}
-    result = subprocess.run(
-        clone.command("test", "-q"),
-        env=environment | {"PYTHONPATH": str(clone.path / "src")},
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    environment |= {"PYTHONPATH": str(clone.path / "src")}
+    result = run(*clone.command("test", "-q"), env=environment, stdin=subprocess.DEVNULL)
     assert result.returncode == 0, result.stdout[-5000:]
     assert re.search(r"\d{3,} passed", result.stdout.splitlines()[-1])
     # The paper's figures were compared all the same.

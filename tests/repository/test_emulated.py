@@ -18,7 +18,7 @@ import sys
 import zipfile
 
 import pytest
-from project import ROOT
+from project import ROOT, run
 from test_matrix import CONTROLS, probe
 
 from pipeline.checks.checksums import read_sums
@@ -32,10 +32,9 @@ DEBIAN = """
 """
 WHEELS = """
     annotated-types attrs certifi cftime contourpy cycler deflate fonttools jsonschema
-    jsonschema-specifications kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging
-    pandas pillow pydantic
-    pydantic-core pyparsing python-dateutil pyyaml referencing rpds-py six typing-extensions
-    typing-inspection tzdata xarray
+    jsonschema-specifications kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging pandas
+    pillow pydantic pydantic-core pyparsing python-dateutil pyyaml referencing rpds-py six
+    typing-extensions typing-inspection tzdata xarray
 """
 PLATFORMS = [f"manylinux_2_{minor}_aarch64" for minor in (28, 27, 26, 24, 17)]
 PLATFORMS += ["manylinux2014_aarch64"]
@@ -48,7 +47,7 @@ def require(*tools):
 
 
 def run_or_skip(*command, cwd):
-    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    result = run(*command, cwd=cwd)
     if result.returncode:
         last = (result.stderr.strip().splitlines() or ["?"])[-1]
         pytest.skip(f"{command[0]} {command[1]}: {last}")
@@ -122,12 +121,7 @@ def test_the_same_bytes(machine, tmp_path):
 def test_the_published_figures(machine, tmp_path):
     python, environment = machine
     caches = {"NUMBA_CACHE_DIR": str(tmp_path), "MPLCONFIGDIR": str(tmp_path)}
-    result = subprocess.run(
-        [*python, str(ROOT / "tests" / "paper_probe.py")],
-        env=os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment
+    result = run(*python, ROOT / "tests" / "paper_probe.py", env=environment)
     assert result.returncode == 0, result.stderr
     assert json.loads(result.stdout) == read_sums(ROOT, "paper_figures")

@@ -4,12 +4,11 @@ import hashlib
 import os
 import py_compile
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from project import NO_CACHES, ROOT
+from project import NO_CACHES, ROOT, run
 
 import pseudorigid
 from pseudorigid.kernel import arithmetic
@@ -25,16 +24,13 @@ def src(tmp_path):
 def printed(src, tmp_path):
     """code -> what a new interpreter prints, with a cache of compiled code of its own."""
 
-    def run(code):
+    def printed(code):
         own = {"PYTHONPATH": str(src), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-        command = [sys.executable, "-P", "-c", code]
-        result = subprocess.run(
-            command, env=os.environ | own, capture_output=True, text=True, check=False
-        )
+        result = run(sys.executable, "-P", "-c", code, env=os.environ | own)
         assert result.returncode == 0, result.stderr
         return result.stdout.strip()
 
-    return run
+    return printed
 
 
 def edit_unseen(file, old, new):

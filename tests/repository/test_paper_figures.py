@@ -1,10 +1,8 @@
 """The paper's figures, from the shipped scenes, have the committed bytes."""
 
-import subprocess
-
 import paper_probe
 import pytest
-from project import ROOT, SHIPPED
+from project import ROOT, SHIPPED, run
 
 SUMS = "paper_figures/SHA256SUMS"
 
@@ -12,17 +10,13 @@ SUMS = "paper_figures/SHA256SUMS"
 @pytest.fixture(scope="module")
 def committed():
     """File -> sha256 of the figures as committed, or a line on why they are not looked at."""
-    command = ["git", "-C", str(ROOT), "show", f"HEAD:./{SUMS}"]
-    try:
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-    except FileNotFoundError:
-        result = None
-    if result is None or result.returncode:
+    git = ("git", "-C", ROOT, "show")
+    sums, scenes = (run(*git, f"HEAD:./{file}") for file in (SUMS, "config.yaml"))
+    if sums.returncode:
         pytest.skip(f"the paper's figures are not compared: git does not say what {SUMS} was")
-    shipped = subprocess.run([*command[:-1], "HEAD:./config.yaml"], capture_output=True, check=True)
-    if shipped.stdout != SHIPPED.read_bytes():
+    if scenes.stdout != SHIPPED.read_text(encoding="utf-8"):
         pytest.skip("the paper's figures are not compared: other scenes are committed")
-    return dict(reversed(line.split("  ")) for line in result.stdout.splitlines())
+    return dict(reversed(line.split("  ")) for line in sums.stdout.splitlines())
 
 
 def test_a_figure_drawn_in_a_second(committed, tmp_path):

@@ -1,28 +1,19 @@
 """The science is a wheel of its own that works without the repository."""
 
 import shutil
-import subprocess
 import sys
 import zipfile
 
 import pytest
-from project import NO_CACHES, ROOT
+from project import NO_CACHES, ROOT, run
 from test_documents import blocks
 
 import pseudorigid
 
 
-def run(*command, cwd):
+def succeed(*command, cwd):
     """Run a command that must succeed, without this process's environment; what it prints."""
-    environment = {"PATH": "/usr/bin:/bin", "HOME": str(cwd)}
-    result = subprocess.run(
-        [*map(str, command)],
-        cwd=cwd,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    result = run(*command, cwd=cwd, env={"PATH": "/usr/bin:/bin", "HOME": str(cwd)})
     assert result.returncode == 0, result.stdout + result.stderr
     return result.stdout
 
@@ -37,7 +28,7 @@ def test_the_wheel_works_without_the_repository(tmp_path):
     pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
     offline = ("--no-deps", "--no-index")
     before = set(clone.rglob("*"))
-    run(*pip, "wheel", *offline, "--no-build-isolation", "-w", tmp_path, ".", cwd=clone)
+    succeed(*pip, "wheel", *offline, "--no-build-isolation", "-w", tmp_path, ".", cwd=clone)
     (wheel,) = tmp_path.glob("pseudorigid-*.whl")
     assert set(clone.rglob("*")) == before
     names = zipfile.ZipFile(wheel).namelist()
@@ -45,19 +36,19 @@ def test_the_wheel_works_without_the_repository(tmp_path):
 
     # An environment of its own that sees the locked packages, and nothing of this repository.
     elsewhere = tmp_path / "elsewhere"
-    run(sys.executable, "-m", "venv", "--without-pip", elsewhere, cwd=tmp_path)
+    succeed(sys.executable, "-m", "venv", "--without-pip", elsewhere, cwd=tmp_path)
     (site,) = elsewhere.glob("lib/python*/site-packages")
     (locked,) = (ROOT / ".venv").glob("lib/python*/site-packages")
     for package in locked.iterdir():
         if not package.name.startswith(("pseudorigid", "__editable__", "__pycache__")):
             (site / package.name).symlink_to(package)
-    run(*pip, "install", *offline, "--target", site, wheel, cwd=elsewhere)
+    succeed(*pip, "install", *offline, "--target", site, wheel, cwd=elsewhere)
 
     (snippet,) = (text for text in blocks("README.md") if text.startswith("from pseudorigid"))
     code = f"{snippet}\nimport importlib.util, pseudorigid\nprint(pseudorigid.__file__)\n"
     code += "print(float(hyperbolic.multiplier), pseudorigid.__version__)\n"
     code += "print(importlib.util.find_spec('pipeline'))"
-    printed = run(elsewhere / "bin" / "python", "-c", code, cwd=elsewhere)
+    printed = succeed(elsewhere / "bin" / "python", "-c", code, cwd=elsewhere)
     path, multiplier, version, pipeline = printed.split()
     assert path.startswith(str(site)) and pipeline == "None"
     assert version == pseudorigid.__version__ == wheel.name.split("-")[1]

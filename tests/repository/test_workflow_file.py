@@ -1,40 +1,19 @@
 """The workflow file for GitHub is valid by the published schema, pinned, and runs our commands."""
 
 import re
-import subprocess
 import sys
 
-import pytest
 import yaml
-from project import ROOT
+from project import ROOT, run
 
 FILE = ROOT / ".github" / "workflows" / "reproduce.yml"
 JOB = yaml.safe_load(FILE.read_text(encoding="utf-8"))["jobs"]["reproduce"]
 
 
-def is_valid(path):
-    command = ["check_jsonschema", "--builtin-schema", "vendor.github-workflows", str(path)]
-    result = subprocess.run([sys.executable, "-m", *command], capture_output=True, check=False)
-    return result.returncode == 0
-
-
 def test_it_is_valid():
-    assert is_valid(FILE)
-
-
-@pytest.mark.parametrize(
-    ("line", "fault"),
-    [
-        ("runs-on: ${{ matrix.runner }}", "runs-on: 3"),
-        ("timeout-minutes: 60", "timeout-minutes: x"),
-        ("    strategy:\n", "    strategie:\n"),
-    ],
-)
-def test_a_fault_is_noticed(tmp_path, line, fault):
-    text = FILE.read_text(encoding="utf-8")
-    assert text.count(line) == 1
-    (tmp_path / "faulty.yml").write_text(text.replace(line, fault), encoding="utf-8")
-    assert not is_valid(tmp_path / "faulty.yml")
+    command = ["check_jsonschema", "--builtin-schema", "vendor.github-workflows"]
+    result = run(sys.executable, "-m", *command, FILE)
+    assert result.returncode == 0, result.stdout
 
 
 def test_the_job_runs_on_two_processors_what_the_readme_says():
