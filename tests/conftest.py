@@ -111,8 +111,6 @@ def _compare_variants(folder):
     result = tree.run("compare", "paper", "low")
     assert result.returncode == 0, result.stdout
     (folder / "said of paper and low").write_text(result.stdout)
-    result = tree.run("variant", "doubled")
-    assert result.returncode == 0, result.stdout
 
 
 @pytest.fixture(scope="session")

@@ -11,8 +11,10 @@ import signal
 import socket
 import subprocess
 import tempfile
-import time
+from contextlib import ExitStack
 from pathlib import Path
+
+from project import run, wait_for
 
 NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue")
 CONFIG = """
@@ -85,11 +87,11 @@ class Cluster:
             names = ("key-file", "socket", "pid-file", "log-file", "seed-file")
             files = [f"--{name}={self.folder}/munge.{name.split('-')[0]}" for name in names]
             self.start("munged", "--foreground", "--force", *files)
-            wait((self.folder / "munge.socket").exists, 10, "munged")
+            wait_for((self.folder / "munge.socket").exists, 10)
             self.start("slurmctld", "-D")
             for node in NODES:
                 self.start_node(node)
-            wait(lambda: self.states() == dict.fromkeys(NODES, "idle"), 30, "the nodes")
+            wait_for(lambda: self.states() == dict.fromkeys(NODES, "idle"), 30)
         except BaseException:
             self.__exit__()
             raise
@@ -98,7 +100,7 @@ class Cluster:
     def __exit__(self, *_):
         if self.running.keys() & set(NODES):  # a job outlives the daemon
             self.ask("scancel", "--user", "root")
-            wait(lambda: not self.jobs("R,CG"), 20, "the end of the jobs")
+            wait_for(lambda: not self.jobs("R,CG"), 20)
         for name in list(self.running)[::-1]:
             self.stop(name)
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -129,10 +131,7 @@ class Cluster:
 
     def ask(self, *command):
         """Run a command of Slurm and return what it prints."""
-        result = subprocess.run(
-            command, env=os.environ | self.environment, capture_output=True, text=True, check=False
-        )
-        return result.stdout
+        return run(*command, env=os.environ | self.environment).stdout
 
     def jobs(self, state="R"):
         """Job number -> node, for the jobs in a state."""
@@ -148,19 +147,8 @@ class Cluster:
 
 def free_ports(count):
     """Ports that nothing listens to."""
-    sockets = [socket.socket() for _ in range(count)]
-    for each in sockets:
-        each.bind(("127.0.0.1", 0))
-    ports = [each.getsockname()[1] for each in sockets]
-    for each in sockets:
-        each.close()
-    return ports
-
-
-def wait(condition, seconds, what):
-    """Wait until `condition()` is true; raise TimeoutError, which names `what`, after `seconds`."""
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError(f"{what}: not within {seconds} s")
-        time.sleep(0.1)
+    with ExitStack() as stack:
+        sockets = [
+            stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(count)
+        ]
+        return [each.getsockname()[1] for each in sockets]

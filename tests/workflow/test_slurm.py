@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 import slurm_node
-from project import fresh_tree
+from project import fresh_tree, wait_for
 
 pytestmark = pytest.mark.slurm
 
@@ -75,7 +75,7 @@ def test_a_sweep_on_slurm_gives_the_same_bytes(cluster, local, tmp_path):
 def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(cluster, local, tmp_path):
     tree = small_tree(tmp_path)
     process = begin(tree, cluster)
-    slurm_node.wait(lambda: cluster.jobs("R"), 60, "a job")
+    wait_for(lambda: cluster.jobs("R"))
     victim = next(iter(cluster.jobs("R")))
     cluster.ask("scancel", victim)
     status, output = finish(process)
@@ -92,20 +92,16 @@ def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(cluster, loc
 def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(cluster, local, tmp_path):
     tree = small_tree(tmp_path)
     process = begin(tree, cluster)
-    slurm_node.wait(lambda: cluster.jobs("R"), 60, "a job")
+    wait_for(lambda: cluster.jobs("R"))
     node = next(iter(cluster.jobs("R").values()))
     cluster.stop(node, signal.SIGKILL)
-    slurm_node.wait(lambda: "down" in cluster.states()[node], 120, "a node that is down")
+    wait_for(lambda: "down" in cluster.states()[node], 120)
     process.send_signal(signal.SIGKILL)
     process.communicate()
     assert hashes(tree) != local
     cluster.start_node(node)
     cluster.ask("scancel", "--user", "root")
-    slurm_node.wait(
-        lambda: cluster.states()[node] == "idle" and not cluster.jobs("R,PD,CG"),
-        120,
-        "the node again",
-    )
+    wait_for(lambda: cluster.states()[node] == "idle" and not cluster.jobs("R,PD,CG"), 120)
     assert hashes(tree).items() <= local.items()
     status, output = finish(begin(tree, cluster))
     assert status == 0, output
