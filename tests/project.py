@@ -86,7 +86,9 @@ class Tree:
 
     def environment(self):
         """The environment in which ./reproduce runs its command."""
-        return os.environ | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
+        # ./reproduce lets Python write bytecode, which halves the time of each start.
+        kept = {name: os.environ[name] for name in os.environ.keys() - {"PYTHONDONTWRITEBYTECODE"}}
+        return kept | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
 
     def run(self, *arguments, **environment):
         """Run a command; stdout of the result holds all that a user sees."""
