@@ -76,16 +76,7 @@ def tree(tmp_path):
 
 
 def _finish(folder):
-    tree = fresh_tree(folder)
-    result = tree.run()
-    (folder / "first run").write_text(result.stdout)
-    assert result.returncode == 0, result.stdout
-
-
-def _accept(folder, finished):
-    tree = Tree(finished).copy(folder)
-    result = tree.run("accept")
-    assert result.returncode == 0, result.stdout
+    (folder / "first run").write_text(fresh_tree(folder).succeed())
 
 
 @pytest.fixture(scope="session")
@@ -103,14 +94,12 @@ def done(finished, tmp_path):
 @pytest.fixture(scope="session")
 def accepted(shared, finished):
     """A read-only copy of `finished` whose small figures were accepted."""
-    return Tree(shared("accepted here", lambda folder: _accept(folder, finished.path)))
+    return Tree(shared("accepted here", lambda folder: finished.copy(folder).succeed("accept")))
 
 
 def _compare_variants(folder):
     tree = fresh_tree(folder, of_scenes("fig3", "fig4", "fig7", variants=VARIANTS))
-    result = tree.run("compare", "paper", "low")
-    assert result.returncode == 0, result.stdout
-    (folder / "said of paper and low").write_text(result.stdout)
+    (folder / "said of paper and low").write_text(tree.succeed("compare", "paper", "low"))
 
 
 @pytest.fixture(scope="session")

@@ -96,6 +96,12 @@ class Tree:
         how = {"env": self.environment() | environment, "stdin": subprocess.DEVNULL, "cwd": "/"}
         return run(*self.command(*arguments), **how, **output)
 
+    def succeed(self, *arguments):
+        """Run a command that must succeed, and return what it prints."""
+        result = self.run(*arguments)
+        assert result.returncode == 0, result.stdout
+        return result.stdout
+
     def python(self, *arguments, **environment):
         """Run Python with the code of this tree, in its folder."""
         environment = self.environment() | environment

@@ -126,12 +126,6 @@ returns:
 """
 
 
-def succeed(tree, *words):
-    result = tree.run(*words)
-    assert result.returncode == 0, result.stdout
-    return result.stdout
-
-
 def renewed_page(tree):
     """The page of fields, written anew."""
     (tree.path / "docs").mkdir(exist_ok=True)
@@ -169,7 +163,7 @@ def test_a_kind_and_a_stage_are_three_files_each(copy):
     tests = [name for name in FILES if name.startswith("tests")]
     result = copy.python("-m", "pytest", "-q", "-p", "no:cacheprovider", *tests)
     assert result.returncode == 0, result.stdout
-    assert rows(succeed(copy, "report")) == {"paper_figures/map.png": "recomputed"}
+    assert rows(copy.succeed("report")) == {"paper_figures/map.png": "recomputed"}
     report = (copy.path / "results" / "report" / "report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
@@ -196,10 +190,10 @@ def test_a_kind_and_a_stage_are_three_files_each(copy):
     assert "| `flights` |  | `orbits` | does not depend on it |" in page
 
     drawn = "results/low/figures/map.png"
-    assert rows(succeed(copy, "variant", "low")) == {drawn: "recomputed"}
+    assert rows(copy.succeed("variant", "low")) == {drawn: "recomputed"}
     assert (copy.path / drawn).read_bytes() != (copy.path / "paper_figures/map.png").read_bytes()
 
-    succeed(copy, "accept")
+    copy.succeed("accept")
     result = copy.run("verify")
     assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
     assert "map.png  identical\n" in result.stdout

@@ -97,25 +97,19 @@ def times(tree):
     return {file.name: file.stat().st_mtime_ns for file in files}
 
 
-def swept(tree, *words):
-    result = tree.run("sweep", *words)
-    assert result.returncode == 0, result.stdout
-    return result.stdout
-
-
 def test_damaged_files_alone_are_made_again(tree):
-    out = swept(tree)
+    out = tree.succeed("sweep")
     assert "sweep: 6 of 6 cells" in out
     assert rows(out) == {"results/sweep/small.nc": "recomputed"}
     before, content = times(tree), hashes(tree)
     assert len(before) == 4
-    assert rows(swept(tree, "small")) == {"results/sweep/small.nc": "current"}
+    assert rows(tree.succeed("sweep", "small")) == {"results/sweep/small.nc": "current"}
     assert times(tree) == before
     folder = tree.path / "results" / "sweep"
     damaged = ["small.nc", sorted(folder.glob("small_*.nc"))[1].name]
     for name in damaged:
         (folder / name).write_bytes((folder / name).read_bytes()[:3000])
-    out = swept(tree)
+    out = tree.succeed("sweep")
     for name in damaged:
         assert f"results/sweep/{name}: changed after it was made: made again" in out
     assert hashes(tree) == content
@@ -124,14 +118,14 @@ def test_damaged_files_alone_are_made_again(tree):
 
 @pytest.mark.slow
 def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
-    swept(tree, "-c", "1")
+    tree.succeed("sweep", "-c", "1")
     before = hashes(tree)["small.nc"]
     set_sweep(tree, SMALL | {"block": 4})
-    swept(tree, "-c", "1")
+    tree.succeed("sweep", "-c", "1")
     assert hashes(tree)["small.nc"] == before
     set_sweep(tree, SMALL | {"energy": [0.3, 2.0, 7.0]})
     shutil.rmtree(tree.path / ".snakemake")  # its memory of parameters
-    swept(tree, "-c", "1")
+    tree.succeed("sweep", "-c", "1")
     data = load(tree.path / "results" / "sweep" / "small.nc")
     assert data["energy"].values.tolist() == [0.3, 2.0, 7.0]
     one = cell.cell(0.1, 7.0, SMALL["starts"], SMALL["impacts"])
@@ -140,7 +134,7 @@ def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
 
 @pytest.mark.slow
 def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
-    swept(tree, "-c", "1")
+    tree.succeed("sweep", "-c", "1")
     wanted = hashes(tree)
     folder = tree.path / "results" / "sweep"
     shutil.rmtree(folder)
@@ -151,7 +145,7 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
     present = hashes(tree)
     assert 0 < len(present) < 4
     assert present.items() <= wanted.items()
-    swept(tree, "-c", "1")
+    tree.succeed("sweep", "-c", "1")
     assert hashes(tree) == wanted
 
 
@@ -166,14 +160,13 @@ def test_slurm_needs_sbatch(monkeypatch):
 def test_the_atlas_is_drawn_and_published(tree):
     line = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
     tree.write(tree.document() | {"sweeps": {"small": SMALL, "one": line}})
-    result = tree.run("atlas", "-c", "1")
-    assert result.returncode == 0, result.stdout
+    tree.succeed("atlas", "-c", "1")
     for name in ("small.png", "one.png", "one.svg"):  # vectors of a plane would be heavy
         drawn = (tree.path / "results/sweep/figures" / name).read_bytes()
         assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
         assert drawn.startswith((b"\x89PNG", b"<?xml"))
     before = times(tree)
-    assert tree.run("atlas", "-c", "1").returncode == 0
+    tree.succeed("atlas", "-c", "1")
     assert times(tree) == before
 
 
