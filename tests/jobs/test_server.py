@@ -60,7 +60,9 @@ def served(tree, *arguments):
 
 
 def test_many_jobs_at_once_end_as_they_should(tree):
-    assert served(tree, "8", "txt", "step", "good", "bad", "bug", "killed") == ["0", "1", "1", "1"] * 8
+    assert (
+        served(tree, "8", "txt", "step", "good", "bad", "bug", "killed") == ["0", "1", "1", "1"] * 8
+    )
     assert (tree.path / "count").read_text() == "x" * 8
     folder = tree.path / "results/paper"
     logs = [folder / f"logs/{i}.txt.log" for i in range(4)]
