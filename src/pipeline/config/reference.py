@@ -54,14 +54,20 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
         field = fields_of(model)[key]
         default = "optional" if field.default is None else f"default `{field.default}`"
         default = "required" if field.is_required() else default
-        blocks = (base for base in model.__mro__ if issubclass(base, Block))
-        fields_here = (fields_of(base).get(key) for base in blocks)
-        meaning = next((f.description for f in fields_here if f and f.description), None)
-        if meaning is None:
-            raise ValueError(f"{model.__name__}.{key} has no docstring")
-        text = f"- `{key}` ({default}): {meaning} *Allowed:* {allowed_at(model, (key,))[1]}."
+        words = allowed_at(model, (key,))[1]
+        text = f"- `{key}` ({default}): {meaning(model, key)} *Allowed:* {words}."
         items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
     return "\n".join(items)
+
+
+def meaning(model: type[Block], key: str) -> str:
+    """Return the docstring of a field, from the nearest class that has one."""
+    blocks = (base for base in model.__mro__ if issubclass(base, Block))
+    fields = (fields_of(base).get(key) for base in blocks)
+    found = next((field.description for field in fields if field and field.description), None)
+    if found is None:
+        raise ValueError(f"{model.__name__}.{key} has no docstring")
+    return found
 
 
 def quoted(names: Iterable[str]) -> str:

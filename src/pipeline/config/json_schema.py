@@ -1,0 +1,101 @@
+"""The JSON schema of config.yaml, made from the declarations, for editors and validators.
+
+Run `.venv/bin/python -m pipeline.config.json_schema` to renew config.schema.json. The schema knows
+every key, type and bound of one value. Conditions between fields, such as eq. (31), are checked by
+`./reproduce` alone.
+"""
+
+import json
+from typing import Any
+
+from pydantic.json_schema import GenerateJsonSchema, models_json_schema
+
+from ..records.files import write_whole
+from ..records.sources import ROOT
+from .reference import meaning
+from .schema.fields import Block, fields_of
+from .schema.kinds import KINDS
+from .schema.published import PAPER, PUBLISHED
+from .schema.sweep import Sweep
+from .schema.variant import Variant
+from .validation.document import Document
+
+FILE = "config.schema.json"
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+Schema = dict[str, Any]
+
+
+def schema() -> Schema:
+    """Return the JSON schema of config.yaml."""
+    models: list[type[Block]] = [Document, Variant, Sweep, *KINDS.values()]
+    references, definitions = models_json_schema(
+        [(model, "validation") for model in models], schema_generator=_Generator
+    )
+    blocks: dict[str, Schema] = definitions["$defs"]
+
+    def reference(model: type[Block]) -> Schema:
+        return references[model, "validation"]
+
+    for kind in KINDS.values():
+        properties = blocks[reference(kind)["$ref"].rpartition("/")[2]]["properties"]
+        for key in fields_of(kind):  # pydantic does not inherit docstrings of repeated fields
+            properties[key]["description"] = meaning(kind, key)
+    scene: Schema = {
+        "type": "object",
+        "required": ["picture"],
+        "properties": {"picture": {"enum": list(KINDS)}},
+        "allOf": [
+            {
+                "if": {"properties": {"picture": {"const": name}}},
+                "then": reference(kind),
+            }
+            for name, kind in KINDS.items()
+        ],
+    }
+    blocks |= {"AnyScene": scene}
+    document = blocks.pop("Document")
+    of_names = {"scenes": "AnyScene", "variants": "Variant", "sweeps": "Sweep"}
+    of_names |= {name: "AnyScene" for name in PUBLISHED if name != PAPER}
+    for key, name in of_names.items():
+        blocks_by_name = document["properties"][key]
+        (pattern,) = blocks_by_name["patternProperties"]
+        blocks_by_name["patternProperties"] = {pattern: {"$ref": f"#/$defs/{name}"}}
+        blocks_by_name["additionalProperties"] = False
+    whole: Schema = {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
+    described: Schema = _described(whole)
+    return described
+
+
+def _described(part: Any) -> Any:
+    """Move the words for what is allowed into the descriptions, which editors show."""
+    if isinstance(part, list):
+        return [_described(item) for item in part]
+    if not isinstance(part, dict):
+        return part
+    described = {key: _described(value) for key, value in part.items() if key != "allowed"}
+    if isinstance(part.get("allowed"), str):
+        words = [part.get("description", ""), f"Allowed: {part['allowed']}."]
+        described["description"] = " ".join(words).strip()
+    return described
+
+
+class _Generator(GenerateJsonSchema):
+    """Pydantic's generator without titles and without null as the value of an absent field."""
+
+    def default_schema(self, schema: Any) -> Schema:
+        made: Schema = super().default_schema(schema)
+        if made.get("default", 0) is None:
+            del made["default"]
+        return made
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        return False
+
+
+def text() -> str:
+    """Return the text of config.schema.json."""
+    return json.dumps(schema(), indent=1, sort_keys=True, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    write_whole(ROOT / FILE, text())
