@@ -1,0 +1,75 @@
+"""The metadata files are made from one source, valid, and invent nothing."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+import yaml
+
+from pipeline.checks import manifest
+from pipeline.checks.report.figures_page import SECTIONS
+from pipeline.publication import metadata
+from pipeline.records.sources import ROOT
+
+
+@pytest.mark.parametrize("name", metadata.pages())
+def test_a_metadata_file_is_up_to_date(name):
+    assert (ROOT / name).read_text() == metadata.pages()[name]
+
+
+def test_the_citation_fits_the_official_schema(tmp_path):
+    pytest.importorskip("check_jsonschema")
+    command = [sys.executable, "-m", "check_jsonschema"]
+    command += ["--builtin-schema", "vendor.citation-file-format"]
+    assert subprocess.run([*command, ROOT / metadata.CITATION], check=False).returncode == 0
+    text = (ROOT / metadata.CITATION).read_text().replace("license:", "licence:")
+    (tmp_path / metadata.CITATION).write_text(text)
+    assert subprocess.run([*command, tmp_path / metadata.CITATION], check=False).returncode != 0
+
+
+def test_each_published_figure_is_in_the_codecheck_manifest():
+    listed = yaml.safe_load((ROOT / "codecheck.yml").read_text())["manifest"]
+    published = {
+        f"{folder}/{name}"
+        for _, folder, _ in SECTIONS
+        for name in manifest.figures(manifest.read(ROOT, folder))
+    }
+    assert {entry["file"] for entry in listed} == published
+    assert all(entry["comment"] for entry in listed)
+
+
+def test_what_nobody_has_given_is_left_out_or_marked():
+    facts = metadata.citation()
+    unknown = metadata.missing(facts)
+    assert "doi, of the archived software" in unknown
+    given = facts | {
+        "authors": [
+            {"given-names": "A", "family-names": "B", "orcid": "https://orcid.org/0000-0001"}
+        ],
+        "doi": "10.5281/zenodo.1",
+        "repository-code": "https://example.org/x",
+        "date-released": "2026-01-01",
+    }
+    assert not metadata.missing(given)
+    assert "doi" not in json.dumps(json.loads((ROOT / ".zenodo.json").read_text()))
+    text = (ROOT / "metadata.yaml").read_text()
+    assert f"doi: ''  # {metadata.TO_FILL_IN}" in text
+
+
+def test_what_is_given_reaches_every_file(monkeypatch):
+    facts = metadata.citation() | {
+        "authors": [
+            {"given-names": "Ann", "family-names": "Bee", "orcid": "https://orcid.org/0-1"}
+        ],
+        "doi": "10.1/x",
+        "repository-code": "https://example.org/x",
+    }
+    monkeypatch.setattr(metadata, "citation", lambda: facts)
+    pages = metadata.pages()
+    for name, text in pages.items():
+        assert "Bee" in text, name
+        assert "0-1" in text, name
+    for name in ("codemeta.json", "metadata.yaml", "codecheck.yml"):
+        assert "10.1/x" in pages[name]
+        assert "https://example.org/x" in pages[name]
