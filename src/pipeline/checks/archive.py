@@ -81,7 +81,7 @@ def _uncommitted(findings: verify.Findings) -> Iterator[str]:
 def contents(root: Path, checked: YamlMapping) -> Contents:
     """Return the files that an archive of this tree has, as far as they exist."""
     archived, datasets = {}, []
-    paths = ["config.yaml", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
+    paths = ["config.yaml", "Snakefile", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
     paths += [str(f.relative_to(root)) for f in (root / CERTIFICATES).glob("*.toml")]
     for published_set in published_sets.committed_sets(checked):
         paths += published_set.texts

@@ -21,7 +21,8 @@ from ..records.sources import ROOT
 
 CITATION = "CITATION.cff"
 TO_FILL_IN = "to be filled in"
-_OWN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+OWN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+DESCRIBED: str = OWN["described"]
 Facts = dict[str, Any]
 
 
@@ -67,8 +68,8 @@ def _codemeta(facts: Facts) -> Facts:
         "license": f"https://spdx.org/licenses/{facts['license']}",
         "keywords": facts["keywords"],
         "author": [_agent(author) for author in facts["authors"]],
-        "programmingLanguage": f"{_OWN['language']} {project['requires-python']}",
-        "operatingSystem": _OWN["systems"],
+        "programmingLanguage": f"{OWN['language']} {project['requires-python']}",
+        "operatingSystem": OWN["systems"],
         "softwareRequirements": project["dependencies"],
         "referencePublication": {
             "@type": "ScholarlyArticle",
@@ -123,7 +124,7 @@ def _rescience(facts: Facts) -> Facts:
     ]
     repository, doi = facts.get("repository-code", ""), facts.get("doi", "")
     return {
-        "title": _OWN["article"],
+        "title": OWN["article"],
         "authors": of_authors,
         "affiliations": [],
         "abstract": facts["abstract"],
@@ -142,8 +143,8 @@ def _rescience(facts: Facts) -> Facts:
         "reviewers": [{"name": "", "orcid": ""}],
         "article": [{"number": ""}, {"doi": ""}, {"url": ""}],
         "journal": [{"name": "ReScience C"}, {"issn": "2430-3658"}, {"volume": ""}, {"issue": ""}],
-        "language": _OWN["language"],
-        "domain": _OWN["domain"],
+        "language": OWN["language"],
+        "domain": OWN["domain"],
         "keywords": ", ".join(facts["keywords"]),
         "type": "Replication",
     }
@@ -154,7 +155,7 @@ def _codecheck(facts: Facts) -> Facts:
         "version": "https://codecheck.org.uk/spec/config/1.0/",
         "source": facts.get("repository-code", ""),
         "paper": {
-            "title": _OWN["article"],
+            "title": OWN["article"],
             "authors": [
                 {"name": name_of(author)}
                 | ({"ORCID": author["orcid"]} if "orcid" in author else {})
@@ -163,7 +164,7 @@ def _codecheck(facts: Facts) -> Facts:
             "reference": facts.get("doi", ""),
         },
         "manifest": list(_published_figures()),
-        "summary": " ".join(_OWN["summary"].split()),
+        "summary": " ".join(OWN["summary"].split()),
     }
 
 
