@@ -1,0 +1,84 @@
+"""What article.typ takes from the results, as JSON: numbers, verdicts, captions and hashes."""
+
+import hashlib
+import json
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from pseudorigid.proofs.theorems.statements import THEOREMS
+
+from ...checks import manifest
+from ...checks.claims import ledger
+from ...checks.report import numbers
+from ...checks.report.captions import caption_of
+from ...checks.report.figures_page import SECTIONS
+from ...config import PAPER, PUBLISHED, paths
+from ...config.schema.kinds import KINDS
+from ...records.artifacts import load
+from ...records.files import read_text
+from .. import metadata
+
+_HASH_DIGITS = 16  # of a hash in a caption
+Table = dict[str, Any]
+
+
+def numbers_of(root: Path, checked: Table) -> str:
+    """Return the JSON text for a tree whose results are current and as committed."""
+    facts = metadata.citation()
+    verdicts = ledger.read_json(read_text(root / paths.LEDGER_DATA))
+    committed = {folder: manifest.read(root, folder) for _, folder, _ in SECTIONS}
+    figures = {
+        scene: _figure(folder, command, scene, entry, committed[folder]["data"])
+        for _, folder, command in SECTIONS
+        for scene, entry in committed[folder]["scenes"].items()
+    }
+    files = paths.artifact_paths(checked["variants"])
+    for scene, block in checked["variants"][PAPER].items():
+        data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
+        rows = numbers.beside(scene, KINDS[block["picture"]].numbers(block, **data))
+        figures[scene]["rows"] = {name: {"paper": p, "ours": ours} for name, p, ours in rows}
+        figures[scene]["settings"] = block
+    return json.dumps(
+        {
+            "title": metadata.OWN["article"],
+            "authors": [metadata.name_of(author) for author in facts["authors"]],
+            "keywords": facts["keywords"],
+            "version": facts["version"],
+            "claims": [asdict(row) for row in verdicts],
+            "counts": Counter(row.verdict for row in verdicts),
+            "statements": len(verdicts),
+            "figures": figures,
+            "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
+            "packages": committed[PUBLISHED[PAPER]]["environment"],
+        },
+        sort_keys=True,
+        indent=1,
+        ensure_ascii=False,
+    )
+
+
+def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) -> Table:
+    """Return what the article says of a committed picture."""
+    caption = caption_of(scene, entry["config"])
+    hashes = []
+    for file in sorted(Path(path).name for path in entry["data"].values()):
+        variables = data[file]["variables"]
+        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
+        digest = hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]
+        hashes.append(f"{file} {digest}")
+    return {
+        "title": f"{caption.name}: {caption.title}",
+        "shows": caption.shows,
+        "see": caption.see,
+        "file": f"{folder}/{_vector_or_raster(entry['figures'])}",
+        "scene": scene,
+        "command": command,
+        "datasets": ", ".join(hashes),
+    }
+
+
+def _vector_or_raster(figures: Table) -> str:
+    """Return the name of a picture's SVG file if it has one, else of its PNG file."""
+    return min(figures, key=lambda name: not name.endswith(".svg"))
