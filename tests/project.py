@@ -16,7 +16,10 @@ from pseudorigid.kernel.compiled import locator
 ROOT = Path(__file__).parents[1]
 # The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
 SHIPPED = Path(__file__).with_name("scenes.yaml")
-PARTS = ("Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements", "src", "workflow")
+PARTS = (
+    *("CITATION.cff", "Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements"),
+    *("src", "workflow"),
+)
 # Prints the results that a run would make for published figures.
 PLANNED = """
 import sys

@@ -5,9 +5,9 @@ from io import StringIO
 from typing import NamedTuple
 
 from pipeline import config
-from pipeline.checks import archive
 from pipeline.checks.accept import accept
 from pipeline.checks.verify import verify
+from pipeline.publication import archive
 
 
 class Found(NamedTuple):

@@ -3,7 +3,7 @@
 import pytest
 
 from pipeline import config
-from pipeline.checks import archive
+from pipeline.publication import archive
 
 
 @pytest.fixture(scope="session")

@@ -10,13 +10,13 @@ import pytest
 from verdicts import against
 
 from pipeline import config
-from pipeline.checks import archive
+from pipeline.publication import archive
 
 FILE = "results/archive/pseudorigid.tar"
 
 
 def written(tree, path):
-    return archive.write(tree.path, config.load(tree.config), path)
+    return archive.write(tree.path, config.load(tree.config), path)[0]
 
 
 def sha256(path):

@@ -19,12 +19,13 @@ from hypothesis import strategies as st
 from verdicts import accepting, against, verified
 
 from pipeline import config
-from pipeline.checks import archive, manifest
+from pipeline.checks import manifest
 from pipeline.checks.freshness import Freshness
 from pipeline.checks.verify import verify
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import clean
 from pipeline.config import build_specs
+from pipeline.publication import archive
 from pipeline.records.files import FileError
 from pipeline.records.record import record_path, refusal_path
 

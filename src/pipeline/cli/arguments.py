@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ..records import swhid
 from ..records.names import suggestion
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -111,7 +112,14 @@ COMMANDS = {
     "archive": Command(
         "write one tar with the figures, the data and what they were made from",
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
+        _switch("--with-packages", "add the sources and the locked packages: runs offline"),
+        ("--python", {"metavar": "X.Y", "help": "of these packages; by default the present one"}),
+        ("--machine", {"metavar": "NAME", "help": "of these packages, such as aarch64"}),
         details=" The same results give the same bytes. All results must be current.",
+    ),
+    "article": Command(
+        "set the replication article, results/article.pdf, from current results",
+        details=" Installs the typesetter first (once).",
     ),
     "verify": Command(
         "check whether everything is as committed, and if not, show what differs",
@@ -311,4 +319,8 @@ def _versions() -> "str":
 
     ours = search(r'^version = "(.+)"', "pyproject.toml")
     snakemake = search("^snakemake==([^ ;]+)", "requirements/lock.txt")
-    return f"pseudorigid {ours}, snakemake {snakemake}"
+    lines = [f"pseudorigid {ours}, snakemake {snakemake}"]
+    identifier = swhid.of_commit(ROOT)
+    if identifier:
+        lines.append(f"{identifier}  the committed tree")
+    return "\n".join(lines)

@@ -41,7 +41,7 @@ Entity = dict[str, Any]
 
 
 def crate(archived: Mapping[str, bytes]) -> bytes:
-    """Return the description of an archive with these files: path -> bytes."""
+    """Return the description of an archive with these files, CITATION.cff among them."""
     graph = json.dumps(
         {
             "@context": [f"{_RO_CRATE}/context", {"sha256": f"{_TERMS}#sha256"}],
@@ -63,7 +63,7 @@ def _plain(entity: Entity) -> Entity:
 
 
 def _entities(archived: Mapping[str, bytes]) -> Iterator[Entity]:
-    facts = metadata.citation()
+    facts = metadata.parsed(archived[metadata.CITATION].decode())
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
     records = _records(archived)
     steps = {step for _, step, _ in records}

@@ -28,7 +28,12 @@ Facts = dict[str, Any]
 
 def citation() -> Facts:
     """Return the content of CITATION.cff."""
-    facts: Facts = yaml.safe_load(read_text(ROOT / CITATION))
+    return parsed(read_text(ROOT / CITATION))
+
+
+def parsed(text: str) -> Facts:
+    """Return the content of a text in the format of CITATION.cff."""
+    facts: Facts = yaml.safe_load(text)
     return facts
 
 

@@ -1,17 +1,32 @@
 """./reproduce archive: write the figures and what they were made from into one file."""
 
-from ...checks import archive
+import platform
+
+from ...publication import archive
 from ...records.sources import ROOT
 from ..arguments import Arguments
-from ..session import interruptible, locked, one_line
+from ..packages import wheels
+from ..session import CommandLineError, interruptible, locked, one_line
 
-FILE = "results/archive/pseudorigid.tar"
+FOLDER = "results/archive"
 
 
 def run(args: Arguments) -> int:
     """Write the archive; all results must be present and current."""
-    path = args.start / args.file if args.file else ROOT / FILE
+    here = ".".join(platform.python_version_tuple()[:2])
+    python, machine = args.python or here, args.machine or platform.machine()
+    if (args.python or args.machine) and not args.with_packages:
+        raise CommandLineError("archive: --python and --machine need --with-packages")
+    name = f"-python{python}-{machine}" if args.with_packages else ""
+    file = args.file or f"{FOLDER}/pseudorigid{name}.tar"
+    path = (args.start if args.file else ROOT) / file
     with locked(), interruptible(), one_line("archive: ", archive.ArchiveError):
-        digest = archive.write(ROOT, args.checked, path)
-    print(f"{digest}  {args.file or FILE}  {path.stat().st_size / 1e6:.1f} MB")
+        packages = []
+        if args.with_packages:
+            archive.refuse_unpublished(ROOT, args.checked)  # before the download
+            folder = ROOT / FOLDER / f"packages{name}"
+            packages = wheels.download(folder, python, args.machine)
+        digest, identifier = archive.write(ROOT, args.checked, path, packages)
+    print(f"{digest}  {file}  {path.stat().st_size / 1e6:.1f} MB")
+    print(f"{identifier}  its files")
     return 0

@@ -21,7 +21,7 @@ def run(args: Arguments) -> int:
     if not args.against or not os.path.exists(other):
         place = other if args.against else "''"
         raise CommandLineError(f"verify: no archive or folder {place}")
-    from ...checks import archive
+    from ...publication import archive
 
     with one_line("verify: ", archive.ArchiveError):
         return int(archive.compare(ROOT, args.checked, other))

@@ -21,7 +21,7 @@ from pathlib import Path
 from ...records.files import FileError, write_whole
 from ...records.sources import ROOT
 from ..session import UsageError, interruptible, locked, print_error
-from . import activation, indexes
+from . import activation, indexes, wheels
 
 VENV = ROOT / ".venv"
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
@@ -97,6 +97,8 @@ def set_up(stamp: str, arguments: list[str]) -> None:
     except OSError as error:
         print_error(f"cannot make .venv: {error.strerror}: {error.filename}")
         sys.exit(1)
+    if os.environ.get("PSEUDORIGID_WHEELS") == str(ROOT / wheels.FOLDER):
+        del os.environ["PSEUDORIGID_WHEELS"]  # it has not the packages that other commands add
     python = str(VENV / "bin" / "python")
     os.execv(python, [python, "-P", "-m", "pipeline", *arguments])
 
@@ -211,7 +213,8 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
         pip = _pip(python)
         settings = indexes.pip_settings(pip)
         source = []
-        if os.environ.get("PSEUDORIGID_WHEELS"):
+        if folder := os.environ.get("PSEUDORIGID_WHEELS"):
+            wheels.refuse_damaged(Path(folder))
             source = ["--no-index", "--find-links", os.path.dirname(root) + "/wheels"]
         elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
             source = ["--no-index"]

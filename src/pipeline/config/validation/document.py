@@ -14,7 +14,7 @@ from .words import ConfigError, refusal
 # Commands of ./reproduce. A scene of the same name could not be asked for.
 COMMANDS = (
     *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report"),
-    *("archive", "verify", "accept", "clean", "benchmark", "test", "help", "all"),
+    *("archive", "article", "verify", "accept", "clean", "benchmark", "test", "help", "all"),
 )
 _Scenes = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 

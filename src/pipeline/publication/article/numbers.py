@@ -15,7 +15,6 @@ from ...checks.report import numbers
 from ...checks.report.captions import caption_of
 from ...checks.report.figures_page import SECTIONS
 from ...config import PAPER, PUBLISHED, paths
-from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import read_text
 from .. import metadata
@@ -37,8 +36,11 @@ def numbers_of(root: Path, checked: Table) -> str:
     files = paths.artifact_paths(checked["variants"])
     for scene, block in checked["variants"][PAPER].items():
         data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
-        rows = numbers.beside(scene, KINDS[block["picture"]].numbers(block, **data))
-        figures[scene]["rows"] = {name: {"paper": p, "ours": ours} for name, p, ours in rows}
+        printed = numbers.PAPER_NUMBERS.get(scene, {})
+        figures[scene]["rows"] = {
+            name: {"paper": printed.get(name, "not printed"), "ours": ours}
+            for name, ours in numbers.measured(block, data.__getitem__).items()
+        }
         figures[scene]["settings"] = block
     return json.dumps(
         {

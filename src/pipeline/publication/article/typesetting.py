@@ -1,10 +1,7 @@
 """Set the article with typst, whose package brings the compiler and the fonts."""
 
-import json
 import warnings
 from pathlib import Path
-
-from ...records.files import write_whole
 
 _SOURCE = Path(__file__).with_name("article.typ")
 

@@ -1,7 +1,9 @@
 """Archives of what is published and what it was made from, and comparison of a tree with them.
 
 An archive is one tar file. The same files give the same bytes: names are sorted, there are no
-times and no owners, every file has the same mode, and nothing is compressed.
+times and no owners, modes follow from names, and nothing is compressed. An archive with packages
+also has the sources of this tree and the locked packages, so that its unpacked folder runs
+`./reproduce` without a network.
 """
 
 import hashlib
@@ -10,7 +12,7 @@ import json
 import os
 import tarfile
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 from typing import IO
@@ -18,22 +20,35 @@ from typing import IO
 import numpy as np
 import xarray as xr
 
+from ..checks import manifest, published_sets, verify
+from ..checks.checksums import SUMS, ChecksumError, format_sums, known_sums
+from ..checks.difference import Comparison, dataset_difference
+from ..checks.published_sets import PublishedSet
 from ..config.paths import LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
-from ..records import files
+from ..records import files, swhid
 from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, read_bytes
 from ..records.pictures import PictureError, difference
-from ..records.record import SHAPE, read_record, record_path
-from . import manifest, published_sets, verify
-from .checksums import SUMS, ChecksumError, format_sums, known_sums
-from .difference import Comparison, dataset_difference
-from .published_sets import PublishedSet
+from ..records.record import SHAPE, git, read_record, record_path
+from . import crate
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
+PACKAGES = "packages"  # the folder of the locked packages; `reproduce` installs from it
+_EXECUTABLES = ("reproduce", ".ci/run")
 CERTIFICATES = "src/pseudorigid/proofs/certificates"
 _ABOUT_TEXT = Path(__file__).with_suffix(".txt")
+
+_WITH_PACKAGES = f"""\
+Draw all figures again here, without a network (docs/rebuild.md says how to do it by hand):
+
+    ./reproduce
+
+The packages in {PACKAGES}/ are those of requirements/, for the machine and the version of Python
+that the name of the archive has.
+
+"""
 
 Contents = dict[str, bytes]  # path of a file -> its bytes
 
@@ -42,8 +57,13 @@ class ArchiveError(ValueError):
     """An archive cannot be made or read. The message is one line."""
 
 
-def write(root: Path, checked: YamlMapping, path: Path | str) -> str:
-    """Write the archive of the tree at `root`, whole or not at all, and return its sha256.
+def write(
+    root: Path, checked: YamlMapping, path: Path | str, packages: Collection[Path] = ()
+) -> tuple[str, str]:
+    """Write the archive of the tree at `root`, whole or not at all.
+
+    With `packages`, files of the locked packages, it also has these and the tree's sources. Returns
+    its sha256 and the SWHID of the folder that it holds.
 
     Raises
     ------
@@ -56,18 +76,31 @@ def write(root: Path, checked: YamlMapping, path: Path | str) -> str:
         raise ArchiveError(f"{path} is a folder")
     if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
+    refuse_unpublished(root, checked)
+    archived = contents(root, checked, packages)
+    with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
+        for name, data in archived.items():
+            entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
+            tar.addfile(entry, io.BytesIO(data))
+    return str(file_hash(path)), identifier(archived)
+
+
+def identifier(archived: Contents) -> str:
+    """Return the SWHID of the folder that an archive holds."""
+    return swhid.of_files({name: (data, _mode(name)) for name, data in archived.items()})
+
+
+def refuse_unpublished(root: Path, checked: YamlMapping) -> None:
+    """Raise ArchiveError for a result that is not current, or a file that is not the committed one.
+
+    Figures and data of claims, proofs, study and atlas may be missing.
+    """
     for findings in verify.verify(root, checked):
         published_set = findings.published_set
         if problem := findings.not_published(root, partial=published_set.on_request):
             raise ArchiveError(f"{problem}: run {published_set.command}")
         if problems := [*findings.problems, *_uncommitted(findings)]:
             raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
-    archived = contents(root, checked)
-    with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
-        for name, data in archived.items():
-            entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
-            tar.addfile(entry, io.BytesIO(data))
-    return str(file_hash(path))
 
 
 def _uncommitted(findings: verify.Findings) -> Iterator[str]:
@@ -78,11 +111,14 @@ def _uncommitted(findings: verify.Findings) -> Iterator[str]:
             yield f"{findings.published_set.folder}/{name} is not the committed one: {words}"
 
 
-def contents(root: Path, checked: YamlMapping) -> Contents:
+def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) -> Contents:
     """Return the files that an archive of this tree has, as far as they exist."""
-    archived, datasets = {}, []
-    paths = ["config.yaml", "Snakefile", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
-    paths += [str(f.relative_to(root)) for f in (root / CERTIFICATES).glob("*.toml")]
+    archived = {f"{PACKAGES}/{file.name}": read_bytes(file) for file in packages}
+    datasets: list[str] = []
+    paths = _sources(root) if archived else []
+    paths += ["config.yaml", crate.WORKFLOW, "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
+    for pattern in ("workflow/rules/*.smk", f"{CERTIFICATES}/*.toml"):
+        paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
     for published_set in published_sets.committed_sets(checked):
         paths += published_set.texts
         if not manifest.is_present(root, published_set):
@@ -98,11 +134,25 @@ def contents(root: Path, checked: YamlMapping) -> Contents:
                 archived[record_path(path)] = _public_record(root, path)
     archived |= {path: read_bytes(root / path) for path in paths if (root / path).is_file()}
     about = _ABOUT_TEXT.read_text(encoding="utf-8")
-    about = about.format(certificates=CERTIFICATES, sets=", ".join(datasets))
+    about = about.format(
+        certificates=CERTIFICATES,
+        sets=", ".join(datasets),
+        packages=_WITH_PACKAGES if packages else "",
+    )
     archived[ABOUT] = about.encode()
+    archived = dict(sorted(archived.items()))
+    archived[crate.FILE] = crate.crate(archived)
     archived = dict(sorted(archived.items()))
     sums = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
     return archived | {SUMS: format_sums(sums).encode()}
+
+
+def _sources(root: Path) -> list[str]:
+    """Return the paths of the files that git tracks in this tree."""
+    listed = git("ls-files", "-z", root=root)
+    if listed is None:
+        raise ArchiveError("an archive with packages needs git, which lists this tree's sources")
+    return [path for path in listed.decode().split("\0") if path and (root / path).is_file()]
 
 
 def _public_record(root: Path, path: str) -> bytes:
@@ -173,8 +223,12 @@ def _is_plain(name: str) -> bool:
 def _header(name: str, size: int) -> bytes:
     """Return the tar block before a file; raise ValueError for a name or size that is too long."""
     entry = tarfile.TarInfo(f"{TOP}/{name}")
-    entry.size, entry.mode = size, 0o644
+    entry.size, entry.mode = size, _mode(name)
     return entry.tobuf(tarfile.USTAR_FORMAT, "utf-8", "strict")
+
+
+def _mode(name: str) -> int:
+    return 0o755 if name in _EXECUTABLES else 0o644
 
 
 def _parsed(sums: bytes) -> dict[str, str]:
@@ -208,8 +262,13 @@ def compare(root: Path, checked: YamlMapping, path: Path) -> int:
     theirs = _read_folder(path, checked) if path.is_dir() else read(path)
     absent = f"not in the {'folder' if path.is_dir() else 'archive'}"
     ours = contents(root, checked)
-    del ours[SUMS], ours[ABOUT]  # ABOUT lists the datasets that exist
-    theirs.pop(ABOUT, None)
+    if any(name.startswith(f"{PACKAGES}/") for name in theirs):  # it has the sources too
+        ours |= {name: read_bytes(root / name) for name in _sources(root)}
+    for name in [name for name in theirs if name.startswith(f"{PACKAGES}/")]:
+        del theirs[name]  # their hashes are in requirements/
+    for name in (SUMS, ABOUT, crate.FILE):  # these list the datasets that exist
+        ours.pop(name, None)
+        theirs.pop(name, None)
     names = sorted({*ours, *theirs})
     counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
     width, sets = max(map(len, names)), published_sets.committed_sets(checked)

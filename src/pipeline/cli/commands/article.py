@@ -1,0 +1,27 @@
+"""./reproduce article: set the replication article from the results."""
+
+from ...publication import archive, metadata
+from ...records.files import write_whole
+from ...records.sources import ROOT
+from ..arguments import Arguments
+from ..packages import add_packages
+from ..session import interruptible, locked, one_line
+
+PDF = "results/article.pdf"
+NUMBERS = "results/article/numbers.json"
+
+
+def run(args: Arguments) -> int:
+    """Set the article; results must be current, and figures the committed ones."""
+    add_packages("article")
+    from ...publication.article import numbers, typesetting
+
+    with locked(), interruptible(), one_line("article: "):
+        archive.refuse_unpublished(ROOT, args.checked)
+        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.checked))
+        pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
+        write_whole(ROOT / PDF, pdf)
+    print(f"{PDF}  {len(pdf) / 1e6:.1f} MB")
+    for words in metadata.missing(metadata.citation()):
+        print(f"{metadata.TO_FILL_IN} in {metadata.CITATION}: {words}")
+    return 0
