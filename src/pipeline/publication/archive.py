@@ -113,7 +113,7 @@ def _uncommitted(findings: verify.Findings) -> Iterator[str]:
 
 def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) -> Contents:
     """Return the files that an archive of this tree has, as far as they exist."""
-    archived = {f"{PACKAGES}/{file.name}": read_bytes(file) for file in packages}
+    archived = {f"{PACKAGES}/{_short(file.name)}": read_bytes(file) for file in packages}
     datasets: list[str] = []
     paths = _sources(root) if archived else []
     paths += ["config.yaml", crate.WORKFLOW, "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
@@ -225,6 +225,14 @@ def _header(name: str, size: int) -> bytes:
     entry = tarfile.TarInfo(f"{TOP}/{name}")
     entry.size, entry.mode = size, _mode(name)
     return entry.tobuf(tarfile.USTAR_FORMAT, "utf-8", "strict")
+
+
+def _short(name: str) -> str:
+    """Return the name of a wheel, with as many of its platforms as a tar has room for."""
+    while len(name) > tarfile.LENGTH_NAME:
+        stem, _, platforms = name.removesuffix(".whl").rpartition("-")
+        name = f"{stem}-{platforms.partition('.')[2]}.whl"
+    return name
 
 
 def _mode(name: str) -> int:
