@@ -77,7 +77,7 @@ def refuse_damaged(folder: Path) -> None:
                     rf"{pattern}-{re.escape(version)}[-.](?=.*(whl|gz|zip)$)", file.name, re.I
                 )
                 if named and file.is_file() and _sha256(file) not in hashes:
-                    raise UsageError(f"{file} is damaged: it has not the hash of requirements/")
+                    raise UsageError(f"{file.name} is damaged: its hash is not in {requirements.name}")
 
 
 def _requirements(name: str, python: str, machine: str | None) -> list[str]:
