@@ -7,8 +7,8 @@ import sys
 import pytest
 import yaml
 
-from pipeline.checks import manifest
-from pipeline.checks.report.figures_page import SECTIONS
+from pipeline import config
+from pipeline.checks import manifest, published_sets
 from pipeline.publication import metadata
 from pipeline.records.sources import ROOT
 
@@ -31,9 +31,9 @@ def test_the_citation_fits_the_official_schema(tmp_path):
 def test_each_published_figure_is_in_the_codecheck_manifest():
     listed = yaml.safe_load((ROOT / "codecheck.yml").read_text())["manifest"]
     published = {
-        f"{folder}/{name}"
-        for _, folder, _ in SECTIONS
-        for name in manifest.figures(manifest.read(ROOT, folder))
+        f"{each.folder}/{name}"
+        for each in published_sets.committed_sets(config.load(ROOT / "config.yaml"))
+        for name in manifest.sums(manifest.read(ROOT, each.folder))
     }
     assert {entry["file"] for entry in listed} == published
     assert all(entry["comment"] for entry in listed)

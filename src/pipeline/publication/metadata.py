@@ -13,9 +13,9 @@ from typing import Any
 
 import yaml
 
-from ..checks import manifest
+from ..checks import manifest, published_sets
 from ..checks.report.captions import caption_of
-from ..checks.report.figures_page import SECTIONS
+from ..config import load
 from ..records.files import read_text, write_whole
 from ..records.sources import ROOT
 
@@ -176,11 +176,12 @@ def _codecheck(facts: Facts) -> Facts:
 def _published_figures() -> list[Facts]:
     """Return file and comment of every committed picture."""
     figures = []
-    for _, folder, command in SECTIONS:
+    for published_set in published_sets.committed_sets(load(ROOT / "config.yaml")):
+        folder = published_set.folder
         for scene, entry in manifest.read(ROOT, folder)["scenes"].items():
             caption = caption_of(scene, entry["config"])
             for name in entry["figures"]:
-                comment = f"{caption.name}: {caption.title}; made by {command}"
+                comment = f"{caption.name}: {caption.title}; made by {published_set.command}"
                 figures.append({"file": f"{folder}/{name}", "comment": comment})
     return figures
 

@@ -67,17 +67,14 @@ def download(folder: Path, python: str, machine: str | None) -> list[Path]:
 
 def refuse_damaged(folder: Path) -> None:
     """Raise UsageError for a file that has the name of a locked package and other bytes."""
-    for requirements in sorted((ROOT / "requirements").glob("*.txt")):
-        for requirement in _logical_lines(requirements.stem):
-            name, version = re.findall(r"^([\w.-]+)==([^\s;]+)", requirement)[0]
-            pattern = re.sub(r"[-_.]+", "[-_.]", name)
-            hashes = _HASH.findall(requirement)
-            for file in folder.iterdir():
-                named = re.match(
-                    rf"{pattern}-{re.escape(version)}[-.](?=.*(whl|gz|zip)$)", file.name, re.I
-                )
-                if named and file.is_file() and _sha256(file) not in hashes:
-                    raise UsageError(f"{file.name} is damaged: its hash is not in {requirements.name}")
+    names = [file.stem for file in sorted((ROOT / "requirements").glob("*.txt"))]
+    for line in [line for name in names for line in _logical_lines(name)]:
+        name, version = re.findall(r"^([\w.-]+)==([^\s;]+)", line)[0]
+        form = re.sub(r"[-_.]+", "[-_.]", name) + rf"-{re.escape(version)}[-.](.*\.)?(whl|gz|zip)"
+        for file in folder.iterdir():
+            named = re.fullmatch(form, file.name, re.IGNORECASE)
+            if named and file.is_file() and _sha256(file) not in _HASH.findall(line):
+                raise UsageError(f"{file} is damaged: its hash is not in requirements/")
 
 
 def _requirements(name: str, python: str, machine: str | None) -> list[str]:

@@ -9,12 +9,12 @@ from typing import Any
 
 from pseudorigid.proofs.theorems.statements import THEOREMS
 
-from ...checks import manifest
+from ...checks import manifest, published_sets
 from ...checks.claims import ledger
-from ...checks.report import numbers
 from ...checks.report.captions import caption_of
-from ...checks.report.figures_page import SECTIONS
+from ...checks.report.page import PAPER_NUMBERS
 from ...config import PAPER, PUBLISHED, paths
+from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
 from ...records.files import read_text
 from .. import metadata
@@ -27,19 +27,20 @@ def numbers_of(root: Path, checked: Table) -> str:
     """Return the JSON text for a tree whose results are current and as committed."""
     facts = metadata.citation()
     verdicts = ledger.read_json(read_text(root / paths.LEDGER_DATA))
-    committed = {folder: manifest.read(root, folder) for _, folder, _ in SECTIONS}
+    sets = published_sets.committed_sets(checked)
+    committed = {each.folder: manifest.read(root, each.folder) for each in sets}
     figures = {
-        scene: _figure(folder, command, scene, entry, committed[folder]["data"])
-        for _, folder, command in SECTIONS
-        for scene, entry in committed[folder]["scenes"].items()
+        scene: _figure(each.folder, each.command, scene, entry, committed[each.folder]["data"])
+        for each in sets
+        for scene, entry in committed[each.folder]["scenes"].items()
     }
     files = paths.artifact_paths(checked["variants"])
     for scene, block in checked["variants"][PAPER].items():
         data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
-        printed = numbers.PAPER_NUMBERS.get(scene, {})
+        printed = PAPER_NUMBERS.get(scene, {})
         figures[scene]["rows"] = {
             name: {"paper": printed.get(name, "not printed"), "ours": ours}
-            for name, ours in numbers.measured(block, data.__getitem__).items()
+            for name, ours in KINDS[block["picture"]].numbers(block, **data).items()
         }
         figures[scene]["settings"] = block
     return json.dumps(
