@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import section
 from ..kernel.impact_law import impact_coefficients, rebound
 from .ensemble import ImpactMap
 from .inputs import coordinates, not_allowed, number, whole_number
@@ -95,7 +96,7 @@ class Ball:
         the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
         """
         (energy,) = coordinates(energy=energy)
-        square = (2.0 * energy + self.g * self.g / self.k) / self.k
+        square = section.radius_squared(self.k, self.g, energy)
         invalid = (square < 0.0) | np.isinf(square)
         if np.any(invalid):
             lowest = self.energy_bounds()[0]
@@ -127,13 +128,11 @@ class Ball:
         The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
-        k = self.k
-        # s = xdot + udot from 2E + 2 g x - k x^2 = (y^2 + k s^2)/(1 + k)
-        square = ((1.0 + k) * (2.0 * energy + 2.0 * self.g * x - k * x * x) - y * y) / k
+        square = section.contact_speed_squared(self.k, self.g, energy, x, y)
         if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, y and energy: the point is outside the section")
-        s = np.sqrt(square)
-        return _plain(x), _plain((y + k * s) / (1.0 + k)), _plain((s - y) / (1.0 + k))
+        x, xdot, udot = section.chart_state(self.k, self.g, energy, x, y)
+        return _plain(x), _plain(xdot), _plain(udot)
 
     def start(self, fraction: ArrayLike, energy: ArrayLike) -> State:
         """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
@@ -141,13 +140,11 @@ class Ball:
         Raises ValueError beyond the rim, and for an energy below the lowest one.
         """
         f, energy = coordinates(fraction=fraction, energy=energy)
-        centre, radius = self.section(energy)
+        self.section(energy)
         if not np.all((np.abs(f) <= 1.0) | np.isnan(f)):
             raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
-        # s^2 = (1 + k) (radius^2 - (x - centre)^2) in the chart; this form does not cancel at the
-        # rim.
-        udot = radius * np.sqrt((1.0 - f) * (1.0 + f) / (1.0 + self.k))
-        return _plain(centre + f * radius), _plain(self.k * udot), _plain(udot)
+        x, xdot, udot = section.start(self.k, self.g, energy, f)
+        return _plain(x), _plain(xdot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
     def reflect(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> State:

@@ -6,15 +6,20 @@ reference [18] of the paper). Kernels write the exponents of n orbits after each
 `at` (m,) to `out` (n, m, 3), and return how many impacts were missed, as in `kernel.impact`.
 """
 
-import math
-
 import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
-from ..kernel.impact import impact_coefficients, step_with_flight, tangent
+from ..kernel.impact import impact_coefficients, step_with_flight
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
+from ..kernel.spectrum import (
+    in_range,
+    normalized,
+    orthogonal_part,
+    push_frame,
+    with_logarithms,
+)
 from ..kernel.tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
 from .ball import Ball
 from .ensemble import shared
@@ -135,20 +140,6 @@ def scene_exponents(
     return spectrum.assign(start_variables(starts, states))
 
 
-@jit
-def _normalized(a, b, c):
-    """Return a vector's length and its direction."""
-    length = math.sqrt((a * a + b * b) + c * c)
-    return length, a / length, b / length, c / length
-
-
-@jit
-def _orthogonal_part(a, b, c, d, e, f):
-    """Return the part of the vector (d, e, f) orthogonal to the unit vector (a, b, c)."""
-    along = (a * d + b * e) + c * f
-    return d - along * a, e - along * b, f - along * c
-
-
 # Offsets of each orbit's frame, three vectors, and the products of their lengths; rows as in
 # `tangents`.
 _A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
@@ -160,7 +151,7 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
 
     Return whether one of the products of lengths nears the limits of a double.
     """
-    # `_orthonormal` is not called here, because LLVM does not vectorise the loop with its tuples.
+    # `orthonormal` is not called here, because LLVM does not vectorise the loop with its tuples.
     extremes = 0
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
@@ -171,10 +162,10 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
         a0, a1, a2 = push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at)
         b0, b1, b2 = push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at)
         c0, c1, c2 = push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at)
-        p, a0, a1, a2 = _normalized(a0, a1, a2)
-        q, b0, b1, b2 = _normalized(*_orthogonal_part(a0, a1, a2, b0, b1, b2))
-        c0, c1, c2 = _orthogonal_part(a0, a1, a2, c0, c1, c2)
-        r, c0, c1, c2 = _normalized(*_orthogonal_part(b0, b1, b2, c0, c1, c2))
+        p, a0, a1, a2 = normalized(a0, a1, a2)
+        q, b0, b1, b2 = normalized(*orthogonal_part(a0, a1, a2, b0, b1, b2))
+        c0, c1, c2 = orthogonal_part(a0, a1, a2, c0, c1, c2)
+        r, c0, c1, c2 = normalized(*orthogonal_part(b0, b1, b2, c0, c1, c2))
         p, q, r = (
             frames[_GROWN + i] * p,
             frames[_GROWN + GROUP + i] * q,
@@ -184,14 +175,8 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
         frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
         frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
         frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
-        extremes += 0 if _in_range(p) & _in_range(q) & _in_range(r) else 1
+        extremes += 0 if in_range(p) & in_range(q) & in_range(r) else 1
     return extremes > 0
-
-
-@jit
-def _in_range(length):
-    """Return whether a length is far from the limits of a double."""
-    return (length > 1e-100) & (length < 1e100)
 
 
 @jit
@@ -213,37 +198,23 @@ def _in_groups(x, v, w, k, g, at, out, root_finder):
 
 
 @jit
-def _orthonormal(a, b, c):
-    """Return the lengths and directions that Gram and Schmidt's method gives for three vectors."""
-    p, a0, a1, a2 = _normalized(*a)
-    q, b0, b1, b2 = _normalized(*_orthogonal_part(a0, a1, a2, *b))
-    r, c0, c1, c2 = _normalized(*_orthogonal_part(b0, b1, b2, *_orthogonal_part(a0, a1, a2, *c)))
-    return p, q, r, (a0, a1, a2), (b0, b1, b2), (c0, c1, c2)
-
-
-@jit
 def _one_orbit(x, v, w, k, g, at, out, root_finder):
     """Compute the exponents of one orbit; its frame stays in the processor's registers."""
     coefficients = impact_coefficients(k)
     a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    p = q = r = 1.0
-    sums = np.zeros(3)
+    sums, lengths = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
     missed, done = 0, 0
     for m in range(at.size):
         while done < at[m]:
             x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
                 x, v, w, k, g, coefficients, root_finder
             )
+            a, b, c, lengths, sums = push_frame(
+                a, b, c, lengths, sums, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c
+            )
             missed += late
-            a = tangent(*a, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            b = tangent(*b, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            c = tangent(*c, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c)
-            length_a, length_b, length_c, a, b, c = _orthonormal(a, b, c)
-            p, q, r = p * length_a, q * length_b, r * length_c
             done += 1
-            if done == at[m] or not (_in_range(p) & _in_range(q) & _in_range(r)):
-                sums[0], sums[1], sums[2] = sums[0] + log(p), sums[1] + log(q), sums[2] + log(r)
-                p = q = r = 1.0
+        sums, lengths = with_logarithms(sums, lengths), (1.0, 1.0, 1.0)
         for j in range(3):
             out[m, j] = sums[j] / done
     return missed
@@ -289,5 +260,5 @@ def _collect_extremes(total, frames, n):
     """Collect the lengths of orbits for which one nears the limits of a double."""
     for i in range(n):
         p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
-        if not (_in_range(p) and _in_range(q) and _in_range(r)):
+        if not (in_range(p) and in_range(q) and in_range(r)):
             _collect(total, frames, i)

@@ -96,6 +96,13 @@ def steps(x, v, w, k, g, impacts, tau, root_finder):
 
 
 @jit
+def reflect(x, v, w, k, coefficients):
+    """Apply the reversor R: reverse the velocities after the impact. R F R is the inverse of F."""
+    b, c, _ = rebound(v, w, k, coefficients)
+    return x, -b, max(-c, b)  # max as in `step`
+
+
+@jit
 def steps_back(x, v, w, k, g, impacts, tau, root_finder):
     """Apply F^-1 = R F R in place; `tau` (n,) has the last flights from the states reached."""
     coefficients = impact_coefficients(k)
@@ -104,8 +111,7 @@ def steps_back(x, v, w, k, g, impacts, tau, root_finder):
         xi, vi, wi, t = x[i], v[i], w[i], tau[i]
         for _ in range(impacts):
             t, p, q, _, late = next_impact(xi, -vi, -wi, vi + wi, g, root_finder)
-            b, c, _ = rebound(g * t - vi, q, k, coefficients)
-            xi, vi, wi = p, -b, max(-c, b)  # as in `step`
+            xi, vi, wi = reflect(p, g * t - vi, q, k, coefficients)
             missed += late
         x[i], v[i], w[i], tau[i] = xi, vi, wi, t
     return missed
