@@ -1,0 +1,1 @@
+"""Interactive page: the kernel in JavaScript, the data that it shows, and the command."""

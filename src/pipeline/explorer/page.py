@@ -1,0 +1,83 @@
+"""The explorer as one HTML file, which needs no network and no server.
+
+Its bytes depend on the tree alone: config.yaml, the kernel, the committed manifest and `web/`. The
+content security policy allows the page's own scripts, by their hashes, and nothing from elsewhere.
+"""
+
+import base64
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from ..config.schema.fields import YamlMapping
+from ..records.sources import ROOT
+from . import data, kernel
+
+WEB = Path(__file__).with_name("web")
+# Scripts of the worker besides the kernel, and of the page, in their order.
+WORKER = ("analysis.js", "worker.js")
+APP = (
+    *("state.js", "section.js", "time.js", "charts.js", "compute.js", "controls.js", "export.js"),
+    "main.js",
+)
+
+
+def render(checked: YamlMapping, root: Path = ROOT) -> str:
+    """Return the page.
+
+    Raises
+    ------
+    translate.TranslationError
+        The kernel has a construct that is not translated.
+    """
+    kernel_script = f"{kernel.javascript()}\n{_web('kernel_api.js')}"
+    worker_script = "\n".join(map(_web, WORKER))
+    app_script = "\n".join(map(_web, APP))
+    style = _web("style.css")
+    policy = "; ".join(
+        [
+            "default-src 'none'",
+            f"script-src {_source(kernel_script)} {_source(app_script)}",
+            f"style-src {_source(style)}",
+            "worker-src blob:",
+            "img-src data: blob:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        ]
+    )
+    parts = {
+        "STYLE": f"<style>{style}</style>",
+        "DATA": f'<script type="application/json" id="data">{_json(data.collect(checked, root))}'
+        "</script>",
+        "SCRIPT": f'<script id="kernel">{kernel_script}</script>\n'
+        f'<script type="text/plain" id="worker">{worker_script}</script>\n'
+        f"<script>{app_script}</script>",
+    }
+    page = _web("index.html")
+    page = page.replace(
+        '<meta charset="utf-8">',
+        f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        1,
+    )
+    for name, text in parts.items():
+        before, mark, after = page.partition(f"<!--{name}-->")
+        if not mark:
+            raise ValueError(f"web/index.html has no mark <!--{name}-->")
+        page = before + text + after
+    return page
+
+
+def _web(name: str) -> str:
+    return (WEB / name).read_text(encoding="utf-8")
+
+
+def _source(script: str) -> str:
+    """Return how a content security policy calls a script or a style."""
+    digest = hashlib.sha256(script.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
+
+
+def _json(value: Any) -> str:
+    """Return JSON that may stand in a script element."""
+    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
