@@ -10,7 +10,7 @@ from project import ROOT
 # Each part of a package may import those to its right, and the pipeline all of the science.
 LAYERS = {
     "pseudorigid": ("study", "figures", "sweep", "analyses", "proofs", "dynamics", "kernel"),
-    "pipeline": ("cli", "jobs", "publication", "checks", "config", "records"),
+    "pipeline": ("cli", "jobs", "publication", "checks", "explorer", "config", "records"),
 }
 LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(LAYERS[package])}
 MAX_PARTS = 7

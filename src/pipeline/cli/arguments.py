@@ -109,6 +109,10 @@ COMMANDS = {
     "report": SnakemakeCommand(
         "write one HTML page: figures, numbers beside the paper's, corrections, run times"
     ),
+    "explore": Command(
+        "write a page that computes orbits in a browser, with the same bits, and open it",
+        _switch("--no-open", "only write results/explorer.html"),
+    ),
     "archive": Command(
         "write one tar with the figures, the data and what they were made from",
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),

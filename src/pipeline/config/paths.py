@@ -10,12 +10,13 @@ from .schema.kinds import KINDS
 from .schema.published import FOLDERS, PAPER, PUBLISHED
 from .schema.stages import STAGES, upstream
 
-__all__ = ["ATLAS", "DERIVATIONS", "LEDGER", "PAPER", "PUBLISHED", "SHOWN"]
+__all__ = ["ATLAS", "DERIVATIONS", "EXPLORER", "LEDGER", "PAPER", "PUBLISHED", "SHOWN"]
 
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = FOLDERS["sweep"]
 LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
+EXPLORER = "results/explorer.html"
 DERIVATIONS = "results/claims/derivations.nc"
 
 Variants = dict[str, dict[str, YamlMapping]]  # variant -> scene -> complete block

@@ -11,7 +11,7 @@ from ..records.files import read_text
 from ..records.sources import ROOT
 from . import atlas
 
-CHECKED_FIGURES = ("fig2", "fig8")
+BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 _SCENES = (PAPER, "claims", "proofs")
 
@@ -21,7 +21,9 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     return {
         "version": _version(root),
         "scenes": {
-            name: block for group in _SCENES for name, block in checked["variants"][group].items()
+            name: block
+            for group in _SCENES
+            for name, block in checked["variants"].get(group, {}).items()
         },
         "check": _published_orbits(root),
         "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
@@ -39,21 +41,32 @@ def _published_orbits(root: Path) -> list[dict[str, Any]]:
     Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles,
     and the beginnings of the hashes of its blocks.
     """
-    manifest = json.loads(read_text(root / PUBLISHED[PAPER] / "MANIFEST.json"))
-    figures = []
-    for figure in CHECKED_FIGURES:
-        scene = manifest["scenes"][figure]
-        block, variables = scene["config"], manifest["data"][scene["data"]["orbits"]]["variables"]
-        figures.append(
-            {
-                "figure": figure,
-                **block["ball"],
-                **{name: block[name] for name in ("energy", "starts", "impacts")},
-                "block": 1024,
-                "variables": {
-                    name: {part: variables[name][part] for part in ("sha256", "blocks")}
-                    for name in STATE
-                },
-            }
-        )
-    return figures
+    name = f"{PUBLISHED[PAPER]}/MANIFEST.json"
+    if not (root / name).is_file():  # before the first ./reproduce accept
+        return []
+    try:
+        manifest = json.loads(read_text(root / name))
+        return [
+            _orbits(figure, scene["config"], manifest["data"][scene["data"]["orbits"]]["variables"])
+            for figure, scene in manifest["scenes"].items()
+            if scene["config"]["picture"] == "portrait"
+            and all(isinstance(start, float) for start in scene["config"]["starts"])
+        ]
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
+        raise ValueError(f"{name}: broken: {error!r}: run ./reproduce accept") from None
+
+
+def _orbits(figure: str, block: YamlMapping, variables: dict[str, Any]) -> dict[str, Any]:
+    """Return a figure's starts and the hashes of its orbits."""
+    counts, starts = block["impacts"], block["starts"]
+    return {
+        "figure": figure,
+        **block["ball"],
+        "energy": block["energy"],
+        "starts": starts,
+        "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
+        "block": BLOCK,
+        "variables": {
+            name: {part: variables[name][part] for part in ("sha256", "blocks")} for name in STATE
+        },
+    }

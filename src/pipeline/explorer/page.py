@@ -2,6 +2,9 @@
 
 Its bytes depend on the tree alone: config.yaml, the kernel, the committed manifest and `web/`. The
 content security policy allows the page's own scripts, by their hashes, and nothing from elsewhere.
+docs/explorer.html is a copy. Renew it after a change:
+
+    .venv/bin/python -m pipeline.explorer.page
 """
 
 import base64
@@ -10,10 +13,13 @@ import json
 from pathlib import Path
 from typing import Any
 
+from .. import config
 from ..config.schema.fields import YamlMapping
+from ..records.files import write_whole
 from ..records.sources import ROOT
 from . import data, kernel
 
+COPY = "docs/explorer.html"
 WEB = Path(__file__).with_name("web")
 # Scripts of the worker besides the kernel, and of the page, in their order.
 WORKER = ("analysis.js", "worker.js")
@@ -68,6 +74,11 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
     return page
 
 
+def _write_copy() -> None:
+    """Write the committed copy, which a web server may show."""
+    write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))
+
+
 def _web(name: str) -> str:
     return (WEB / name).read_text(encoding="utf-8")
 
@@ -81,3 +92,7 @@ def _source(script: str) -> str:
 def _json(value: Any) -> str:
     """Return JSON that may stand in a script element."""
     return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+if __name__ == "__main__":
+    _write_copy()

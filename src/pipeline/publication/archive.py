@@ -24,8 +24,9 @@ from ..checks import manifest, published_sets, verify
 from ..checks.checksums import SUMS, ChecksumError, format_sums, known_sums
 from ..checks.difference import Comparison, dataset_difference
 from ..checks.published_sets import PublishedSet
-from ..config.paths import LEDGER, LEDGER_DATA, PAPER, PUBLISHED
+from ..config.paths import EXPLORER, LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
+from ..explorer import page
 from ..records import files, swhid
 from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, read_bytes
@@ -133,6 +134,7 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
             if (root / path).is_file():
                 archived[record_path(path)] = _public_record(root, path)
     archived |= {path: read_bytes(root / path) for path in paths if (root / path).is_file()}
+    archived[EXPLORER] = page.render(checked, root).encode()
     about = _ABOUT_TEXT.read_text(encoding="utf-8")
     about = about.format(
         certificates=CERTIFICATES,
@@ -250,6 +252,8 @@ def _read_folder(folder: Path, checked: YamlMapping) -> Contents:
     try:
         manifest.read(folder, PUBLISHED[PAPER])
         archived = contents(folder, checked)
+        if (folder / EXPLORER).is_file():  # otherwise the page of its config and its manifest
+            archived[EXPLORER] = read_bytes(folder / EXPLORER)
         # An archive may have files that this tree's config does not name.
         for name in _parsed(read_bytes(folder / SUMS)) if (folder / SUMS).is_file() else ():
             if name not in archived and _is_plain(name) and (folder / name).is_file():

@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...config import ConfigError, build_specs
+from ...config.paths import EXPLORER
 from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
@@ -78,6 +79,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
     committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
     candidates = {file for pattern in _OTHER_FILES for file in RESULTS.glob(pattern)}
+    candidates |= set() if args.folder else {ROOT / EXPLORER}
     with suppress(ConfigError):  # records alone then say which files are results
         specs = build_specs.of_all(args.checked)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
@@ -89,7 +91,11 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
         with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             candidates |= {results[json.loads(read_text(record))["output"]["file"]], record}
     there = sorted(file for file in candidates if file.is_file() and _is_inside(file))
-    chosen = (file for file in there if file.relative_to(RESULTS).parts[0] in names)
+    chosen = (
+        file
+        for file in there
+        if file.parent == RESULTS or file.relative_to(RESULTS).parts[0] in names
+    )
     return [file for file in chosen if str(file.relative_to(ROOT)) not in committed]
 
 

@@ -6,6 +6,7 @@ from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
 from ..session import interruptible, locked, one_line
+from . import explore
 
 PAGE = "results/report/report.html"
 
@@ -23,5 +24,6 @@ def run(args: Arguments) -> int:
 
         with interruptible(), one_line():
             write_whole(ROOT / PAGE, page.render(ROOT, checked, absent))
+            explore.write(checked)  # which the report links to
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return status

@@ -14,7 +14,8 @@ from .words import ConfigError, refusal
 # Commands of ./reproduce. A scene of the same name could not be asked for.
 COMMANDS = (
     *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report"),
-    *("archive", "article", "verify", "accept", "clean", "benchmark", "test", "help", "all"),
+    *("explore", "article", "archive", "verify", "accept", "clean", "benchmark", "test", "help"),
+    "all",
 )
 _Scenes = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 

@@ -1,0 +1,42 @@
+"""./reproduce explore: write the explorer, one HTML page, and open it in a browser."""
+
+import os
+import webbrowser
+from typing import Any
+
+from ...config.paths import EXPLORER
+from ...records.files import write_whole
+from ...records.sources import ROOT
+from ..arguments import Arguments
+from ..session import locked, one_line
+
+
+def run(args: Arguments) -> int:
+    """Write the page; unless told otherwise, open it where there is a display."""
+    with locked():
+        write(args.checked)
+    opened = not args.no_open and _open()
+    size = (ROOT / EXPLORER).stat().st_size / 1e6
+    print(f"{EXPLORER}  {size:.1f} MB: {'opened' if opened else 'open it'} in a browser")
+    return 0
+
+
+def write(checked: dict[str, Any]) -> None:
+    """Write the page of this tree."""
+    from ...explorer import page
+
+    with one_line():
+        write_whole(ROOT / EXPLORER, page.render(checked))
+
+
+def _open() -> bool:
+    """Open the page in the user's browser, and return whether there is one.
+
+    Without a display, Python would start a browser for terminals, which waits for keys.
+    """
+    if not {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"} & {n for n, v in os.environ.items() if v}:
+        return False
+    try:
+        return webbrowser.open((ROOT / EXPLORER).as_uri())
+    except (webbrowser.Error, OSError):
+        return False
