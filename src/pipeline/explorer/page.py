@@ -17,15 +17,16 @@ from .. import config
 from ..config.schema.fields import YamlMapping
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from . import data, kernel
+from . import compact, data, kernel
 
 COPY = "docs/explorer.html"
 WEB = Path(__file__).with_name("web")
-# Scripts of the worker besides the kernel, and of the page, in their order.
+# Scripts beside the kernel of both, those of the worker, and of the page, in their order.
+BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "worker.js")
 APP = (
-    *("state.js", "section.js", "time.js", "charts.js", "compute.js", "controls.js", "export.js"),
-    "main.js",
+    *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js"),
+    *("presets.js", "export.js", "controls.js", "main.js"),
 )
 
 
@@ -37,10 +38,10 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
     translate.TranslationError
         The kernel has a construct that is not translated.
     """
-    kernel_script = f"{kernel.javascript()}\n{_web('kernel_api.js')}"
-    worker_script = "\n".join(map(_web, WORKER))
-    app_script = "\n".join(map(_web, APP))
-    style = _web("style.css")
+    kernel_script = f"{kernel.javascript()}\n{_scripts(BOTH)}"
+    worker_script = _scripts(WORKER)
+    app_script = _scripts(APP)
+    style = compact.style(_web("style.css"))
     policy = "; ".join(
         [
             "default-src 'none'",
@@ -60,7 +61,7 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
         f'<script type="text/plain" id="worker">{worker_script}</script>\n'
         f"<script>{app_script}</script>",
     }
-    page = _web("index.html")
+    page = compact.markup(_web("index.html"))
     page = page.replace(
         '<meta charset="utf-8">',
         f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
@@ -81,6 +82,11 @@ def _write_copy() -> None:
 
 def _web(name: str) -> str:
     return (WEB / name).read_text(encoding="utf-8")
+
+
+def _scripts(names: tuple[str, ...]) -> str:
+    """Return scripts of `web/` as one, without comments."""
+    return "".join(compact.script(_web(name)) for name in names)
 
 
 def _source(script: str) -> str:

@@ -1,0 +1,555 @@
+"use strict";
+/*
+ * What the page finds out about orbits, in the worker. The formulas are those of the package
+ * pseudorigid: analyses/regularity.py, analyses/winding.py and dynamics/tangent_orbits.py (facts of
+ * an orbit), dynamics/periodic.py, dynamics/branch.py with dynamics/tracing.py, analyses/jumps.py.
+ * The impacts come from the kernel, bit for bit; sums here may differ in the last digits.
+ */
+const analysis = (() => {
+  const GROWTH_THRESHOLD = 2.2;
+  const FIRST_VERDICT = 500; // impacts below which an orbit gets no verdict
+  const RESOLUTION = 20000; // cells of a symmetry line
+  const SAME = 1e-9; // all lengths from here on in section radii
+  const CLOSURE = 1e-14;
+  const JUMP = 1e-6;
+  const NEWTON_STEPS = 5;
+  const POINTS_OF_IMAGE = 16;
+  const MOST_IMAGES = 400;
+  const WEAK = 1.5;
+  const LARGEST_SPLIT = 0.1;
+  const FINEST = 1e-3;
+  const MOST_VERTICES = 400000;
+
+  const out = new Float64Array(4);
+
+  /** The state after some impacts, and in `out[3]` the time of the last flight. */
+  function iterate(k, g, state, impacts) {
+    if (impacts === 0) return state;
+    pseudorigid.iterate(k, g, state[0], state[1], state[2], impacts, out);
+    return [out[0], out[1], out[2]];
+  }
+
+  // ---------------------------------------------------------------- facts of one orbit
+
+  /** An orbit that is followed on request, with what is known about it so far. */
+  class Follower {
+    constructor(k, g, energy, state) {
+      this.k = k;
+      this.orbit = pseudorigid.follow(k, g, ...state);
+      this.impacts = 0;
+      this.turns = new Float64Array(1024);
+      this.sizes = new Float64Array(1024);
+      const fixed = geometry.fixedPoint(k, g, energy);
+      this.centre = fixed.x;
+      this.expected = Number.isNaN(fixed.rotation) ? 0.5 : fixed.rotation;
+      this.round = 1 / Math.sqrt(k * (1 + k)); // the section is a disk in (x, round * y)
+      this.last = this.relative(...state);
+    }
+
+    relative(x, v, w) {
+      return [x - this.centre, this.round * (v - this.k * w)];
+    }
+
+    /** Follow the orbit over further impacts, and return their states and times of flight. */
+    advance(impacts) {
+      const piece = this.orbit.advance(impacts);
+      const total = this.impacts + impacts;
+      if (total > this.turns.length) {
+        this.turns = grown(this.turns, total);
+        this.sizes = grown(this.sizes, total);
+      }
+      this.sizes.set(piece.size, this.impacts);
+      let [p, q] = this.last;
+      for (let i = 0; i < impacts; i++) {
+        const [r, s] = this.relative(piece.x[i], piece.xdot[i], piece.udot[i]);
+        let turn = Math.atan2(q * r - p * s, p * r + q * s) / (2 * Math.PI);
+        if (turn < this.expected - 0.5) turn += 1;
+        else if (turn > this.expected + 0.5) turn -= 1;
+        this.turns[this.impacts + i] = turn;
+        p = r;
+        q = s;
+      }
+      this.last = [p, q];
+      this.impacts = total;
+      return piece;
+    }
+
+    /** Exponent, rotation number and verdict after all impacts so far. */
+    facts() {
+      const n = this.impacts;
+      const growth = growthOf(this.sizes, n);
+      let verdict = "";
+      if (n >= FIRST_VERDICT) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
+      return {
+        impacts: n,
+        exponent: this.orbit.exponent(),
+        rotation: weightedMean(this.turns, n),
+        growth,
+        verdict,
+      };
+    }
+  }
+
+  function grown(array, size) {
+    const larger = new Float64Array(Math.max(size, 2 * array.length));
+    larger.set(array);
+    return larger;
+  }
+
+  /** The growth of a tangent vector, by which analyses/regularity.py tells orbits apart. */
+  function growthOf(sizes, n) {
+    const quarter = Math.floor(n / 4);
+    if (!quarter) return NaN;
+    let difference = 0;
+    for (let i = 0; i < quarter; i++) difference += sizes[n - quarter + i] - sizes[quarter + i];
+    return ((difference / quarter) * 0.5 * n) / (n - 2 * quarter);
+  }
+
+  /** A weighted Birkhoff average with the weights (t (1 - t))^3. */
+  function weightedMean(values, n) {
+    let sum = 0;
+    let weights = 0;
+    for (let i = 0; i < n; i++) {
+      const t = (i + 0.5) / n;
+      const bump = (t * (1 - t)) ** 3;
+      sum += bump * values[i];
+      weights += bump;
+    }
+    return sum / weights;
+  }
+
+  // ---------------------------------------------------------------- periodic orbits
+
+  /** All symmetric orbits of a prime period that the search shows, by rising |multiplier|. */
+  function periodicOrbits(k, g, energy, period) {
+    const { radius } = geometry.section(k, g, energy);
+    const seen = [];
+    const solved = [];
+    const near = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < SAME * radius);
+    for (const line of symmetryLines(k, g, energy, period)) {
+      for (const state of solutions(k, g, line, period, radius)) {
+        const points = orbitFrom(k, g, state, period).map((point) => point.slice(0, 3));
+        const others = seen.concat(points.slice(1));
+        if (others.some((other) => near(other, points[0]))) continue;
+        seen.push(...points);
+        const [a, , , d] = pseudorigid.tangent(k, g, ...state, period);
+        const trace = a + d;
+        const limit = CLOSURE * radius * Math.max(1, Math.abs(multiplierOf(trace)) / 50);
+        for (const point of points) {
+          const [first, gap] = closest(k, g, energy, point, period);
+          if (!(gap <= limit)) continue;
+          solved.push(described(k, g, first, period, trace));
+          break;
+        }
+      }
+    }
+    const size = (orbit) => Math.abs(orbit.multiplier);
+    solved.sort((a, b) => size(a) - size(b) || a.points[0][0] - b.points[0][0]);
+    return solved;
+  }
+
+  function described(k, g, state, period, trace) {
+    const points = orbitFrom(k, g, state, period);
+    const elliptic = Math.abs(trace) < 2;
+    const saddle = trace > 0 ? "hyperbolic" : "inverse hyperbolic";
+    return {
+      period,
+      points,
+      trace,
+      type: elliptic ? "elliptic" : saddle,
+      multiplier: multiplierOf(trace),
+      rotation: elliptic ? Math.acos(trace / 2) / (2 * Math.PI) : trace > 0 ? 0 : 0.5,
+      time: points.reduce((sum, point) => sum + point[3], 0),
+    };
+  }
+
+  function multiplierOf(trace) {
+    const size = Math.abs(trace);
+    if (size <= 2) return 1;
+    return Math.sign(trace) * 0.5 * (size + Math.sqrt((size - 2) * (size + 2)));
+  }
+
+  /** The points [x, xdot, udot, time of the next flight] of an orbit. */
+  function orbitFrom(k, g, state, period) {
+    const points = [];
+    for (let i = 0; i < period; i++) {
+      const after = iterate(k, g, state, 1);
+      points.push([...state, out[3]]);
+      state = after;
+    }
+    return points;
+  }
+
+  /** The lines to search: states along each, parameters, and a defect that is 0 at an orbit. */
+  function symmetryLines(k, g, energy, period) {
+    const { centre, radius } = geometry.section(k, g, energy);
+    const onR = (q) => {
+      const udot = (radius * (((1 - q) * (1 + q)) / (1 + q * q))) / Math.sqrt(1 + k);
+      return [centre + radius * ((2 * q) / (1 + q * q)), k * udot, udot];
+    };
+    const symmetricFlight = (state) => {
+      const after = iterate(k, g, state, 1);
+      return after[1] - 0.5 * g * out[3];
+    };
+    const cells = Array.from({ length: RESOLUTION }, (_, i) => i);
+    const inside = cells.map((i) => (2 * i + 1) / RESOLUTION - 1);
+    if (period % 2) return [{ start: onR, parameters: inside, defect: symmetricFlight }];
+    const lines = [{ start: onR, parameters: inside, defect: ([, v, w]) => v - k * w }];
+    const longest = (radius * Math.sqrt(k)) / g;
+    for (const sign of [1, -1]) {
+      lines.push({
+        start: (theta) => onRP(k, g, energy, theta, sign),
+        parameters: cells.map((i) => (longest * (i + 1)) / RESOLUTION),
+        defect: symmetricFlight,
+      });
+    }
+    return lines;
+  }
+
+  /** The state whose flight is symmetric in time and lasts 2 theta; null if there is none. */
+  function onRP(k, g, energy, theta, sign) {
+    const cosine = Math.cos(theta);
+    const square = g * g * cosine * cosine + k * (2 * energy - g * g * theta * theta);
+    if (!(square >= 0)) return null;
+    const a = (g * cosine + sign * Math.sqrt(square)) / k;
+    const [v, w] = geometry.rebound(k, -g * theta, -a * Math.sin(theta));
+    if (!(v + w >= 0)) return null;
+    const state = [a * cosine, v, w];
+    iterate(k, g, state, 1);
+    return Math.abs(out[3] - 2 * theta) <= 1e-7 * (1 + theta) ? state : null;
+  }
+
+  function solutions(k, g, line, period, radius) {
+    const value = (parameter) => {
+      const state = line.start(parameter);
+      return state ? line.defect(iterate(k, g, state, Math.floor(period / 2))) : NaN;
+    };
+    const found = [];
+    for (const ends of signChanges(value, line.parameters)) {
+      const [low, high] = ends.map((parameter) => {
+        const state = line.start(parameter);
+        return state ? [state, gapOf(k, g, state, period)] : [null, Infinity];
+      });
+      const [state, gap] = low[1] <= high[1] ? low : high;
+      if (gap < JUMP * radius) found.push(state); // a jump changes the sign, but does not close
+    }
+    return found;
+  }
+
+  /** The ends, neighbouring doubles, of each sign change; values are NaN beyond a line's ends. */
+  function signChanges(value, parameters) {
+    const values = parameters.map(value);
+    const changes = [];
+    for (let i = 0; i + 1 < parameters.length; i++) {
+      let [low, high] = [parameters[i], parameters[i + 1]];
+      let [atLow, atHigh] = [values[i], values[i + 1]];
+      if (Number.isNaN(atLow) && Number.isNaN(atHigh)) continue;
+      if (Number.isNaN(atHigh)) {
+        [high] = halve(low, high, (q) => !Number.isNaN(value(q)));
+        atHigh = value(high);
+      } else if (Number.isNaN(atLow)) {
+        [, low] = halve(low, high, (q) => Number.isNaN(value(q)));
+        atLow = value(low);
+      }
+      if (atLow * atHigh <= 0) changes.push(halve(low, high, (q) => atLow * value(q) > 0));
+    }
+    return changes;
+  }
+
+  function halve(low, high, goesRight) {
+    for (;;) {
+      const middle = 0.5 * (low + high);
+      if (middle === low || middle === high) return [low, high];
+      if (goesRight(middle)) low = middle;
+      else high = middle;
+    }
+  }
+
+  /** The largest coordinate of P^n z - z. */
+  function gapOf(k, g, state, period) {
+    const after = iterate(k, g, state, period);
+    return Math.max(...after.map((value, i) => Math.abs(value - state[i])));
+  }
+
+  /** The state nearby from which an orbit closes best, and the gap that it leaves. */
+  function closest(k, g, energy, state, period) {
+    let best = state;
+    let least = Infinity;
+    for (let step = 0; step < NEWTON_STEPS; step++) {
+      const after = iterate(k, g, state, period);
+      const gap = Math.max(...after.map((value, i) => Math.abs(value - state[i])));
+      if (!(gap < least)) break;
+      best = state;
+      least = gap;
+      const [a, b, c, d] = pseudorigid.tangent(k, g, ...state, period);
+      const y = state[1] - k * state[2];
+      const fx = after[0] - state[0];
+      const fy = after[1] - k * after[2] - y;
+      const determinant = (a - 1) * (d - 1) - b * c;
+      if (determinant === 0) break;
+      const dx = (b * fy - (d - 1) * fx) / determinant;
+      const dy = (c * fx - (a - 1) * fy) / determinant;
+      state = geometry.chartState(k, g, energy, state[0] + dx, y + dy);
+      if (!state) break;
+    }
+    const ulp = best.map((value) => 2 ** (Math.floor(Math.log2(Math.abs(value) || 1e-300)) - 52));
+    let nearest = best;
+    for (let n = 0; n < 125; n++) {
+      const shift = [Math.floor(n / 25) - 2, (Math.floor(n / 5) % 5) - 2, (n % 5) - 2];
+      const near = best.map((value, i) => value + shift[i] * ulp[i]);
+      if (near[1] + near[2] < 0) continue;
+      const gap = gapOf(k, g, near, period);
+      if (gap < least) [nearest, least] = [near, gap];
+    }
+    return [nearest, least];
+  }
+
+  // ---------------------------------------------------------------- branches of a saddle
+
+  /** An unstable branch as a function of u >= 0, whose whole part counts images. */
+  class Branch {
+    constructor(k, g, energy, points, saddle, side) {
+      Object.assign(this, { k, g, energy });
+      this.radius = geometry.section(k, g, energy).radius;
+      const xy = points.map(([x, v, w]) => [x, v - k * w]);
+      this.point = points[saddle].slice(0, 3);
+      this.origin = xy[saddle];
+      this.period = points.length;
+      const [a, b, c, d] = pseudorigid.tangent(k, g, ...this.point, this.period);
+      this.multiplier = multiplierOf(a + d);
+      let e = Math.abs(b) > Math.abs(c) ? [b, this.multiplier - a] : [this.multiplier - d, c];
+      // Outer is away from the middle of the orbit, in coordinates in which the section is round.
+      const scale = [1, 1 / Math.sqrt(k * (1 + k))];
+      let outward = 0;
+      for (const i of [0, 1]) {
+        const mean = xy.reduce((sum, point) => sum + point[i], 0) / xy.length;
+        outward += (this.origin[i] - mean) * scale[i] * e[i] * scale[i];
+      }
+      const length = Math.hypot(e[0] * scale[0], e[1] * scale[1]);
+      const sign = outward > 0 === (side === "outer") ? 1 : -1;
+      e = e.map((value) => (sign * value) / length);
+      if (this.multiplier < 0) {
+        this.period *= 2;
+        this.multiplier *= this.multiplier;
+      }
+      this.weak = this.multiplier < WEAK;
+      // A weak branch takes many images; a longer first segment, at the price of its square, has
+      // them begin further out.
+      const segment = this.weak ? 1e-4 : 1e-6;
+      this.first = e.map((value) => (segment * this.radius * value) / this.multiplier);
+      this.images = MOST_IMAGES;
+      if (this.weak) this.images = (MOST_IMAGES * Math.log(WEAK)) / Math.log(this.multiplier);
+    }
+
+    at(u) {
+      const image = Math.floor(u);
+      const sigma = 1 + (this.multiplier - 1) * (u - image);
+      const [x, y] = this.origin.map((value, i) => value + sigma * this.first[i]);
+      const state = pseudorigid.stateXY(this.k, this.g, this.energy, x, y);
+      return iterate(this.k, this.g, state, image * this.period);
+    }
+
+    /** Whether the two orbits to where an image begins agree so far. */
+    accurate(image, states) {
+      if (image < 2) return true;
+      let extent = 0;
+      for (const i of [0, 1, 2]) {
+        const values = states.map((state) => state[i]);
+        extent = Math.max(extent, Math.max(...values) - Math.min(...values));
+      }
+      const before = this.at(image * (1 - 2 ** -52));
+      const after = this.at(image);
+      return Math.max(...after.map((v, i) => Math.abs(v - before[i]))) <= LARGEST_SPLIT * extent;
+    }
+  }
+
+  /**
+   * The polyline of a branch: {x, xdot, udot} with NaN at jumps, and `ended`, the length where
+   * rounding errors end it. Lengths are in section radii, `bend` in degrees. An inverse hyperbolic
+   * orbit is traced under P^2n. A part of the section that is magnified, `window`: {x, y, half} in
+   * the chart with half its size in section radii, is traced as finely as the whole section.
+   */
+  function traceBranch(k, g, energy, points, spec) {
+    const { stable, side, length, distance = 0.01, bend = 10, window } = spec;
+    let { saddle } = spec;
+    if (stable) saddle = mirrored(k, points, saddle);
+    const branch = new Branch(k, g, energy, points, saddle, side);
+    const rule = { distance, straight: Math.cos((bend * Math.PI) / 180), finest: () => 1 };
+    if (window) rule.finest = magnification(k, g, energy, stable ? { ...window, y: -window.y } : window);
+    let vertices = [];
+    let travelled = 0;
+    let ended = null;
+    let steps = [];
+    for (let image = 0; travelled < length; image++) {
+      const recent = vertices.filter((vertex) => vertex.u >= image - 1).map((v) => v.state);
+      if (image > branch.images || (branch.weak && !branch.accurate(image, recent))) {
+        ended = travelled;
+        break;
+      }
+      // Only what is new, and the last two sides before it, can be too coarse.
+      const fixed = vertices.slice(0, Math.max(0, vertices.length - 3));
+      let rest = vertices.slice(fixed.length);
+      for (let i = 0; i < POINTS_OF_IMAGE; i++) {
+        const u = image + i / POINTS_OF_IMAGE;
+        rest.push({ u, state: branch.at(u) });
+      }
+      for (;;) {
+        const refined = refine(branch, rest, rule);
+        if (refined.length === rest.length) break;
+        rest = refined;
+        if (fixed.length + rest.length > MOST_VERTICES) {
+          throw new Error(`a branch of more than ${MOST_VERTICES} points: make the length shorter`);
+        }
+      }
+      vertices = fixed.concat(rest);
+      steps = sidesOf(vertices, branch.radius);
+      travelled = 0;
+      for (const step of steps) travelled += step.jump ? 0 : step.length;
+    }
+    return { ...polyline(branch, vertices, steps, length, stable), ended };
+  }
+
+  function mirrored(k, points, saddle) {
+    const chart = ([x, v, w]) => [x, v - k * w];
+    const [x, y] = chart(points[saddle]);
+    const distances = points.map((point) => {
+      const [a, b] = chart(point);
+      return Math.max(Math.abs(a - x), Math.abs(b + y));
+    });
+    return distances.indexOf(Math.min(...distances));
+  }
+
+  function isJump(low, high) {
+    const middle = 0.5 * (low + high);
+    return high - low < 2 ** -40 || middle === low || middle === high;
+  }
+
+  function sidesOf(vertices, radius) {
+    const sides = [];
+    for (let i = 0; i + 1 < vertices.length; i++) {
+      const [a, b] = [vertices[i], vertices[i + 1]];
+      const step = a.state.map((value, j) => (b.state[j] - value) / radius);
+      const length = Math.hypot(...step);
+      const indivisible = isJump(a.u, b.u);
+      sides.push({ step, length, indivisible, jump: indivisible && length > 1e-6 });
+    }
+    return sides;
+  }
+
+  /** How much finer than usual a side is drawn: as the window magnifies it, or by 1 outside. */
+  function magnification(k, g, energy, { x, y, half }) {
+    const { radius, height } = geometry.section(k, g, energy);
+    const place = ([px, v, w]) => [(px - x) / radius, (v - k * w - y) / height];
+    return (a, b) => {
+      const [from, to] = [place(a), place(b)];
+      const reach = Math.hypot(to[0] - from[0], to[1] - from[1]);
+      const meets = [0, 1].every(
+        (i) => Math.min(from[i], to[i]) - reach <= half && Math.max(from[i], to[i]) + reach >= -half,
+      );
+      return meets ? Math.min(1, half) : 1;
+    };
+  }
+
+  /** The vertices with a further one in the middle of each side that is too long or bends. */
+  function refine(branch, vertices, { distance, straight, finest }) {
+    const sides = sidesOf(vertices, branch.radius);
+    const limits = sides.map((_, i) => distance * finest(vertices[i].state, vertices[i + 1].state));
+    const coarse = sides.map((side, i) => side.length > limits[i]);
+    for (let i = 0; i + 1 < sides.length; i++) {
+      const [a, b] = [sides[i], sides[i + 1]];
+      const product = a.step.reduce((sum, value, j) => sum + value * b.step[j], 0);
+      if (!(product < straight * a.length * b.length)) continue;
+      if (!(Math.max(a.length, b.length) > FINEST * Math.min(limits[i], limits[i + 1]))) continue;
+      if (a.length >= 0.5 * b.length) coarse[i] = true;
+      if (b.length >= 0.5 * a.length) coarse[i + 1] = true;
+    }
+    const refined = [vertices[0]];
+    sides.forEach((side, i) => {
+      if (coarse[i] && !side.indivisible) {
+        const u = 0.5 * (vertices[i].u + vertices[i + 1].u);
+        refined.push({ u, state: branch.at(u) });
+      }
+      refined.push(vertices[i + 1]);
+    });
+    return refined;
+  }
+
+  function polyline(branch, vertices, sides, length, stable) {
+    const rows = [branch.point];
+    let travelled = 0;
+    for (let i = 0; i < vertices.length; i++) {
+      rows.push(vertices[i].state);
+      if (travelled >= length || i >= sides.length) break;
+      if (sides[i].jump) rows.push([NaN, NaN, NaN]);
+      else travelled += sides[i].length;
+    }
+    const turned = stable ? rows.map((row) => pseudorigid.reverse(branch.k, ...row)) : rows;
+    const [x, xdot, udot] = [0, 1, 2].map((i) => Float64Array.from(turned, (row) => row[i]));
+    return { x, xdot, udot, travelled };
+  }
+
+  // ---------------------------------------------------------------- where the map jumps
+
+  /** The curve where the inverse map jumps, with NaN at gaps, and its length in (x, y). */
+  function jumpCurve(k, g, energy, sides = 4000) {
+    const { centre, radius, height } = geometry.section(k, g, energy);
+    const none = { x: new Float64Array(0), y: new Float64Array(0), length: 0 };
+    if (!(centre - radius < -g)) return none;
+    const margin = 2 ** -46;
+    const depth = (centre + g) / radius;
+    const end = Math.sqrt((1 - depth) / (1 + depth)) * (1 - margin);
+    const image = (t) => {
+      const x = centre - radius * (((1 - t) * (1 + t)) / (1 + t * t));
+      const y = (height * 2 * t) / (1 + t * t) / (1 + k);
+      const [x1, v1, w1] = iterate(k, g, [x, y, -y], 1);
+      return [x1, v1 - k * w1];
+    };
+    const parameters = Array.from({ length: sides + 1 }, (_, i) => end * (1 - (2 * i) / sides));
+    const points = parameters.map(image);
+    const span = (i) => {
+      const values = points.map((point) => point[i]);
+      return Math.max(...values) - Math.min(...values);
+    };
+    const extent = Math.max(span(0), span(1));
+    const apart = (a, b) => Math.max(Math.abs(a[0] - b[0]), Math.abs(a[1] - b[1]));
+    const gaps = points.slice(1).map((last, i) => {
+      let [low, high] = [parameters[i], parameters[i + 1]];
+      let [a, b] = [points[i], last];
+      const smallest = Math.max(0.01 * apart(a, b), 1e-9 * extent);
+      for (let n = 0; n < 40; n++) {
+        if (!(apart(a, b) > smallest)) return false; // the sides only become shorter
+        const middle = 0.5 * (low + high);
+        const point = image(middle);
+        if (apart(a, point) > apart(point, b)) [high, b] = [middle, point];
+        else [low, a] = [middle, point];
+      }
+      return apart(a, b) > smallest;
+    });
+    const lengthOf = (every) => {
+      let total = 0;
+      for (let i = 0; i < sides; i += every) {
+        if (gaps.slice(i, i + every).some(Boolean)) continue;
+        total += Math.hypot(points[i + every][0] - points[i][0], points[i + every][1] - points[i][1]);
+      }
+      return total;
+    };
+    const [fine, middle] = [lengthOf(1), lengthOf(2)];
+    const x = [];
+    const y = [];
+    points.forEach((point, i) => {
+      x.push(point[0]);
+      y.push(point[1]);
+      if (gaps[i]) {
+        x.push(NaN);
+        y.push(NaN);
+      }
+    });
+    return {
+      x: Float64Array.from(x),
+      y: Float64Array.from(y),
+      length: fine + (fine - middle) / 3,
+    };
+  }
+
+  return { Follower, periodicOrbits, traceBranch, jumpCurve };
+})();

@@ -1,0 +1,1077 @@
+"use strict";
+/* Buttons, fields, pointers and keys: what a person does becomes calls of the Explorer's methods. */
+const NEAR_LINE = { mouse: 8, pen: 12, touch: 18 }; // pixels from y = 0 where a drag shoots a fan
+const CLICK = 6; // pixels that a pointer may move in a click
+const FAN = 12; // orbits of a fan that is shot by dragging
+
+class Controls {
+  constructor(explorer) {
+    this.explorer = explorer;
+    this.box = element("section");
+    this.seen = { regular: false, chaotic: false };
+    this.fill();
+    this.listen();
+    this.pointers();
+    this.keys();
+    this.makeAtlas();
+    this.theme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  }
+
+  get state() {
+    return this.explorer.state;
+  }
+
+  // ---------------------------------------------------------------- the page's lists and fields
+
+  fill() {
+    const option = (value, text) => {
+      const node = document.createElement("option");
+      node.value = value;
+      node.textContent = text;
+      return node;
+    };
+    const known = PRESETS.filter(({ name }) => this.explorer.data.scenes[name]);
+    element("preset").append(option("", "My own"), ...known.map(({ name, title }) => option(name, title)));
+    element("span").append(...[8, 16, 30, 60, 120].map((span) => option(span, `${span} / ω`)));
+    for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
+    element("period").append(option("all", "1 to 12"));
+    element("period").value = "6";
+    element("version").textContent = this.explorer.data.version;
+    this.option = option;
+  }
+
+  /** Set all fields from the state. */
+  refresh() {
+    const { state } = this;
+    for (const [name, value] of [["k", state.k], ["g", state.g], ["E", state.energy]]) {
+      element(name).value = String(value);
+    }
+    this.slides();
+    this.validate();
+    element("preset").value = state.preset;
+    const preset = PRESETS.find(({ name }) => name === state.preset);
+    element("see").textContent =
+      preset?.see ?? "Your own picture: closed curves are regular motion, scattered points are chaos.";
+    if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
+      element("span").append(this.option(state.span, `${state.span} / ω`));
+    }
+    element("span").value = String(state.span);
+    element("impacts").value = String(state.impacts);
+    element("back").checked = state.back;
+    element("jump").checked = state.jump;
+    this.press();
+    this.listOrbits();
+    this.listPeriodic();
+    this.noteJump();
+    this.moment();
+    this.drawAtlas();
+  }
+
+  /** Show which buttons of each group are chosen. */
+  press() {
+    const { state } = this;
+    const pressed = {
+      "as-surface": state.view.kind === "surface",
+      "as-disk": state.view.kind === "disk",
+      "by-orbit": state.colour === "orbit",
+      "by-verdict": state.colour === "verdict",
+      "chart-exponent": state.chart === "exponent",
+      "chart-rotation": state.chart === "rotation",
+    };
+    for (const [id, on] of Object.entries(pressed)) element(id).setAttribute("aria-pressed", on);
+  }
+
+  hint(text) {
+    element("hint").textContent = text;
+  }
+
+  welcome() {
+    const touch = window.matchMedia("(pointer: coarse)").matches;
+    const { state } = this;
+    if (state.motion) this.hint("Press Play to watch the ball, or step from impact to impact.");
+    else this.hint(`${touch ? "Tap" : "Click"} anywhere on the surface: an orbit starts there, and its ball bounces.`);
+  }
+
+  /** Tell what has been found, and what to do next. */
+  completed() {
+    const orbit = this.explorer.orbits[this.state.chosen];
+    const mine = this.state.preset === "" ? orbit : null;
+    if (!mine?.facts?.verdict) return;
+    this.seen[mine.facts.verdict] = true;
+    const first =
+      mine.facts.verdict === "regular"
+        ? "This orbit is regular: it stays on closed curves, an island."
+        : "This orbit is chaotic: it wanders over the sea, and its exponent stays above zero.";
+    let next = "Drag along the dashed line to shoot a fan of orbits, and use the wheel, or pinch, to zoom.";
+    if (!this.seen.chaotic) next = "Now start one in the grey sea.";
+    else if (!this.seen.regular) next = "Now start one inside the closed curves.";
+    this.hint(`${first} ${next}`);
+  }
+
+  listOrbits() {
+    const list = element("orbits");
+    const { orbits } = this.explorer;
+    list.replaceChildren();
+    this.rows = orbits.map((orbit, index) => {
+      const row = document.createElement("li");
+      const radio = document.createElement("input");
+      radio.type = "radio";
+      radio.name = "chosen";
+      radio.id = `orbit-${orbit.key}`;
+      radio.addEventListener("change", () => {
+        this.explorer.choose(index);
+      });
+      const label = document.createElement("label");
+      label.htmlFor = radio.id;
+      const text = document.createElement("div");
+      const title = document.createElement("div");
+      const swatch = document.createElement("span");
+      swatch.className = "swatch";
+      const name = document.createElement("span");
+      title.append(swatch, name);
+      const facts = document.createElement("div");
+      facts.className = "facts";
+      text.append(title, facts);
+      label.append(text);
+      const buttons = document.createElement("div");
+      buttons.className = "bar";
+      buttons.append(
+        button("+", `Follow orbit ${index + 1} twice as long`, () => this.explorer.extend(orbit)),
+        button("×", `Remove orbit ${index + 1}`, () => this.explorer.remove(orbit)),
+      );
+      row.append(radio, label, buttons);
+      list.append(row);
+      return { orbit, index, radio, swatch, name, facts };
+    });
+    if (!orbits.length) {
+      const row = document.createElement("li");
+      row.className = "nothing";
+      row.textContent = "None yet.";
+      list.append(row);
+    }
+    this.updateFacts();
+    this.markChosen();
+    this.sceneKinds();
+  }
+
+  updateFacts() {
+    const { colours } = this.explorer.section;
+    for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
+      swatch.style.backgroundColor = orbit.colour(colours);
+      const verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      name.textContent = `${index + 1}. ${verdict}${orbit.back ? ", backwards" : ""}`;
+      const count = `${COUNT.format(orbit.count)} impacts`;
+      const exponent = orbit.facts ? shortNumber(orbit.facts.exponent, 4) : "–";
+      facts.textContent = `${count} · exponent ${exponent} · rotation ${orbit.rotationText} · start ${orbit.startText}`;
+    }
+  }
+
+  markChosen() {
+    for (const { radio, index } of this.rows ?? []) radio.checked = index === this.state.chosen;
+    this.sceneKinds();
+  }
+
+  sceneKinds() {
+    const kinds = sceneKinds(this.state, this.explorer.orbits);
+    const select = element("scene-kind");
+    const now = [...select.options].map(({ value }) => value);
+    if (String(now) === String(kinds)) return;
+    select.replaceChildren(...kinds.map((kind) => this.option(kind, kind)));
+    element("copy-scene").disabled = !kinds.length;
+  }
+
+  // ---------------------------------------------------------------- k, g and E
+
+  slides() {
+    const { k, g, energy } = this.state;
+    const [low, high] = geometry.energyBounds(k, g);
+    element("k-slide").value = Math.sqrt(k);
+    element("g-slide").value = Math.sqrt(g / k);
+    element("E-slide").value = Math.sqrt((energy - low) / (high - low));
+    for (const [name, value] of [["k", k], ["g", g], ["E", energy]]) {
+      element(`${name}-slide`).setAttribute("aria-valuetext", String(value));
+    }
+    const first = geometry.firstJump(k, g);
+    const share = Math.sqrt((first - low) / (high - low));
+    element("mark").hidden = !(share < 1);
+    element("mark").style.left = `calc(8px + ${share} * (100% - 16px) - 1px)`;
+    const show = (value) => shortNumber(value, 4);
+    element("bounds").textContent =
+      `E lies between ${show(low)} and ${show(high)}, eq. (31). Mark: E_g = g²(1 + k/2) = ${show(first)}, above which the map jumps. E/g² = ${show(energy / (g * g))}.`;
+  }
+
+  /** A slider's value with as many digits as it can mean. */
+  slid(name) {
+    const share = Number(element(`${name}-slide`).value) ** 2;
+    if (name === "k") return Math.max(0.001, Number(share.toPrecision(3)));
+    const { k, g } = this.typed();
+    if (name === "g") return Number((k * Math.min(0.999, Math.max(1e-4, share))).toPrecision(3));
+    const [low, high] = geometry.energyBounds(k, g);
+    const step = 10 ** Math.floor(Math.log10((high - low) / 500));
+    const value = Math.round((low + share * (high - low)) / step) * step;
+    return Number(Math.min(high - step / 10, Math.max(low + step / 10, value)).toPrecision(6));
+  }
+
+  typed() {
+    return { k: readNumber(element("k").value), g: readNumber(element("g").value), E: readNumber(element("E").value) };
+  }
+
+  /** Show what is wrong with the fields, and return whether nothing is. */
+  validate() {
+    const { k, g } = this.typed();
+    const errors = ["k", "g", "E"].map((name) => {
+      // Where k or g is wrong, the bounds that depend on them cannot be told.
+      const error = parameterError(name, element(name).value, { k, g });
+      return error;
+    });
+    if (errors[0]) errors[1] = errors[2] = "";
+    if (errors[1]) errors[2] = "";
+    ["k", "g", "E"].forEach((name, i) => {
+      setText(`${name}-error`, errors[i]);
+      element(name).setAttribute("aria-invalid", errors[i] ? "true" : "false");
+    });
+    return errors.every((error) => !error);
+  }
+
+  /** Take over k, g and E if they are allowed; the starts keep their places. */
+  applyBall() {
+    if (!this.validate()) return;
+    const { k, g, E } = this.typed();
+    if (k === this.state.k && g === this.state.g && E === this.state.energy) return;
+    Object.assign(this.state, { k, g, energy: E, preset: "" });
+    element("preset").value = "";
+    this.slides();
+    this.drawAtlas();
+    clearTimeout(this.ballWaits);
+    this.ballWaits = setTimeout(() => {
+      this.explorer.restart(true);
+      this.listOrbits();
+    }, 60);
+  }
+
+  // ---------------------------------------------------------------- listeners
+
+  listen() {
+    const { explorer } = this;
+    const on = (id, type, act) => element(id).addEventListener(type, act);
+    on("preset", "change", () => {
+      const name = element("preset").value;
+      if (!name) return;
+      explorer.pause();
+      explorer.show(presetState(name, explorer.data.scenes));
+      this.welcome();
+    });
+    on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+    on("as-surface", "click", () => this.shape("surface"));
+    on("as-disk", "click", () => this.shape("disk"));
+    for (const colour of ["orbit", "verdict"]) {
+      on(`by-${colour}`, "click", () => {
+        this.state.colour = colour;
+        this.changed();
+      });
+    }
+    for (const chart of ["exponent", "rotation"]) {
+      on(`chart-${chart}`, "click", () => {
+        this.state.chart = chart;
+        this.changed();
+      });
+    }
+    on("home", "click", () => this.whole());
+    on("closer", "click", () => this.zoom(0.6));
+    on("further", "click", () => this.zoom(1 / 0.6));
+    for (const [id, across, up] of [["left", -1, 0], ["right", 1, 0], ["up", 0, 1], ["down", 0, -1]]) {
+      on(id, "click", () => this.nudge(across, up));
+    }
+    for (const name of ["k", "g", "E"]) {
+      on(name, "input", () => this.applyBall());
+      on(`${name}-slide`, "input", () => {
+        element(name).value = String(this.slid(name));
+        this.applyBall();
+      });
+    }
+    on("clear", "click", () => {
+      explorer.clear();
+      this.hint("Start an orbit anywhere on the section.");
+    });
+    on("impacts", "input", () => {
+      const value = readNumber(element("impacts").value);
+      const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
+      const most = COUNT.format(MOST_IMPACTS);
+      setText("impacts-error", allowed ? "" : `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`);
+      element("impacts").setAttribute("aria-invalid", !allowed);
+      if (allowed) this.state.impacts = value;
+      explorer.saveSoon();
+    });
+    on("back", "change", () => {
+      this.state.back = element("back").checked;
+      explorer.saveSoon();
+    });
+    on("start-form", "submit", (event) => {
+      event.preventDefault();
+      this.startTyped();
+    });
+    on("fan-form", "submit", (event) => {
+      event.preventDefault();
+      this.fanTyped();
+    });
+    on("play", "click", () => (explorer.playing ? explorer.pause() : explorer.play()));
+    on("back-impact", "click", () => explorer.stepImpact(-1));
+    on("next-impact", "click", () => explorer.stepImpact(1));
+    on("span", "change", () => {
+      this.state.span = Number(element("span").value);
+      explorer.time.reset();
+      explorer.setTime(this.state.time);
+    });
+    this.listenToPeriodic(on);
+    this.listenToRecord(on);
+    on("check", "click", () => this.check());
+    new ResizeObserver(() => {
+      explorer.section?.resize();
+      explorer.time?.draw();
+      explorer.drawChart();
+      this.drawAtlas();
+    }).observe(this.box);
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => this.theme(matches ? "dark" : "light"));
+    element("atlas-panel").addEventListener("toggle", () => this.drawAtlas());
+  }
+
+  /** Draw after a change of how things are shown. */
+  changed() {
+    this.press();
+    this.explorer.look();
+    this.updateFacts();
+    this.explorer.saveSoon();
+  }
+
+  theme(name) {
+    document.documentElement.dataset.theme = name;
+    element("theme").textContent = name === "dark" ? "Light" : "Dark";
+    if (!this.explorer.controls) return;
+    this.explorer.look();
+    this.updateFacts();
+    this.drawAtlas();
+  }
+
+  startTyped() {
+    const { k, g, energy } = this.state;
+    const [x, y] = ["start-x", "start-y"].map((id) => readNumber(element(id).value));
+    const { centre, radius, height } = geometry.section(k, g, energy);
+    const [p, q] = [(x - centre) / radius, y / height];
+    let error = "";
+    if (Number.isNaN(x) || Number.isNaN(y)) error = "x and y of a start are numbers";
+    else if (!(p * p + q * q < 1)) {
+      const [low, high] = [centre - radius, centre + radius].map((value) => shortNumber(value, 4));
+      error = `x = ${shortNumber(x)}, y = ${shortNumber(y)} lies outside the section: on y = 0, x runs from ${low} to ${high}`;
+    }
+    setText("start-error", error);
+    for (const id of ["start-x", "start-y"]) element(id).setAttribute("aria-invalid", error !== "");
+    if (!error) this.begin([[p, q]]);
+  }
+
+  fanTyped() {
+    const [from, to, count] = ["fan-from", "fan-to", "fan-count"].map((id) => readNumber(element(id).value));
+    let error = "";
+    if (!(Math.abs(from) < 1 && Math.abs(to) < 1)) error = "the ends of a fan lie between −1 and 1";
+    else if (!(Number.isInteger(count) && count >= 2 && count <= MOST_ORBITS)) {
+      error = `a fan has 2 to ${MOST_ORBITS} orbits`;
+    }
+    setText("fan-error", error);
+    for (const id of ["fan-from", "fan-to", "fan-count"]) element(id).setAttribute("aria-invalid", error !== "");
+    if (!error) this.shoot(from, to, count);
+  }
+
+  /** Start orbits of one's own. */
+  begin(places) {
+    this.state.preset = "";
+    element("preset").value = "";
+    this.explorer.startOrbits(places);
+  }
+
+  shoot(from, to, count = FAN) {
+    this.begin(fan(from, to, count, 0).map(({ p }) => [p, 0]));
+    this.hint(`A fan of ${count} orbits. The chart of rotation numbers shows them side by side.`);
+  }
+
+  // ---------------------------------------------------------------- the view
+
+  shape(kind) {
+    const { view } = this.state;
+    if (view.kind === kind) return;
+    const { section } = this.explorer;
+    const place = section.place(...section.middle);
+    const magnified = view.half < 0.9;
+    view.kind = kind;
+    if (!magnified || !place) [view.x, view.y, view.half] = HOME[kind];
+    else if (kind === "disk") [view.x, view.y] = place;
+    else {
+      [view.x, view.y] = [0, 0];
+      section.project();
+      const { k, g, energy } = this.state;
+      const at = section.screen(...geometry.stateAt(k, g, energy, ...place));
+      if (at) {
+        view.x = (at[0] - section.middle[0]) / section.scale;
+        view.y = (section.middle[1] - at[1]) / section.scale;
+      } else [view.x, view.y, view.half] = HOME[kind];
+    }
+    this.changed();
+    this.explorer.viewChanged();
+  }
+
+  whole() {
+    const { view } = this.state;
+    [view.x, view.y, view.half] = HOME[view.kind];
+    this.moved();
+  }
+
+  /** Zoom by a factor about a point of the screen, which stays where it is. */
+  zoom(factor, at = this.explorer.section.cross ?? this.explorer.section.middle) {
+    const { view } = this.state;
+    const { section } = this.explorer;
+    const half = Math.min(4, Math.max(2e-15, view.half * factor));
+    const across = (at[0] - section.middle[0]) / section.scale;
+    const up = (section.middle[1] - at[1]) / section.scale;
+    view.x += across * (1 - half / view.half);
+    view.y += up * (1 - half / view.half);
+    view.half = half;
+    this.moved();
+  }
+
+  pan(across, down) {
+    const { view } = this.state;
+    const { scale } = this.explorer.section;
+    view.x -= across / scale;
+    view.y += down / scale;
+    this.moved();
+  }
+
+  turn(across, down) {
+    const { view } = this.state;
+    const tenth = (value) => Math.round(10 * value) / 10;
+    view.azimuth = tenth((((view.azimuth - 0.35 * across) % 360) + 360) % 360);
+    view.elevation = tenth(Math.min(89.9, Math.max(0.1, view.elevation + 0.35 * down)));
+    this.moved();
+  }
+
+  nudge(across, up) {
+    if (this.state.view.kind === "surface" && this.state.view.half > 0.9) this.turn(30 * across, -30 * up);
+    else this.pan(-60 * across, 60 * up);
+  }
+
+  /** Draw in the next frame after the view has moved. */
+  moved() {
+    if (this.drawing) return;
+    this.drawing = requestAnimationFrame(() => {
+      this.drawing = null;
+      this.explorer.section.look();
+      this.explorer.viewChanged();
+    });
+  }
+
+  // ---------------------------------------------------------------- pointers
+
+  pointers() {
+    const { box } = this;
+    const down = new Map();
+    let gesture = null;
+    const at = (event) => {
+      const { left, top } = box.getBoundingClientRect();
+      return [event.clientX - left, event.clientY - top];
+    };
+    box.addEventListener("pointerdown", (event) => {
+      if (event.button > 1) return;
+      const point = at(event);
+      down.set(event.pointerId, point);
+      box.setPointerCapture(event.pointerId);
+      if (down.size === 2) {
+        this.explorer.section.fan = null;
+        gesture = { kind: "pinch" };
+        return;
+      }
+      if (down.size > 2) return;
+      const place = this.onLine(point, event.pointerType);
+      gesture = { kind: "click", from: point, fan: place, pan: event.shiftKey || event.button === 1 };
+      this.hideCross();
+    });
+    box.addEventListener("pointermove", (event) => {
+      const point = at(event);
+      if (!down.has(event.pointerId)) {
+        this.hover(point, event.pointerType);
+        return;
+      }
+      const before = down.get(event.pointerId);
+      if (gesture?.kind === "pinch") this.pinch(down, event.pointerId, point);
+      else if (gesture) this.drag(gesture, before, point);
+      down.set(event.pointerId, point);
+    });
+    const lift = (event) => {
+      if (!down.delete(event.pointerId) || down.size) return;
+      const done = gesture;
+      gesture = null;
+      this.finish(done, at(event), event.type === "pointercancel");
+    };
+    box.addEventListener("pointerup", lift);
+    box.addEventListener("pointercancel", lift);
+    box.addEventListener("pointerleave", () => {
+      element("where").textContent = "";
+    });
+    box.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        const lines = event.deltaMode === 1 ? 30 : 1;
+        const amount = Math.max(-240, Math.min(240, event.deltaY * lines));
+        this.zoom(Math.exp(0.0022 * amount), at(event));
+      },
+      { passive: false },
+    );
+    const curves = element("curves");
+    const seek = (event) => {
+      const { left, top } = curves.getBoundingClientRect();
+      const { plot } = this.explorer.time;
+      if (!plot) return;
+      this.explorer.pause();
+      const [time] = plot.valuesAt(event.clientX - left, event.clientY - top);
+      const [first, last] = plot.across;
+      this.explorer.setTime(Math.min(Math.max(time, first), last - 1e-9 * (last - first)));
+    };
+    curves.addEventListener("pointerdown", (event) => {
+      curves.setPointerCapture(event.pointerId);
+      seek(event);
+    });
+    curves.addEventListener("pointermove", (event) => {
+      if (curves.hasPointerCapture(event.pointerId)) seek(event);
+    });
+  }
+
+  /** The place on y = 0 where a drag would shoot a fan; null if it would move the view. */
+  onLine(point, type) {
+    const { section } = this.explorer;
+    const place = section.place(...point);
+    if (!place) return null;
+    const near = section.distanceFromLine(...point, place[0]) <= (NEAR_LINE[type] ?? 8);
+    return near ? place[0] : null;
+  }
+
+  hover(point, type) {
+    this.box.classList.toggle("on-line", this.onLine(point, type) !== null);
+    element("where").textContent = this.describe(point);
+  }
+
+  describe(point) {
+    const place = this.explorer.section.place(...point);
+    if (!place) return "outside the section";
+    const { k, g, energy, view } = this.state;
+    const { x, y } = geometry.pointAt(k, g, energy, ...place);
+    const digits = Math.min(17, 5 + Math.max(0, Math.ceil(-Math.log10(view.half))));
+    return `x = ${shortNumber(x, digits)}, y = ${shortNumber(y, digits)}`;
+  }
+
+  drag(gesture, before, point) {
+    if (gesture.kind === "click") {
+      if (Math.hypot(point[0] - gesture.from[0], point[1] - gesture.from[1]) < CLICK) return;
+      gesture.kind = gesture.fan !== null && !gesture.pan ? "fan" : "move";
+      before = gesture.from;
+    }
+    if (gesture.kind === "fan") {
+      const place = this.explorer.section.place(...point);
+      if (!place) return;
+      gesture.to = place[0];
+      this.explorer.section.fan = [gesture.fan, gesture.to];
+      this.explorer.section.drawCursors();
+      return;
+    }
+    const step = [point[0] - before[0], point[1] - before[1]];
+    if (this.state.view.kind === "surface" && !gesture.pan) this.turn(...step);
+    else this.pan(...step);
+  }
+
+  pinch(down, moved, point) {
+    const ids = [...down.keys()].slice(0, 2);
+    if (!ids.includes(moved)) return;
+    const before = ids.map((id) => down.get(id));
+    const after = ids.map((id) => (id === moved ? point : down.get(id)));
+    const gap = ([a, b]) => Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1]));
+    const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    const [from, to] = [middle(before), middle(after)];
+    this.pan(to[0] - from[0], to[1] - from[1]);
+    this.explorer.section.project();
+    this.zoom(gap(before) / gap(after), to);
+    this.explorer.section.project();
+  }
+
+  finish(gesture, point, cancelled) {
+    const { section } = this.explorer;
+    section.fan = null;
+    section.drawCursors();
+    if (!gesture || cancelled) return;
+    if (gesture.kind === "fan" && gesture.to !== undefined) this.shoot(gesture.fan, gesture.to);
+    if (gesture.kind === "click") this.startAt(gesture.from);
+  }
+
+  startAt(point) {
+    const place = this.explorer.section.place(...point);
+    if (place) this.begin([place]);
+    else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+  }
+
+  // ---------------------------------------------------------------- keys
+
+  keys() {
+    const { box, explorer } = this;
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    box.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      const { section } = explorer;
+      const { key } = event;
+      if (arrows[key]) {
+        if (event.shiftKey) this.nudge(arrows[key][0], -arrows[key][1]);
+        else this.moveCross(...arrows[key]);
+      } else if (key === "Enter") {
+        if (section.cross) this.startAt(section.cross);
+        else this.moveCross(0, 0);
+      } else if (key === "+" || key === "=") this.zoom(0.7);
+      else if (key === "-" || key === "−") this.zoom(1 / 0.7);
+      else if (key === "0") this.whole();
+      else if (key === "f" || key === "F") this.markFan();
+      else if (key === " ") element("play").click();
+      else if (key === "Escape") this.hideCross();
+      else return;
+      event.preventDefault();
+    });
+    box.addEventListener("blur", () => this.hideCross());
+    element("curves").addEventListener("keydown", (event) => {
+      const { time, span } = this.state;
+      if (event.key === "ArrowLeft") explorer.setTime(time - span / 100);
+      else if (event.key === "ArrowRight") explorer.setTime(time + span / 100);
+      else if (event.key === "PageUp") explorer.stepImpact(1);
+      else if (event.key === "PageDown") explorer.stepImpact(-1);
+      else if (event.key === "Home") explorer.setTime(Math.max(explorer.time.window()[0], explorer.motion?.ends[0] ?? 0));
+      else if (event.key === " ") element("play").click();
+      else return;
+      event.preventDefault();
+    });
+  }
+
+  moveCross(across, down) {
+    const { section } = this.explorer;
+    const step = Math.min(section.width, section.height) / 40;
+    const [left, top] = section.cross ?? section.middle;
+    section.cross = [
+      Math.min(section.width - 4, Math.max(4, left + across * step)),
+      Math.min(section.height - 4, Math.max(4, top + down * step)),
+    ];
+    section.drawCursors();
+    const text = this.describe(section.cross);
+    element("where").textContent = text;
+    clearTimeout(this.speaking);
+    this.speaking = setTimeout(() => (element("spoken").textContent = text), 300);
+  }
+
+  hideCross() {
+    this.explorer.section.cross = null;
+    this.fanFrom = null;
+    this.explorer.section.drawCursors();
+  }
+
+  /** Take the pointer's x as one end of a fan on y = 0; the second end shoots it. */
+  markFan() {
+    const { section } = this.explorer;
+    const place = section.place(...(section.cross ?? section.middle));
+    if (!place) return;
+    if (this.fanFrom === null || this.fanFrom === undefined) {
+      [this.fanFrom] = place;
+      this.hint("One end of the fan is set: move the pointer and press F again.");
+      return;
+    }
+    this.shoot(this.fanFrom, place[0]);
+    this.fanFrom = null;
+  }
+
+  // ---------------------------------------------------------------- time
+
+  speed() {
+    return Number(element("speed").value);
+  }
+
+  showPlaying() {
+    element("play").textContent = this.explorer.playing ? "Pause" : "Play";
+  }
+
+  /** Say where the motion is. */
+  moment() {
+    const { motion, time } = this.explorer;
+    const now = time?.now();
+    const curves = element("curves");
+    for (const id of ["play", "back-impact", "next-impact"]) element(id).disabled = !motion;
+    if (!now) {
+      element("moment").textContent = this.state.motion ? "Searching for the periodic orbit …" : "Start an orbit, or choose one.";
+      return;
+    }
+    const [x, v, w] = now.state.map((value) => value.toFixed(4).replace("-", "−"));
+    const count = motion.count === Infinity ? "" : ` of ${COUNT.format(motion.count)}`;
+    element("moment").textContent =
+      `t = ${this.state.time.toFixed(2).replace("-", "−")} after impact ${COUNT.format(motion.impact(now.index)).replace("-", "−")}${count}, at x = ${x}, ẋ⁻ = ${v}, u̇⁻ = ${w}`;
+    const [first, last] = time.window();
+    curves.setAttribute("aria-valuemin", first);
+    curves.setAttribute("aria-valuemax", last);
+    curves.setAttribute("aria-valuenow", this.state.time.toFixed(2));
+    curves.setAttribute("aria-valuetext", `t = ${this.state.time.toFixed(2)}`);
+  }
+
+  // ---------------------------------------------------------------- periodic orbits
+
+  listenToPeriodic(on) {
+    const { explorer } = this;
+    on("find", "click", () => {
+      const value = element("period").value;
+      const periods = value === "all" ? Array.from({ length: 12 }, (_, i) => i + 1) : [Number(value)];
+      this.state.periods = [...new Set([...this.state.periods, ...periods])].sort((a, b) => a - b);
+      explorer.search();
+      explorer.saveSoon();
+    });
+    on("forget", "click", () => {
+      this.state.periods = [];
+      explorer.searcher.restart();
+      this.listPeriodic();
+      explorer.section.drawLines();
+      explorer.saveSoon();
+    });
+    on("saddle", "change", () => this.listPoints());
+    on("branch-form", "submit", (event) => {
+      event.preventDefault();
+      this.drawBranches();
+    });
+    on("no-branches", "click", () => {
+      this.state.branches = [];
+      explorer.branchLines = [];
+      explorer.searcher.restart();
+      this.noteBranches("");
+      explorer.section.drawLines();
+      this.sceneKinds();
+      explorer.saveSoon();
+    });
+    on("jump", "change", () => explorer.setJump(element("jump").checked));
+  }
+
+  notePeriodic(text) {
+    setText("periodic-note", text);
+  }
+
+  noteBranches(text) {
+    setText("branch-note", text);
+  }
+
+  noteJump() {
+    const { jumpLength, state } = this.explorer;
+    let text = "";
+    if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
+    else if (state.jump && jumpLength) {
+      text = `The map jumps across a curve of length ${shortNumber(jumpLength, 6)} in (x, y); its inverse across the mirror image.`;
+    } else if (state.jump) text = "Computing the curve …";
+    setText("jump-note", text);
+  }
+
+  listPeriodic() {
+    const { explorer } = this;
+    const list = element("periodic");
+    list.replaceChildren();
+    const saddles = [];
+    let count = 0;
+    for (const period of this.state.periods) {
+      const seen = {};
+      for (const orbit of explorer.periodic.get(period) ?? []) {
+        const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
+        count += 1;
+        if (orbit.type !== "elliptic") saddles.push({ period, type: orbit.type, nth });
+        list.append(this.periodicRow(orbit, nth));
+      }
+    }
+    if (this.state.periods.length && this.state.periods.every((period) => explorer.periodic.has(period))) {
+      this.notePeriodic(`${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
+    } else if (!this.state.periods.length) this.notePeriodic("");
+    const select = element("saddle");
+    const chosen = select.value;
+    this.saddles = saddles;
+    select.replaceChildren(
+      ...saddles.map(({ period, type, nth }, i) => {
+        const number = nth ? `, no. ${nth + 1}` : "";
+        return this.option(i, `period ${period}, ${type}${number}`);
+      }),
+    );
+    if (!saddles.length) select.append(this.option("", "find a saddle first"));
+    else if (chosen && saddles[Number(chosen)]) select.value = chosen;
+    this.listPoints();
+  }
+
+  periodicRow(orbit, nth) {
+    const { period, type, trace, multiplier, rotation, time } = orbit;
+    const row = document.createElement("li");
+    const shape = document.createElement("span");
+    shape.textContent = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
+    shape.setAttribute("aria-hidden", "true");
+    const text = document.createElement("div");
+    const title = document.createElement("div");
+    title.textContent = `Period ${period}, ${type}`;
+    const facts = document.createElement("div");
+    facts.className = "facts";
+    const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}` : `multiplier ${shortNumber(multiplier, 7)}`;
+    facts.textContent = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · ${more} · time ${shortNumber(time, 6)}`;
+    text.append(title, facts);
+    const show = button("In time", `Show the ${type} orbit of period ${period} in time`, () => {
+      this.explorer.showPeriodic(period, type, nth);
+    });
+    row.append(shape, text, show);
+    return row;
+  }
+
+  listPoints() {
+    const saddle = this.saddles?.[Number(element("saddle").value)];
+    const points = saddle ? Array.from({ length: saddle.period }, (_, i) => this.option(i, i + 1)) : [];
+    element("saddle-point").replaceChildren(this.option(-1, "all"), ...points);
+  }
+
+  drawBranches() {
+    const { explorer } = this;
+    const chosen = element("saddle").value;
+    const length = readNumber(element("branch-length").value);
+    let error = "";
+    if (chosen === "") error = "find periodic orbits first: a saddle is hyperbolic";
+    else if (!(length > 0 && length <= 20)) {
+      error = `length = ${element("branch-length").value} is not allowed: above 0, at most 20 section radii`;
+    }
+    setText("branch-error", error);
+    element("branch-length").setAttribute("aria-invalid", !(length > 0 && length <= 20));
+    if (error) return;
+    const spec = {
+      ...this.saddles[Number(chosen)],
+      saddle: Number(element("saddle-point").value),
+      kind: element("branch-kind").value,
+      side: element("branch-side").value,
+      length,
+    };
+    this.state.branches = [spec];
+    this.state.preset = "";
+    explorer.branchLines = [];
+    explorer.searcher.restart();
+    explorer.search();
+    this.sceneKinds();
+    explorer.saveSoon();
+  }
+
+  // ---------------------------------------------------------------- the atlas
+
+  makeAtlas() {
+    const { atlas } = this.explorer.data;
+    if (!atlas) {
+      element("atlas-panel").hidden = true;
+      return;
+    }
+    const bytes = Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0));
+    this.atlas = { ...atlas, bytes };
+    const canvas = element("atlas");
+    const goTo = ([k, logarithm]) => this.goTo(k, 10 ** logarithm);
+    const at = (event) => {
+      const { left, top } = canvas.getBoundingClientRect();
+      return this.atlasPlot.valuesAt(event.clientX - left, event.clientY - top);
+    };
+    canvas.addEventListener("click", (event) => goTo(at(event)));
+    canvas.addEventListener("pointermove", (event) => this.tellAtlas(at(event)));
+    canvas.addEventListener("pointerleave", () => this.tellAtlas());
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    canvas.addEventListener("keydown", (event) => {
+      const { k, energy } = this.atlas;
+      this.aim ??= [this.state.k, Math.log10(Math.max(energy[0], this.state.energy / this.state.g ** 2))];
+      if (arrows[event.key]) {
+        const [across, up] = arrows[event.key];
+        this.aim[0] = Math.min(k.at(-1), Math.max(k[0], this.aim[0] + across * 0.01));
+        const [low, high] = [energy[0], energy.at(-1)].map(Math.log10);
+        this.aim[1] = Math.min(high, Math.max(low, this.aim[1] + up * 0.05));
+        this.tellAtlas(this.aim);
+        this.drawAtlas();
+      } else if (event.key === "Enter") {
+        goTo(this.aim);
+        this.aim = null;
+      } else return;
+      event.preventDefault();
+    });
+    canvas.addEventListener("blur", () => {
+      this.aim = null;
+      this.drawAtlas();
+    });
+  }
+
+  drawAtlas() {
+    if (!this.atlas || !element("atlas-panel").open) return;
+    const { context, width, height } = fitted(element("atlas"));
+    const colours = readColours();
+    const { k, energy, bytes, steps } = this.atlas;
+    const logs = energy.map(Math.log10);
+    const frame = { left: 48, top: 24, right: 12, bottom: 38 };
+    const plot = new Plot(context, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
+    const image = new OffscreenCanvas(k.length, energy.length);
+    const paper = image.getContext("2d");
+    const cells = paper.createImageData(k.length, energy.length);
+    const pixels = new Uint32Array(cells.data.buffer);
+    for (let i = 0; i < k.length; i++) {
+      for (let j = 0; j < energy.length; j++) {
+        const byte = bytes[i * energy.length + j];
+        pixels[(energy.length - 1 - j) * k.length + i] = packed(shade(byte > steps ? NaN : byte / steps));
+      }
+    }
+    paper.putImageData(cells, 0, 0);
+    const [left, top] = plot.at([k[0], logs.at(-1)]);
+    context.drawImage(image, left, top, ...plot.size);
+    context.fillStyle = colours.muted;
+    context.textBaseline = "middle";
+    context.textAlign = "right";
+    for (const value of [0.1, 0.3, 1, 3, 10, 30]) context.fillText(value, left - 6, plot.at([k[0], Math.log10(value)])[1]);
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) context.fillText(value, plot.at([value, 0])[0], top + plot.size[1] + 5);
+    context.fillStyle = colours.ink;
+    context.textAlign = "left";
+    context.textBaseline = "top";
+    context.fillText("E/g²", 4, 3);
+    context.textAlign = "right";
+    context.textBaseline = "bottom";
+    context.fillText("k", width - frame.right, height - 2);
+    context.textBaseline = "top";
+    context.fillText("dark: chaotic · light: regular", width - frame.right, 4);
+    const ratio = this.state.energy / this.state.g ** 2;
+    if (ratio > 0) this.cross(plot, [this.state.k, Math.log10(ratio)], "#ffffff");
+    if (this.aim) this.cross(plot, this.aim, "#ff7fc0");
+    this.atlasPlot = plot;
+  }
+
+  cross(plot, point, colour) {
+    const { context } = plot;
+    const [left, top] = plot.at(point);
+    for (const [ink, width] of [["#000000", 5], [colour, 2.5]]) {
+      context.strokeStyle = ink;
+      context.lineWidth = width;
+      context.beginPath();
+      context.arc(left, top, 7, 0, 2 * Math.PI);
+      context.stroke();
+    }
+    context.lineWidth = 1;
+  }
+
+  tellAtlas(point) {
+    if (!point) {
+      setText("atlas-note", "");
+      return;
+    }
+    const { k, energy, bytes, steps } = this.atlas;
+    const nearest = (list, value) => {
+      const distances = list.map((entry) => Math.abs(entry - value));
+      return distances.indexOf(Math.min(...distances));
+    };
+    const byte = bytes[nearest(k, point[0]) * energy.length + nearest(energy.map(Math.log10), point[1])];
+    const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
+    setText("atlas-note", `k = ${shortNumber(point[0], 3)}, E/g² = ${shortNumber(10 ** point[1], 3)}: regular share ${share}`);
+  }
+
+  /** Go to a k and E/g^2; g becomes smaller where eq. (31) needs it, which changes the scale only. */
+  goTo(k, ratio) {
+    const { atlas } = this;
+    k = Number(Math.min(atlas.k.at(-1), Math.max(atlas.k[0], k)).toPrecision(3));
+    ratio = Number(Math.min(atlas.energy.at(-1), Math.max(atlas.energy[0], ratio)).toPrecision(3));
+    const largest = (Math.sqrt(1 + 2 * ratio * k) - 1) / (2 * ratio);
+    const { g: present } = this.state;
+    const g = present < largest ? present : Number((0.9 * largest).toPrecision(2));
+    element("k").value = String(k);
+    element("g").value = String(g);
+    element("E").value = String(Number((ratio * g * g).toPrecision(6)));
+    this.applyBall();
+    const note = g === present ? "" : ` g became ${g}, which changes the scale only.`;
+    this.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
+  }
+
+  // ---------------------------------------------------------------- records
+
+  listenToRecord(on) {
+    const { explorer } = this;
+    on("copy-scene", "click", async () => {
+      const kind = element("scene-kind").value;
+      const block = sceneBlock(kind, this.state, explorer.orbits, explorer.periodic);
+      element("scene").value = block.text;
+      const copied = await copyText(block.text, element("scene"));
+      const first = copied ? "Copied." : "Copy the lines above.";
+      setText("scene-note", `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
+    });
+    on("copy-link", "click", async () => {
+      const address = `${window.location.href.split("#")[0]}${writeAddress(this.state)}`;
+      const area = document.createElement("textarea");
+      document.body.append(area);
+      const copied = await copyText(address, area);
+      area.remove();
+      setText("record-note", copied ? "The address of this picture is copied." : "Copy the address from the browser's bar.");
+    });
+    on("csv", "click", () => {
+      const orbit = explorer.orbits[this.state.chosen];
+      if (!orbit?.count) {
+        setText("record-note", "Choose an orbit first.");
+        return;
+      }
+      download("orbit.csv", new Blob([orbitCsv(orbit)], { type: "text/csv" }));
+      setText("record-note", `orbit.csv has ${COUNT.format(orbit.count)} impacts after the start, to the last bit.`);
+    });
+    on("png", "click", () => {
+      explorer.section.picture().toBlob((blob) => {
+        download("section.png", blob);
+        setText("record-note", "section.png has the section as it is drawn.");
+      });
+    });
+  }
+
+  async check() {
+    const { explorer } = this;
+    element("check").disabled = true;
+    const found = [];
+    try {
+      for (const figure of explorer.data.check) {
+        const name = `Figure ${figure.figure.replace("fig", "")}`;
+        setText("check-note", `Computing ${name} …`);
+        const result = await explorer.follower.ask("check", { figure });
+        const count = COUNT.format(result.impacts);
+        const { difference } = result;
+        if (!difference) found.push(`${name}: the same bits here, in ${count} impacts.`);
+        else {
+          found.push(`${name}: other bits here, in ${difference.variable} of orbit ${difference.orbit}, from impact ${COUNT.format(difference.impact)} or one of the next ${figure.block} on.`);
+        }
+      }
+    } catch (error) {
+      found.push(`The check could not be done: ${error.message}.`);
+    }
+    setText("check-note", found.join(" "));
+    element("check").disabled = false;
+  }
+}
+
+function setText(id, text) {
+  const node = element(id);
+  if (node.textContent !== text) node.textContent = text;
+}
+
+function button(text, label, act) {
+  const node = document.createElement("button");
+  node.type = "button";
+  node.className = "tight";
+  node.textContent = text;
+  node.setAttribute("aria-label", label);
+  node.title = label;
+  node.addEventListener("click", act);
+  return node;
+}
+
+/** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */
+function shade(share) {
+  if (Number.isNaN(share)) return "#808080";
+  const stops = [[0, 33, 16, 70], [0.25, 94, 40, 120], [0.5, 180, 70, 100], [0.75, 240, 140, 70], [1, 252, 240, 170]];
+  const at = Math.sqrt(share);
+  const index = Math.min(3, Math.floor(at * 4));
+  const [low, high] = [stops[index], stops[index + 1]];
+  const part = (at - low[0]) / (high[0] - low[0]);
+  const mixed = [1, 2, 3].map((i) => Math.round(low[i] + part * (high[i] - low[i])));
+  return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+}

@@ -1,0 +1,155 @@
+"use strict";
+/* From play to record: a block for config.yaml, CSV of an orbit, PNG of the view. */
+
+/** A number as YAML reads it back to the last bit: an exponent needs a point before it. */
+function yamlNumber(value) {
+  const text = String(value);
+  return /^-?\d+e/.test(text) ? text.replace("e", ".0e") : text;
+}
+
+/** The kinds of scene that show what is on the page: the first one shows most of it. */
+function sceneKinds(state, orbits) {
+  const forward = orbits.some((orbit) => !orbit.back);
+  const saddle = state.branches.find((branch) => branch.nth === 0);
+  const kinds = [];
+  if (saddle && state.view.kind === "disk" && state.view.half < 0.2) kinds.push("closeup");
+  if (saddle && forward) kinds.push("tangle");
+  if (state.jump && forward) kinds.push("jumps");
+  if (forward) kinds.push("portrait");
+  if (state.motion && state.motion.nth === 0) kinds.push("motion");
+  if (forward) kinds.push("exponents");
+  return kinds;
+}
+
+/** The block of a scene, and a note about what of the picture it leaves out. */
+function sceneBlock(kind, state, orbits, periodic) {
+  const { k, g, energy, view } = state;
+  const number = yamlNumber;
+  const lines = [`ball: {k: ${number(k)}, g: ${number(g)}}`, `energy: ${number(energy)}`];
+  const notes = [];
+  const shown = orbits.filter((orbit) => !orbit.back);
+  if (kind !== "motion" && kind !== "closeup") {
+    const starts = shown.map((orbit) => {
+      if (orbit.q === 0) return number(orbit.p);
+      const { x, y } = geometry.pointAt(k, g, energy, orbit.p, orbit.q);
+      return `{x: ${number(x)}, y: ${number(y)}}`;
+    });
+    const impacts = shown.map((orbit) => orbit.impacts);
+    lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
+    const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
+    if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
+    if (shown.length < orbits.length) notes.push("A scene has no backward orbits: they are left out.");
+  }
+  if (kind === "portrait" || kind === "tangle") {
+    const { elevation, azimuth } = view;
+    lines.push(`view: {elevation: ${number(elevation)}, azimuth: ${number(azimuth)}}`);
+    if (view.kind === "disk" || view.half !== HOME.surface[2]) {
+      notes.push("The pipeline draws the whole half ellipsoid; the points are the same.");
+    }
+  }
+  if (kind === "exponents") {
+    lines.push(`records: ${Math.max(2, Math.min(400, ...shown.map((orbit) => orbit.impacts)))}`);
+  }
+  if (kind === "jumps") lines.push("energies: []", "sides: 4000");
+  if (kind === "motion") {
+    const { period, type } = state.motion;
+    lines.push(`period: ${period}`, `type: ${type}`, `duration: ${number(state.span)}`);
+  }
+  if (kind === "tangle" || kind === "closeup") {
+    const { period, type } = state.branches.find((branch) => branch.nth === 0);
+    const same = state.branches.filter((b) => b.period === period && b.type === type && b.nth === 0);
+    const lengths = { outer: 0, inner: 0 };
+    for (const { side, length } of same) {
+      for (const name of side === "both" ? ["outer", "inner"] : [side]) {
+        lengths[name] = Math.max(lengths[name], length);
+      }
+    }
+    const sides = Object.entries(lengths).filter(([, length]) => length);
+    lines.push(`period: ${period}`, `type: ${type}`, "resolution: {distance: 0.01, bend: 10}");
+    if (kind === "tangle") {
+      const parts = sides.map(([side, length]) => `${side}: {length: ${number(length)}}`);
+      lines.push(`branches: {${parts.join(", ")}}`);
+    } else {
+      lines.push(...windowLines(state, periodic, period, type));
+      lines.push(`length: ${number(Math.max(...sides.map(([, length]) => length)))}`);
+    }
+    if (same.length < state.branches.length || same.some((b) => b.saddle >= 0 || b.kind !== "both")) {
+      notes.push("A scene has both kinds of branch, at all points of one orbit.");
+    }
+  }
+  const name = `explored_${pseudorigid.sha256(new TextEncoder().encode(kind + lines.join())).slice(0, 6)}`;
+  const body = [`picture: ${kind}`, ...lines].map((line) => `    ${line}`);
+  return { name, text: `  ${name}:\n${body.join("\n")}\n`, note: notes.join(" ") };
+}
+
+/** A list in lines of at most 96 characters. */
+function flowList(name, items) {
+  const lines = [];
+  let line = `${name}: [`;
+  items.forEach((item, i) => {
+    const piece = `${item}${i + 1 < items.length ? "," : "]"}`;
+    if (line.length + piece.length > 90) {
+      lines.push(line);
+      line = `  ${piece}`;
+    } else line += (line.endsWith("[") ? "" : " ") + piece;
+  });
+  return [...lines, line];
+}
+
+/** The window of a close-up, relative to the nearest point of the orbit, in section radii. */
+function windowLines({ k, g, energy, view }, periodic, period, type) {
+  const { radius, centre, height } = geometry.section(k, g, energy);
+  const orbit = (periodic.get(period) ?? []).find((entry) => entry.type === type);
+  if (!orbit) return [];
+  const middle = [centre + view.x * radius, view.y * height];
+  const away = ([x, v, w]) => Math.hypot((x - middle[0]) / radius, (v - k * w - middle[1]) / height);
+  const distances = orbit.points.map(away);
+  const point = distances.indexOf(Math.min(...distances));
+  const [x0, v0] = orbit.points[point];
+  // The section's window in (x, y) as one in (x, xdot): its corners and sides.
+  const across = [];
+  const up = [];
+  for (let i = -4; i <= 4; i++) {
+    for (let j = -4; j <= 4; j++) {
+      const at = [middle[0] + (i / 4) * view.half * radius, middle[1] + (j / 4) * view.half * height];
+      const state = geometry.chartState(k, g, energy, ...at);
+      if (!state) continue;
+      across.push((state[0] - x0) / radius);
+      up.push((state[1] - v0) / radius);
+    }
+  }
+  const range = (values) => `[${yamlNumber(Number(Math.min(...values).toPrecision(6)))}, ${yamlNumber(Number(Math.max(...values).toPrecision(6)))}]`;
+  return [`point: ${point}`, `window: {x: ${range(across)}, xdot: ${range(up)}}`];
+}
+
+/** An orbit as CSV, numbers to the last bit; the first row is its start. */
+function orbitCsv(orbit) {
+  const rows = ["impact,x,xdot,udot,tau", `0,${orbit.start.join(",")},`];
+  const sign = orbit.back ? -1 : 1;
+  for (let i = 0; i < orbit.count; i++) {
+    rows.push([sign * (i + 1), orbit.x[i], orbit.xdot[i], orbit.udot[i], orbit.tau[i]].join(","));
+  }
+  return `${rows.join("\n")}\n`;
+}
+
+function download(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+/** Copy a text; returns whether the browser let us. */
+async function copyText(text, area) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    area.value = text;
+    area.select();
+    return document.execCommand("copy");
+  }
+}

@@ -1,0 +1,543 @@
+"use strict";
+/*
+ * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on four canvases: the ground with
+ * its axes, the impacts of orbits, lines over them, and cursors. Impacts are written pixel by pixel.
+ */
+const SNAP = 4; // pixels from the symmetry line within which a start lies on it
+const LAYERS = ["ground", "points", "lines", "cursors"];
+
+class SectionView {
+  constructor(box, read) {
+    this.box = box;
+    this.read = read; // returns {state, orbits, overlays, cursor} of the page
+    this.layers = LAYERS.map((name) => {
+      const canvas = document.createElement("canvas");
+      canvas.className = name;
+      box.append(canvas);
+      return canvas;
+    });
+    [this.ground, this.points, this.lines, this.cursors] = this.layers.map((c) => c.getContext("2d"));
+    this.cross = null; // the keyboard's pointer on the screen
+    this.fan = null; // [p, p] of the fan that is being drawn
+    this.resize();
+  }
+
+  resize() {
+    const { width, height } = this.box.getBoundingClientRect();
+    this.width = Math.max(50, Math.round(width));
+    this.height = Math.max(50, Math.round(height));
+    this.ratio = Math.min(3, window.devicePixelRatio || 1);
+    for (const canvas of this.layers) {
+      canvas.width = Math.round(this.width * this.ratio);
+      canvas.height = Math.round(this.height * this.ratio);
+    }
+    for (const context of [this.ground, this.lines, this.cursors]) {
+      context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    }
+    this.image = this.points.createImageData(this.points.canvas.width, this.points.canvas.height);
+    this.pixels = new Uint32Array(this.image.data.buffer);
+    this.look();
+  }
+
+  /** Take over the colours and the view, and draw everything. */
+  look() {
+    this.colours = readColours();
+    this.project();
+    this.drawGround();
+    this.drawPoints();
+    this.drawLines();
+    this.drawCursors();
+  }
+
+  // ---------------------------------------------------------------- from states to the screen
+
+  /** Prepare the numbers of `place` and `screen` from the state. */
+  project() {
+    const { state } = this.read();
+    const { k, g, energy, view } = state;
+    const { centre, radius, height } = geometry.section(k, g, energy);
+    Object.assign(this, { k, centre, radius, sectionHeight: height, kind: view.kind });
+    const disk = view.kind === "disk";
+    const margin = disk ? { left: 52, top: 10, right: 10, bottom: 40 } : null;
+    this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
+    const wide = this.width - this.frame.left - this.frame.right;
+    const tall = this.height - this.frame.top - this.frame.bottom;
+    this.middle = [this.frame.left + wide / 2, this.frame.top + tall / 2];
+    this.scale = Math.min(wide, tall) / 2 / view.half; // pixels in a section radius
+    if (disk) {
+      this.origin = [centre + view.x * radius, view.y * height];
+      return;
+    }
+    const degree = Math.PI / 180;
+    const [sa, ca] = [Math.sin(view.azimuth * degree), Math.cos(view.azimuth * degree)];
+    const [se, ce] = [Math.sin(view.elevation * degree), Math.cos(view.elevation * degree)];
+    this.across = [-sa, ca, 0];
+    this.up = [-se * ca, -se * sa, ce];
+    this.eye = [ce * ca, ce * sa, se];
+    this.eyeSquare = k * this.eye[0] ** 2 + this.eye[1] ** 2 + k * this.eye[2] ** 2;
+    // The surface turns around a point within it, so that it is in the middle as the paper shows it.
+    const w = (0.2 * radius) / Math.sqrt(1 + k);
+    const pivot = [0, k * w, w];
+    const along = (axis) => axis[0] * pivot[0] + axis[1] * pivot[1] + axis[2] * pivot[2];
+    this.origin = [along(this.across) + view.x * radius, along(this.up) + view.y * radius];
+  }
+
+  /** Where a state is on the screen: [across, down], or null where the surface hides it. */
+  screen(x, v, w) {
+    const { origin, middle, k } = this;
+    if (this.kind === "disk") {
+      return [
+        middle[0] + ((x - origin[0]) / this.radius) * this.scale,
+        middle[1] - ((v - k * w - origin[1]) / this.sectionHeight) * this.scale,
+      ];
+    }
+    const dx = x - this.centre;
+    const [e0, e1, e2] = this.eye;
+    const facing = k * dx * e0 + v * e1 + k * w * e2;
+    if (facing < -1e-9 * this.radius) {
+      const t = (-2 * facing) / this.eyeSquare;
+      if (v + t * e1 + w + t * e2 >= 0) return null;
+    }
+    return this.flat(dx, v, w);
+  }
+
+  flat(dx, v, w) {
+    const { across, up, origin, middle, radius, scale } = this;
+    return [
+      middle[0] + ((across[0] * dx + across[1] * v - origin[0]) / radius) * scale,
+      middle[1] - ((up[0] * dx + up[1] * v + up[2] * w - origin[1]) / radius) * scale,
+    ];
+  }
+
+  /** The place [p, q] under a point of the screen, on the symmetry line if near; null if none. */
+  place(left, top) {
+    const across = (left - this.middle[0]) / this.scale;
+    const up = (this.middle[1] - top) / this.scale;
+    let p;
+    let q;
+    if (this.kind === "disk") {
+      p = (this.origin[0] - this.centre) / this.radius + across;
+      q = this.origin[1] / this.sectionHeight + up;
+    } else {
+      const hit = this.surfacePoint(across * this.radius + this.origin[0], up * this.radius + this.origin[1]);
+      if (!hit) return null;
+      p = hit[0] / this.radius;
+      q = (hit[1] - this.k * hit[2]) / this.sectionHeight;
+    }
+    if (!(p * p + q * q < 1)) return null;
+    return this.distanceFromLine(left, top, p) <= SNAP ? [p, 0] : [p, q];
+  }
+
+  /** The nearest point of the half ellipsoid at a position of the screen, from its centre. */
+  surfacePoint(a, b) {
+    const { k, radius, eye, across, up } = this;
+    const base = [0, 1, 2].map((i) => a * across[i] + b * up[i]);
+    const half = k * base[0] * eye[0] + base[1] * eye[1] + k * base[2] * eye[2];
+    const rest = k * base[0] ** 2 + base[1] ** 2 + k * base[2] ** 2 - k * radius * radius;
+    const root = half * half - this.eyeSquare * rest;
+    if (!(root >= 0)) return null;
+    for (const sign of [1, -1]) {
+      const t = (-half + sign * Math.sqrt(root)) / this.eyeSquare;
+      const point = base.map((value, i) => value + t * eye[i]);
+      if (point[1] + point[2] >= 0) return point;
+    }
+    return null;
+  }
+
+  /** Distance in pixels of a point of the screen from the symmetry line's part near p. */
+  distanceFromLine(left, top, p) {
+    let least = Infinity;
+    const reach = this.kind === "disk" ? [0] : [-4, -3, -2, -1, 0, 1, 2, 3, 4];
+    for (const step of reach) {
+      const f = p + (step * 3) / this.scale;
+      if (!(Math.abs(f) < 1)) continue;
+      const at = this.screen(...this.lineState(f));
+      if (at) least = Math.min(least, Math.hypot(at[0] - left, at[1] - top));
+    }
+    if (this.kind === "disk") {
+      least = Math.abs(this.middle[1] + (this.origin[1] / this.sectionHeight) * this.scale - top);
+    }
+    return least;
+  }
+
+  /** The state on y = 0 at a fraction, for drawing. */
+  lineState(p) {
+    const w = this.radius * Math.sqrt(Math.max(0, (1 - p) * (1 + p)) / (1 + this.k));
+    return [this.centre + p * this.radius, this.k * w, w];
+  }
+
+  inside([left, top]) {
+    const { frame } = this;
+    return (
+      left >= frame.left &&
+      top >= frame.top &&
+      left <= this.width - frame.right &&
+      top <= this.height - frame.bottom
+    );
+  }
+
+  // ---------------------------------------------------------------- the ground
+
+  drawGround() {
+    const { ground, colours } = this;
+    ground.clearRect(0, 0, this.width, this.height);
+    ground.fillStyle = colours.surface;
+    ground.font = `13px ${colours.font}`;
+    if (this.kind === "disk") this.drawDisk();
+    else this.drawHalfEllipsoid();
+  }
+
+  drawDisk() {
+    const { ground, colours, frame, middle, scale } = this;
+    const wide = this.width - frame.left - frame.right;
+    const tall = this.height - frame.top - frame.bottom;
+    ground.save();
+    ground.beginPath();
+    ground.rect(frame.left, frame.top, wide, tall);
+    ground.clip();
+    const across = middle[0] - ((this.origin[0] - this.centre) / this.radius) * scale;
+    const down = middle[1] + (this.origin[1] / this.sectionHeight) * scale;
+    ground.beginPath();
+    if (scale < 1e5) {
+      ground.arc(across, down, scale, 0, 2 * Math.PI);
+      ground.fill();
+    } else if (this.place(...middle)) {
+      ground.rect(frame.left, frame.top, wide, tall); // far inside the rim
+      ground.fill();
+    }
+    ground.restore();
+    ground.strokeStyle = colours.line;
+    ground.strokeRect(frame.left, frame.top, wide, tall);
+    this.drawAxis(0, "x", wide);
+    this.drawAxis(1, "y = ẋ − k u̇", tall);
+  }
+
+  drawAxis(index, name, length) {
+    const { ground, colours, frame, middle, scale } = this;
+    const unit = (index ? this.sectionHeight : this.radius) / scale; // of a pixel
+    const centre = this.origin[index];
+    const { offsets, labels, base } = ticksAround(centre, length * unit, length / (index ? 60 : 90));
+    ground.fillStyle = colours.muted;
+    ground.textAlign = index ? "right" : "center";
+    ground.textBaseline = index ? "middle" : "top";
+    offsets.forEach((offset, i) => {
+      const at = index ? middle[1] - offset / unit : middle[0] + offset / unit;
+      ground.beginPath();
+      if (index) {
+        ground.moveTo(frame.left, at);
+        ground.lineTo(frame.left - 4, at);
+        ground.fillText(labels[i], frame.left - 7, at);
+      } else {
+        ground.moveTo(at, this.height - frame.bottom);
+        ground.lineTo(at, this.height - frame.bottom + 4);
+        ground.fillText(labels[i], at, this.height - frame.bottom + 6);
+      }
+      ground.stroke();
+    });
+    ground.fillStyle = colours.ink;
+    ground.textAlign = "left";
+    const title = base ? `${name} − (${base})` : name;
+    if (index) ground.fillText(title, frame.left + 8, frame.top + 14);
+    else {
+      ground.textAlign = "right";
+      ground.textBaseline = "bottom";
+      ground.fillText(title, this.width - frame.right - 8, this.height - frame.bottom - 6);
+    }
+  }
+
+  drawHalfEllipsoid() {
+    const { ground, colours, radius, k } = this;
+    ground.beginPath();
+    if (this.scale > 1e4) {
+      if (this.place(...this.middle)) ground.rect(0, 0, this.width, this.height);
+    } else {
+      // The surface is drawn as many patches, rings from the middle of the disk to its rim. All run
+      // round in one direction, so that overlapping ones fill.
+      const [rings, sectors] = [36, 120];
+      const corner = (a, b) => {
+        const slope = ((a / rings) * Math.PI) / 2;
+        const angle = (b / sectors) * 2 * Math.PI;
+        const y = Math.sin(slope) * Math.sin(angle) * this.sectionHeight;
+        const s = Math.sqrt(1 + k) * radius * Math.cos(slope);
+        const dx = Math.sin(slope) * Math.cos(angle) * radius;
+        return this.flat(dx, (y + k * s) / (1 + k), (s - y) / (1 + k));
+      };
+      for (let i = 0; i < rings; i++) {
+        for (let j = 0; j < sectors; j++) {
+          const patch = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+          const [ax, ay] = [patch[2][0] - patch[0][0], patch[2][1] - patch[0][1]];
+          const [bx, by] = [patch[3][0] - patch[1][0], patch[3][1] - patch[1][1]];
+          if (ax * by - ay * bx < 0) patch.reverse();
+          patch.forEach(([left, top], n) => (n ? ground.lineTo(left, top) : ground.moveTo(left, top)));
+          ground.closePath();
+        }
+      }
+    }
+    ground.fillStyle = colours.surface;
+    ground.strokeStyle = colours.surface;
+    ground.fill("nonzero");
+    ground.stroke(); // closes the seams between patches
+    this.drawTriad();
+  }
+
+  /** Draw the directions of the axes in a corner. */
+  drawTriad() {
+    const { ground, colours } = this;
+    const size = Math.min(46, 0.1 * this.width + 10);
+    const at = [size + 22, this.height - size - 26];
+    ground.strokeStyle = colours.muted;
+    ground.fillStyle = colours.ink;
+    ground.lineWidth = 1.2;
+    ground.textAlign = "center";
+    ground.textBaseline = "middle";
+    ["x", "ẋ⁻", "u̇⁻"].forEach((name, i) => {
+      const tip = [this.across[i] * size, -this.up[i] * size];
+      const length = Math.hypot(...tip);
+      ground.beginPath();
+      ground.moveTo(...at);
+      ground.lineTo(at[0] + tip[0], at[1] + tip[1]);
+      ground.stroke();
+      if (length > 8) {
+        const far = 1 + 12 / length;
+        ground.fillText(name, at[0] + tip[0] * far, at[1] + tip[1] * far);
+      }
+    });
+    ground.lineWidth = 1;
+  }
+
+  // ---------------------------------------------------------------- impacts
+
+  drawPoints() {
+    this.pixels.fill(0);
+    const { orbits } = this.read();
+    const order = [...orbits].sort((a, b) => (b.isSea() ? 1 : 0) - (a.isSea() ? 1 : 0));
+    for (const orbit of order) this.plot(orbit, 0);
+    this.showPoints();
+  }
+
+  showPoints() {
+    this.points.putImageData(this.image, 0, 0);
+  }
+
+  /** Write the impacts of an orbit from one on into the pixels. */
+  plot(orbit, from) {
+    const { pixels, image, ratio, frame } = this;
+    const colour = packed(orbit.colour(this.colours));
+    const size = Math.max(1, Math.round((orbit.isSea() ? 1 : 1.7) * ratio));
+    const left = frame.left * ratio;
+    const top = frame.top * ratio;
+    const right = (this.width - frame.right) * ratio - size;
+    const bottom = (this.height - frame.bottom) * ratio - size;
+    const { x, xdot, udot, count } = orbit;
+    const wide = image.width;
+    const disk = this.kind === "disk";
+    const { k, radius, sectionHeight, scale, origin } = this;
+    const [fx, fy] = [(scale * ratio) / radius, (scale * ratio) / sectionHeight];
+    const [mx, my] = [this.middle[0] * ratio - size / 2, this.middle[1] * ratio - size / 2];
+    for (let i = from; i < count; i++) {
+      let column;
+      let row;
+      if (disk) {
+        column = mx + (x[i] - origin[0]) * fx;
+        row = my - (xdot[i] - k * udot[i] - origin[1]) * fy;
+      } else {
+        const at = this.screen(x[i], xdot[i], udot[i]);
+        if (!at) continue;
+        column = at[0] * ratio - size / 2;
+        row = at[1] * ratio - size / 2;
+      }
+      if (!(column >= left && row >= top && column <= right && row <= bottom)) continue;
+      const first = Math.round(row) * wide + Math.round(column);
+      for (let a = 0; a < size; a++) {
+        for (let b = 0; b < size; b++) pixels[first + a * wide + b] = colour;
+      }
+    }
+  }
+
+  // ---------------------------------------------------------------- lines and cursors
+
+  drawLines() {
+    const { lines, colours, centre, radius, k } = this;
+    const { overlays } = this.read();
+    lines.clearRect(0, 0, this.width, this.height);
+    lines.save();
+    this.clip(lines);
+    const ring = Array.from({ length: 361 }, (_, i) => (i * Math.PI) / 180);
+    const y = ring.map((a) => this.sectionHeight * Math.sin(a));
+    const rim = {
+      x: ring.map((a) => centre + radius * Math.cos(a)),
+      xdot: y.map((value) => value / (1 + k)),
+      udot: y.map((value) => -value / (1 + k)),
+    };
+    if (this.scale < 1e5) this.stroke(lines, rim, colours.rim, 1.5);
+    const states = Array.from({ length: 201 }, (_, i) => this.lineState(Math.sin(((i - 100) * Math.PI) / 200)));
+    const [lx, lv, lw] = [0, 1, 2].map((i) => states.map((state) => state[i]));
+    lines.setLineDash([5, 4]);
+    this.stroke(lines, { x: lx, xdot: lv, udot: lw }, colours.symmetry, 1);
+    lines.setLineDash([]);
+    for (const { line, colour, width } of overlays.lines) {
+      this.stroke(lines, line, colours[colour], width);
+    }
+    for (const { points, colour, shape } of overlays.marks) {
+      for (const [x, v, w] of points) this.mark(lines, this.screen(x, v, w), colours[colour], shape);
+    }
+    lines.restore();
+  }
+
+  clip(context) {
+    const { frame } = this;
+    context.beginPath();
+    const wide = this.width - frame.left - frame.right;
+    context.rect(frame.left, frame.top, wide, this.height - frame.top - frame.bottom);
+    context.clip();
+  }
+
+  stroke(context, { x, xdot, udot }, colour, width) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.lineJoin = "bevel";
+    context.beginPath();
+    let down = false;
+    let before = null;
+    const far = 20 * (this.width + this.height);
+    for (let i = 0; i < x.length; i++) {
+      const at = Number.isNaN(x[i]) ? null : this.screen(x[i], xdot[i], udot[i]);
+      // Far outside, a canvas would lose digits of what it draws.
+      const drawn = at && Math.abs(at[0]) < far && Math.abs(at[1]) < far;
+      if (drawn && down) context.lineTo(...at);
+      else if (drawn) {
+        if (before) {
+          context.moveTo(...cut(at, before, far));
+          context.lineTo(...at);
+        } else context.moveTo(...at);
+      } else if (down && at) context.lineTo(...cut(before, at, far));
+      down = Boolean(drawn);
+      before = at;
+    }
+    context.stroke();
+    context.lineWidth = 1;
+  }
+
+  mark(context, at, colour, shape) {
+    if (!at || !this.inside(at)) return;
+    const [left, top] = at;
+    context.beginPath();
+    if (shape === "square") context.rect(left - 4, top - 4, 8, 8);
+    else if (shape === "cross") {
+      context.moveTo(left - 5, top - 5);
+      context.lineTo(left + 5, top + 5);
+      context.moveTo(left + 5, top - 5);
+      context.lineTo(left - 5, top + 5);
+    } else context.arc(left, top, 4.5, 0, 2 * Math.PI);
+    context.strokeStyle = this.colours.page;
+    context.lineWidth = 3.5;
+    context.stroke();
+    context.strokeStyle = colour;
+    context.fillStyle = colour;
+    context.lineWidth = 2;
+    if (shape === "dot") context.fill();
+    context.stroke();
+    context.lineWidth = 1;
+  }
+
+  drawCursors() {
+    const { cursors, colours } = this;
+    const { cursor } = this.read();
+    cursors.clearRect(0, 0, this.width, this.height);
+    cursors.save();
+    this.clip(cursors);
+    if (cursor) this.ring(cursor);
+    if (this.fan) {
+      const [from, to] = this.fan;
+      const states = Array.from({ length: 41 }, (_, i) => this.lineState(from + ((to - from) * i) / 40));
+      const [x, xdot, udot] = [0, 1, 2].map((i) => states.map((state) => state[i]));
+      this.stroke(cursors, { x, xdot, udot }, colours.focus, 4);
+    }
+    if (this.cross) {
+      const [left, top] = this.cross;
+      for (const [colour, width] of [[colours.page, 4], [colours.focus, 1.5]]) {
+        cursors.strokeStyle = colour;
+        cursors.lineWidth = width;
+        cursors.beginPath();
+        cursors.moveTo(left - 14, top);
+        cursors.lineTo(left + 14, top);
+        cursors.moveTo(left, top - 14);
+        cursors.lineTo(left, top + 14);
+        cursors.stroke();
+      }
+    }
+    cursors.restore();
+  }
+
+  /** Mark the impact at which the ball in time is. */
+  ring(state) {
+    const at = this.screen(...state);
+    if (!at) return;
+    for (const [colour, width] of [[this.colours.page, 5], [this.colours.ink, 2.5]]) {
+      this.cursors.strokeStyle = colour;
+      this.cursors.lineWidth = width;
+      this.cursors.beginPath();
+      this.cursors.arc(at[0], at[1], 8, 0, 2 * Math.PI);
+      this.cursors.stroke();
+    }
+  }
+
+  /** All layers on the page's ground, for a file. */
+  picture() {
+    const canvas = document.createElement("canvas");
+    canvas.width = this.points.canvas.width;
+    canvas.height = this.points.canvas.height;
+    const context = canvas.getContext("2d");
+    context.fillStyle = this.colours.page;
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    for (const layer of this.layers) context.drawImage(layer, 0, 0);
+    return canvas;
+  }
+}
+
+/** The point of a segment from `near` towards `away` at the edge of a square of half size `far`. */
+function cut(near, away, far) {
+  let share = 1;
+  for (const i of [0, 1]) {
+    const step = away[i] - near[i];
+    if (step > 0) share = Math.min(share, (far - near[i]) / step);
+    else if (step < 0) share = Math.min(share, (-far - near[i]) / step);
+  }
+  return [near[0] + share * (away[0] - near[0]), near[1] + share * (away[1] - near[1])];
+}
+
+/** The page's colours, from its style sheet. */
+function readColours() {
+  const style = getComputedStyle(document.documentElement);
+  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea regular chaotic young";
+  const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
+  colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
+  colours.font = getComputedStyle(document.body).fontFamily;
+  return colours;
+}
+
+/** A colour #rrggbb as a pixel of a canvas (little endian, as all browsers' machines are). */
+function packed(colour) {
+  const value = parseInt(colour.slice(1), 16);
+  return (0xff000000 | ((value & 0xff) << 16) | (value & 0xff00) | (value >> 16)) >>> 0;
+}
+
+/**
+ * Ticks within a span around a centre, as offsets from it, about `count` of them. Labels are values,
+ * or beyond seven digits differences from `base`, a text.
+ */
+function ticksAround(centre, span, count) {
+  const rough = span / Math.max(2, count);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= rough);
+  const digits = Math.ceil(Math.log10((Math.abs(centre) + span) / step)) + 1;
+  const zero = digits > 7 ? 0 : centre;
+  const first = Math.ceil((zero - span / 2) / step);
+  const offsets = [];
+  const labels = [];
+  for (let n = first; n * step <= zero + span / 2; n++) {
+    offsets.push(n * step - zero);
+    labels.push(shortNumber(n * step, Math.min(12, Math.max(3, digits))));
+  }
+  return { offsets, labels, base: digits > 7 ? shortNumber(centre, 17) : "" };
+}

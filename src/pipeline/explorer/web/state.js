@@ -1,0 +1,198 @@
+"use strict";
+/*
+ * The state of the page: everything that decides what is on it. It fits into the address.
+ *
+ * Starts are places (p, q) on the section, see geometry.js. The view's centre is a place too, or on
+ * the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
+ */
+const MOST_ORBITS = 64;
+const MOST_IMPACTS = 1000000; // of an orbit
+const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1] };
+
+function freshState() {
+  return {
+    k: 0.2,
+    g: 0.04,
+    energy: 0.01,
+    view: { kind: "surface", azimuth: 115, elevation: 40, x: 0, y: 0, half: HOME.surface[2] },
+    colour: "orbit",
+    orbits: [], // {p, q, impacts, back, sea}
+    chosen: -1, // the orbit that the time view shows, unless `motion` is given
+    motion: null, // {period, type, nth}: the periodic orbit that the time view shows
+    periods: [], // periods of the periodic orbits on the section
+    branches: [], // {period, type, nth, saddle (-1: all), kind, side, length}
+    jump: false,
+    chart: "exponent",
+    time: 0,
+    span: 16, // of the time view
+    back: false, // direction and impacts of the next orbit
+    impacts: 3000,
+    preset: "",
+  };
+}
+
+/** What is wrong with a value of k, g or E, in a line; empty if it is allowed. */
+function parameterError(name, text, { k, g }) {
+  const value = readNumber(text);
+  const show = (number) => shortNumber(number, 4);
+  if (Number.isNaN(value)) return `${name} = ${text.trim() || "nothing"} is not allowed: a number`;
+  if (name === "k" && !(value > 0 && value <= 1)) {
+    return `k = ${text.trim()} is not allowed: above 0, at most 1 (a sphere has at most 1/3)`;
+  }
+  if (name === "g" && !(value > 0 && value < k)) {
+    return `g = ${text.trim()} is not allowed: between 0 and k = ${show(k)}`;
+  }
+  if (name === "E") {
+    const [low, high] = geometry.energyBounds(k, g);
+    if (!(value > low && value < high)) {
+      const range = `between −g²/2k = ${show(low)} and k/2 − g = ${show(high)}, eq. (31)`;
+      return `E = ${text.trim()} is not allowed: ${range}`;
+    }
+  }
+  return "";
+}
+
+/** A number that was typed, with a comma or a real minus sign too; NaN if it is none. */
+function readNumber(text) {
+  const plain = String(text).trim().replace("−", "-").replace(",", ".");
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+}
+
+/** A number with so many significant digits, with a proper minus sign. */
+function shortNumber(value, digits = 6) {
+  if (!Number.isFinite(value)) return "–";
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
+}
+
+const COUNT = new Intl.NumberFormat("en");
+
+// ------------------------------------------------------------------ the address
+
+function writeAddress(state) {
+  const { view } = state;
+  const fields = new Map([
+    ["k", state.k],
+    ["g", state.g],
+    ["E", state.energy],
+    ["view", [view.kind, view.azimuth, view.elevation, view.x, view.y, view.half].join(",")],
+    ["colour", state.colour],
+    ["orbits", state.orbits.map(writeOrbit).join(";")],
+    ["chosen", state.chosen],
+    ["motion", state.motion ? writeMotion(state.motion) : ""],
+    ["periods", state.periods.join(",")],
+    ["branches", state.branches.map(writeBranch).join(";")],
+    ["jump", state.jump ? 1 : ""],
+    ["chart", state.chart],
+    ["t", state.time],
+    ["span", state.span],
+    ["next", `${state.impacts}${state.back ? "<" : ""}`],
+    ["preset", state.preset],
+  ]);
+  const parts = [...fields].filter(([, value]) => value !== "");
+  return "#" + parts.map((part) => part.join("=")).join("&");
+}
+
+function writeOrbit({ p, q, impacts, back, sea }) {
+  const place = q === 0 ? p : `${p}:${q}`;
+  return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
+}
+
+const KIND_LETTERS = { elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
+const LETTER_KINDS = Object.fromEntries(Object.entries(KIND_LETTERS).map(([a, b]) => [b, a]));
+
+function writeMotion({ period, type, nth }) {
+  return `${period}${KIND_LETTERS[type]}${nth}`;
+}
+
+function writeBranch(branch) {
+  const { saddle, kind, side, length } = branch;
+  return [writeMotion(branch), saddle, kind, side, length].join(",");
+}
+
+/** The state in an address; throws an error of one line if it has none. */
+function readAddress(text) {
+  const state = freshState();
+  const fail = (name, value, allowed) => {
+    throw new Error(`the address has ${name} = ${value.slice(0, 40)}: ${allowed}`);
+  };
+  const number = (name, value, allowed = "a number is needed", test = Number.isFinite) => {
+    const read = readNumber(value);
+    if (!test(read)) fail(name, value, allowed);
+    return read;
+  };
+  const whole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
+  const motion = (name, value) => {
+    const match = /^(\d+)([ehi])(\d+)$/.exec(value);
+    if (!match || !whole(1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
+    return { period: Number(match[1]), type: LETTER_KINDS[match[2]], nth: Number(match[3]) };
+  };
+  const one = (name, value, words) => {
+    if (!words.includes(value)) fail(name, value, `one of ${words.join(", ")}`);
+    return value;
+  };
+  const readers = {
+    k: (value) => (state.k = number("k", value)),
+    g: (value) => (state.g = number("g", value)),
+    E: (value) => (state.energy = number("E", value)),
+    view(value) {
+      const [kind, ...rest] = value.split(",");
+      one("view", kind, ["disk", "surface"]);
+      if (rest.length !== 5) fail("view", value, "a kind and five numbers");
+      const [azimuth, elevation, x, y, half] = rest.map((part) => number("view", part));
+      if (!(half > 0)) fail("view", value, "a size above 0");
+      state.view = { kind, azimuth, elevation, x, y, half };
+    },
+    colour: (value) => (state.colour = one("colour", value, ["orbit", "verdict"])),
+    orbits(value) {
+      state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
+        const match = /^([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
+        if (!match) fail("orbits", part, "a start like 0.5*3000 or 0.1:0.2*3000 is needed");
+        const p = number("a start", match[1]);
+        const q = match[2] ? number("a start", match[2]) : 0;
+        if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");
+        const impacts = number("impacts", match[3], "1 to 1000000", whole(1, MOST_IMPACTS));
+        return { p, q, impacts, back: match[4] !== "", sea: match[5] !== "" };
+      });
+    },
+    chosen: (value) => (state.chosen = number("chosen", value, "an index", whole(-1, MOST_ORBITS))),
+    motion: (value) => (state.motion = motion("motion", value)),
+    periods(value) {
+      const read = (part) => number("periods", part, "1 to 12", whole(1, 12));
+      state.periods = [...new Set(value.split(",").map(read))];
+    },
+    branches(value) {
+      state.branches = value.split(";").map((part) => {
+        const [orbit, saddle, kind, side, length] = part.split(",");
+        return {
+          ...motion("branches", orbit ?? ""),
+          saddle: number("branches", saddle ?? "", "a saddle's index", whole(-1, 11)),
+          kind: one("branches", kind ?? "", ["stable", "unstable", "both"]),
+          side: one("branches", side ?? "", ["outer", "inner", "both"]),
+          length: number("branches", length ?? "", "a length up to 20", (v) => v > 0 && v <= 20),
+        };
+      });
+    },
+    jump: (value) => (state.jump = value === "1"),
+    chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation"])),
+    t: (value) => (state.time = number("t", value)),
+    span: (value) => (state.span = number("span", value, "a time above 0", (v) => v > 0 && v <= 1000)),
+    next(value) {
+      state.back = value.endsWith("<");
+      const count = value.replace("<", "");
+      state.impacts = number("next", count, "1 to 1000000", whole(1, MOST_IMPACTS));
+    },
+    preset: (value) => (state.preset = value),
+  };
+  for (const part of decodeURIComponent(text).replace(/^#/, "").split("&")) {
+    const at = part.indexOf("=");
+    const name = part.slice(0, at);
+    if (at > 0 && Object.hasOwn(readers, name)) readers[name](part.slice(at + 1));
+    else fail(name || part, part.slice(at + 1), "no such field");
+  }
+  for (const [name, value] of Object.entries({ k: state.k, g: state.g, E: state.energy })) {
+    const error = parameterError(name, String(value), state);
+    if (error) throw new Error(`the address has ${error}`);
+  }
+  if (state.chosen >= state.orbits.length) state.chosen = state.orbits.length - 1;
+  return state;
+}

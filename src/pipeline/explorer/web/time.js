@@ -1,0 +1,232 @@
+"use strict";
+/*
+ * The motion in time: a sequence of flights, eq. (26), the ball that flies, touches and flattens, and
+ * the curves of Figures 3 and 4. x points downwards from where the undeformed ball touches the floor.
+ */
+
+/** The flights along an orbit, from its start at t = 0; backwards in time for a backward orbit. */
+class OrbitMotion {
+  constructor(orbit) {
+    this.orbit = orbit;
+    this.times = [0]; // when impacts happen, counted away from the start
+  }
+
+  get count() {
+    const { orbit, times } = this;
+    for (let i = times.length - 1; i < orbit.count; i++) times.push(times[i] + orbit.tau[i]);
+    return orbit.count;
+  }
+
+  get ends() {
+    const last = this.times[this.count];
+    return this.orbit.back ? [-last, 0] : [0, last];
+  }
+
+  /** Flight j in the order of time: when it begins, how long it lasts, and the state before. */
+  flight(j) {
+    const { count } = this;
+    const { back } = this.orbit;
+    const i = back ? count - 1 - j : j;
+    const begin = back ? -this.times[i + 1] : this.times[i];
+    return { begin, tau: this.orbit.tau[i], state: this.orbit.stateAt(back ? i + 1 : i) };
+  }
+
+  indexAt(t) {
+    const { count } = this;
+    let low = 0;
+    let high = Math.max(0, count - 1);
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.flight(middle).begin <= t) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /** The number of impacts from the start to that before flight j. */
+  impact(j) {
+    return this.orbit.back ? j - this.count : j;
+  }
+}
+
+/** The flights along a periodic orbit, whose own points are repeated without an end. */
+class PeriodicMotion {
+  constructor(orbit) {
+    this.points = orbit.points;
+    this.period = orbit.period;
+    this.begins = [0];
+    for (const point of this.points) this.begins.push(this.begins.at(-1) + point[3]);
+    this.total = this.begins.at(-1);
+  }
+
+  get ends() {
+    return [-Infinity, Infinity];
+  }
+
+  get count() {
+    return Infinity;
+  }
+
+  flight(j) {
+    const turn = Math.floor(j / this.period);
+    const i = j - turn * this.period;
+    const [x, v, w, tau] = this.points[i];
+    return { begin: turn * this.total + this.begins[i], tau, state: [x, v, w] };
+  }
+
+  indexAt(t) {
+    const turn = Math.floor(t / this.total);
+    let i = 0;
+    while (i + 1 < this.period && turn * this.total + this.begins[i + 1] <= t) i++;
+    return turn * this.period + i;
+  }
+
+  impact(j) {
+    return j;
+  }
+}
+
+/** Position and strain at a time after the impact at a state. */
+function flown(k, g, [x, v, w], t) {
+  const [b, c] = geometry.rebound(k, v, w);
+  return { x: x + t * (b + 0.5 * g * t), u: c * Math.sin(t) - x * Math.cos(t) };
+}
+
+class TimeView {
+  constructor(ball, curves, read) {
+    this.ball = ball;
+    this.curves = curves;
+    this.read = read; // returns {state, motion}
+    this.extent = [Infinity, -Infinity];
+  }
+
+  /** Forget the range of the curves, because another motion is shown. */
+  reset() {
+    this.extent = [Infinity, -Infinity];
+  }
+
+  /** The part of time that is shown. */
+  window() {
+    const { state } = this.read();
+    const first = Math.floor(state.time / state.span) * state.span;
+    return [first, first + state.span];
+  }
+
+  draw() {
+    const { state, motion } = this.read();
+    const colours = readColours();
+    this.drawCurves(state, motion, colours);
+    this.drawBall(state, motion, colours);
+  }
+
+  /** Where the ball is: {x, u, index, state}; null without a motion. */
+  now() {
+    const { state, motion } = this.read();
+    if (!motion || !motion.count) return null;
+    const index = motion.indexAt(state.time);
+    const { begin, tau, state: before } = motion.flight(index);
+    const t = Math.min(Math.max(0, state.time - begin), tau);
+    return { ...flown(state.k, state.g, before, t), index, state: before };
+  }
+
+  drawCurves(state, motion, colours) {
+    const { context, width, height } = fitted(this.curves);
+    const frame = { left: 50, top: 24, right: 10, bottom: 36 };
+    const [from, to] = this.window();
+    const lines = { height: [], strain: [] };
+    const impacts = [];
+    if (motion?.count) {
+      let j = motion.indexAt(Math.max(from, motion.ends[0]));
+      for (; j < motion.count; j++) {
+        const { begin, tau, state: before } = motion.flight(j);
+        if (begin > to) break;
+        if (begin >= from) impacts.push([begin, -before[0]]);
+        const samples = Math.max(3, Math.min(60, Math.ceil(tau * 20)));
+        for (let i = 0; i <= samples; i++) {
+          const t = (tau * i) / samples;
+          if (begin + t < from || begin + t > to) continue;
+          const { x, u } = flown(state.k, state.g, before, t);
+          lines.height.push([begin + t, -x]);
+          lines.strain.push([begin + t, u]);
+          this.extent[0] = Math.min(this.extent[0], -x, u);
+          this.extent[1] = Math.max(this.extent[1], -x, u);
+        }
+        if (impacts.length > 4000) break;
+      }
+    }
+    let [low, high] = this.extent;
+    if (!(low < high)) [low, high] = [-0.5, 0.3];
+    const room = 0.06 * (high - low);
+    const plot = new Plot(context, { width, height, frame, colours, across: [from, to], up: [low - room, high + room] });
+    plot.axes("t", "−x, u");
+    plot.line(lines.height, colours.hues[0], 1.8);
+    plot.line(lines.strain, colours.hues[1], 1.8);
+    for (const point of impacts) plot.dot(point, colours.ink, impacts.length > 100 ? 1.5 : 3);
+    plot.key([["−x, height of the centre", colours.hues[0]], ["u, strain", colours.hues[1]]]);
+    const now = this.now();
+    if (now) {
+      plot.vertical(state.time, colours.focus);
+      plot.dot([state.time, -now.x], colours.hues[0], 4.5);
+      plot.dot([state.time, now.u], colours.hues[1], 4.5);
+    }
+    this.plot = plot;
+  }
+
+  drawBall(state, motion, colours) {
+    const { context, width, height } = fitted(this.ball);
+    const now = this.now();
+    const top = Math.max(0.4, Math.min(6, this.extent[1] > 0 ? this.extent[1] : 0));
+    const scale = Math.min((height - 34) / (2.25 + top), (width - 12) / 2.1); // pixels in R
+    const floor = height - 26;
+    context.strokeStyle = colours.ink;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(4, floor);
+    context.lineTo(width - 4, floor);
+    context.stroke();
+    context.lineWidth = 1;
+    context.fillStyle = colours.muted;
+    context.font = `13px ${colours.font}`;
+    context.textAlign = "center";
+    if (!now) {
+      context.fillText("no orbit", width / 2, floor + 17);
+      return;
+    }
+    const middle = floor - scale * (1 - now.x);
+    const half = scale * Math.max(0.02, 1 + now.u);
+    context.save();
+    context.beginPath();
+    context.ellipse(width / 2, middle, scale, half, 0, 0, 2 * Math.PI);
+    context.fillStyle = colours.hues[0];
+    context.globalAlpha = 0.22;
+    context.fill();
+    context.globalAlpha = 1;
+    context.strokeStyle = colours.hues[0];
+    context.lineWidth = 2;
+    context.stroke();
+    context.clip();
+    // Lines of latitude, which come closer as the ball flattens.
+    context.lineWidth = 1;
+    context.globalAlpha = 0.6;
+    for (const share of [-0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75]) {
+      context.beginPath();
+      context.moveTo(0, middle + half * share);
+      context.lineTo(width, middle + half * share);
+      context.stroke();
+    }
+    context.restore();
+    // The undeformed ball, for comparison.
+    context.setLineDash([3, 4]);
+    context.strokeStyle = colours.muted;
+    context.beginPath();
+    context.ellipse(width / 2, middle, scale, scale, 0, 0, 2 * Math.PI);
+    context.stroke();
+    context.setLineDash([]);
+    context.beginPath();
+    context.arc(width / 2, middle, 2.5, 0, 2 * Math.PI);
+    context.fillStyle = colours.ink;
+    context.fill();
+    context.fillStyle = colours.muted;
+    context.fillText(`u = ${now.u.toFixed(3).replace("-", "−")}`, width / 2, floor + 17);
+  }
+}

@@ -1,0 +1,62 @@
+"use strict";
+/*
+ * The worker's side of the conversation with compute.js. Each message {id, job, ...} is answered by
+ * {id, result} or {id, error}; long jobs also send {id, progress}.
+ */
+const followers = new Map();
+
+const jobs = {
+  /** Begin to follow an orbit; the state of a backward one has been mirrored by the page. */
+  open({ key, k, g, energy, state }) {
+    followers.set(key, new analysis.Follower(k, g, energy, state));
+  },
+
+  close({ keys }) {
+    for (const key of keys) followers.delete(key);
+  },
+
+  /** Follow orbits, [[key, impacts], ...], and return the new impacts and the facts of each. */
+  advance({ orbits }) {
+    return orbits
+      .filter(([key]) => followers.has(key))
+      .map(([key, impacts]) => {
+        const follower = followers.get(key);
+        const { x, xdot, udot, tau } = follower.advance(impacts);
+        return { key, x, xdot, udot, tau, facts: follower.facts() };
+      });
+  },
+
+  periodic({ k, g, energy, period }) {
+    return analysis.periodicOrbits(k, g, energy, period);
+  },
+
+  branch({ k, g, energy, points, spec }) {
+    return analysis.traceBranch(k, g, energy, points, spec);
+  },
+
+  jump({ k, g, energy }) {
+    return analysis.jumpCurve(k, g, energy);
+  },
+
+  /** Compare the orbits of a figure with the committed dataset. */
+  check({ figure }, progress) {
+    return pseudorigid.checkFigure(figure, progress);
+  },
+};
+
+/** The buffers of all typed arrays in a result, which are handed over instead of copied. */
+function buffersOf(value, found = []) {
+  if (ArrayBuffer.isView(value)) found.push(value.buffer);
+  else if (value && typeof value === "object") Object.values(value).forEach((v) => buffersOf(v, found));
+  return found;
+}
+
+self.onmessage = ({ data }) => {
+  const { id, job } = data;
+  try {
+    const result = jobs[job](data, (progress) => self.postMessage({ id, progress }));
+    self.postMessage({ id, result }, buffersOf(result));
+  } catch (error) {
+    self.postMessage({ id, error: error.message });
+  }
+};
