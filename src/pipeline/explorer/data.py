@@ -25,7 +25,7 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
             for group in _SCENES
             for name, block in checked["variants"].get(group, {}).items()
         },
-        "check": _published_orbits(root),
+        "check": published_orbits(root),
         "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
     }
 
@@ -35,7 +35,7 @@ def _version(root: Path) -> str:
     return f"{project['name']} {project['version']}"
 
 
-def _published_orbits(root: Path) -> list[dict[str, Any]]:
+def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     """Return the committed figures' starts, and the hashes of their orbits' variables.
 
     Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles,

@@ -41,7 +41,7 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
     kernel_script = f"{kernel.javascript()}\n{_scripts(BOTH)}"
     worker_script = _scripts(WORKER)
     app_script = _scripts(APP)
-    style = compact.style(_web("style.css"))
+    style = compact.style(script("style.css"))
     policy = "; ".join(
         [
             "default-src 'none'",
@@ -61,7 +61,7 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
         f'<script type="text/plain" id="worker">{worker_script}</script>\n'
         f"<script>{app_script}</script>",
     }
-    page = compact.markup(_web("index.html"))
+    page = compact.markup(script("index.html"))
     page = page.replace(
         '<meta charset="utf-8">',
         f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
@@ -80,18 +80,19 @@ def _write_copy() -> None:
     write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))
 
 
-def _web(name: str) -> str:
+def script(name: str) -> str:
+    """Return the text of a file of the page."""
     return (WEB / name).read_text(encoding="utf-8")
 
 
 def _scripts(names: tuple[str, ...]) -> str:
     """Return scripts of `web/` as one, without comments."""
-    return "".join(compact.script(_web(name)) for name in names)
+    return "".join(compact.script(script(name)) for name in names)
 
 
 def _source(script: str) -> str:
     """Return how a content security policy calls a script or a style."""
-    digest = hashlib.sha256(script.encode()).digest()
+    digest = hashlib.sha256(text.encode()).digest()
     return f"'sha256-{base64.b64encode(digest).decode()}'"
 
 

@@ -1,0 +1,320 @@
+"""The kernel in JavaScript gives the bits of the compiled one, in real browsers."""
+
+import base64
+import hashlib
+import math
+
+import numpy as np
+import pytest
+
+from pipeline.explorer import data
+from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid.kernel import arithmetic, impact
+from pseudorigid.kernel.spectrum import push_frame
+from pseudorigid.study import states
+
+BALL, ENERGY, CHAOTIC = states.BALL, states.ENERGY, states.CHAOTIC
+BALLS = [(k, g) for k in (1e-3, 0.012, 0.2, 1.0 / 3.0, 1.0) for g in (1e-8, 1e-4, 0.04, 1.0, 30.0)]
+# Applies the map to rows k, g, x, xdot, udot; the last one of a row may be off the section.
+STEPS = """
+const rows = floats(args[0]), result = new Float64Array(4 * rows.length / 5);
+for (let i = 0; i < rows.length / 5; i += 1) {
+  const [k, g, ...state] = rows.subarray(5 * i, 5 * i + 5);
+  kernel.impact_coefficients(k);
+  const [high, low] = kernel.$out;
+  kernel.step(...state, k, g, high, low);
+  result.set(kernel.$out.subarray(0, 4), 4 * i);
+}
+return text(result);
+"""
+
+
+def packed(array):
+    return base64.b64encode(np.ascontiguousarray(array, dtype="<f8").tobytes()).decode()
+
+
+def bits(array):
+    """The bits of doubles, every NaN the same."""
+    array = np.array(array, dtype=float)
+    array[np.isnan(array)] = math.nan
+    return array.view(np.uint64)
+
+
+def unpacked(text):
+    return np.frombuffer(base64.b64decode(text))
+
+
+def digest(array):
+    return hashlib.sha256(bits(array).tobytes()).hexdigest()
+
+
+def compiled_steps(rows):
+    """The next x, xdot, udot and tau of rows k, g, x, xdot, udot."""
+    result = np.empty((len(rows), 4))
+    for row, out in zip(rows, result, strict=True):
+        k, g, *state = row
+        out[:] = impact.step(*state, k, g, impact.impact_coefficients(k), None)[:4]
+    return result
+
+
+def assert_same_steps(browser, rows):
+    rows = np.array(rows, dtype=float)
+    theirs = unpacked(browser.run(STEPS, packed(rows))).reshape(-1, 4)
+    ours = compiled_steps(rows)
+    differing = np.flatnonzero((bits(ours) != bits(theirs)).any(axis=1))
+    assert differing.size == 0, [rows[differing[0]], ours[differing[0]], theirs[differing[0]]]
+    return ours
+
+
+def section_rows(k, g, count, energies):
+    """States all over the section of some energies, evenly by area, and on its rim."""
+    ball, rows = Ball(k, g), []
+    random = np.random.default_rng(7)
+    for energy in energies:
+        centre, radius = ball.section(energy)
+        r, angle = np.sqrt(random.uniform(0.0, 1.0, count)), random.uniform(0.0, 7.0, count)
+        r[: count // 50] = 1.0 - 1e-15
+        x = centre + radius * r * np.cos(angle)
+        y = radius * r * np.sin(angle) * np.sqrt(k * (1.0 + k))
+        s = np.sqrt(np.maximum(((1 + k) * (2 * energy + 2 * g * x - k * x * x) - y * y) / k, 0.0))
+        xdot, udot = (y + k * s) / (1 + k), (s - y) / (1 + k)
+        rows += [(k, g, *state) for state in zip(x, xdot, np.maximum(udot, -xdot), strict=True)]
+    return rows
+
+
+def test_a_million_impacts_of_a_chaotic_orbit(browser):
+    start = BALL.start(CHAOTIC, ENERGY)
+    ours = orbit(BALL, start, 1_000_000)
+    theirs = browser.run(
+        """const [k, g, energy, fraction, impacts] = args;
+        const state = pseudorigid.start(k, g, energy, fraction), hashes = {};
+        const orbit = pseudorigid.history(k, g, ...state, impacts);
+        for (const name in orbit) {
+          hashes[name] = pseudorigid.sha256(pseudorigid.bytesOf(orbit[name]));
+        }
+        return hashes;""",
+        *(0.2, 0.04, ENERGY, CHAOTIC, 1_000_000),
+    )
+    assert theirs == {name: digest(ours[name].values) for name in data.STATE}
+
+
+def test_ten_thousand_starts_over_the_section(browser):
+    rows = section_rows(0.2, 0.04, 10_000, [ENERGY])
+    assert_same_steps(browser, rows)
+
+
+def test_other_balls_and_energies(browser):
+    rows = []
+    for k, g in BALLS:
+        lowest, bound = Ball(k, g).energy_bounds()
+        energies = [0.999 * lowest, 0.0, g * g * (1.0 + 0.5 * k), max(bound, 40.0 * g * g)]
+        rows += section_rows(k, g, 100, energies)
+    assert_same_steps(browser, rows)
+
+
+def test_flights_beyond_the_narrow_reduction(browser):
+    """With little gravity flights last longer than 2^20, where angles are reduced with integers."""
+    random = np.random.default_rng(3)
+    rows = [
+        (k, 10.0 ** -random.uniform(5.0, 300.0), x, *sorted((-s * random.uniform(0.0, 1.0), s)))
+        for k in (0.05, 0.2, 1.0)
+        for x in (-0.3, 0.0, 1e-9, 0.4)
+        for s in random.uniform(0.001, 1.0, 80)
+    ]
+    tau = assert_same_steps(browser, rows)[:, 3]
+    assert np.sum(tau > arithmetic.WIDE) > 500 and tau.max() > 1e250
+
+
+def test_grazing_impacts(browser):
+    rows = [(0.2, 0.04, *state) for state in states.grazing(2000).T]
+    for decade in (*range(1, 17), 20, 40, 100, 140, 200, 300):
+        s = float(f"1e-{decade}")
+        for g in (1e-4, 0.04, 1.0):
+            for x in (0.5 * g, 0.0, math.nextafter(-g, 0.0), -g, math.nextafter(-g, -1.0), -9 * g):
+                rows += [(0.2, g, x, v, s - v) for v in (0.0, s, -0.7 * s, 0.3, -1e-3)]
+    assert_same_steps(browser, rows)
+
+
+def test_touches(browser):
+    """Flights whose gap has a maximum near zero: the ball touches the floor, or just misses it."""
+    k, g, rows = 0.2, 0.04, []
+    for x, t in ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.05, 5.0), (-0.2, 25.0)):
+        cosine, sine = math.cos(t), math.sin(t)
+        for height in (0.0, *(sign * 10.0**-n for n in range(2, 17) for sign in (1, -1))):
+            c = (height + g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
+            b = -g * t - x * sine - c * cosine
+            s = -(b + c)
+            v = b + k * 2.0 / (1.0 + k) * s
+            rows.append((k, g, x, v, max(s - v, -v)))
+    assert_same_steps(browser, rows)
+
+
+def test_rest_and_what_is_no_state(browser):
+    """NaN, infinities, huge, tiny and subnormal numbers, rest on the floor, and states off it."""
+    numbers = (0.0, -0.0, 1.0, -0.3, 5e-324, 1e-310, 1e-160, 1e160, 1e308, math.inf, math.nan)
+    rows = [(0.2, 0.04, x, v, w) for x in numbers for v in numbers for w in numbers]
+    rows += [(0.2, 0.04, x, 0.0, 0.0) for x in (-1.0, -0.04, -0.04 - 1e-17, -0.03, 0.0, 0.2)]
+    rows += [(0.2, g, 0.1 * g, 0.2 * g, 0.3 * g) for g in (1e-320, 1e-200, 1e200, 1e300)]
+    assert_same_steps(browser, rows)
+
+
+def test_states_that_are_not_finite_give_nan(browser):
+    script = """const { x, tau } = pseudorigid.history(0.2, 0.04, args[0] ?? NaN, 0.1, 0.1, 2);
+        return [...x, ...tau].every(Number.isNaN)"""
+    assert browser.run(script, None)
+
+
+@pytest.mark.parametrize("fraction", [-0.23519, 0.165702, CHAOTIC, 0.6, 0.65, 0.999])
+def test_the_exponent_at_any_number_of_impacts(browser, fraction):
+    start = BALL.start(fraction, ENERGY)
+    theirs = browser.run(
+        """const [impacts, ...state] = args, follower = pseudorigid.follow(0.2, 0.04, ...state);
+        follower.advance(1000);
+        const early = follower.exponent();
+        follower.advance(impacts - 1000);
+        const again = pseudorigid.exponent(0.2, 0.04, ...state, impacts);
+        return [early, follower.exponent(), again];""",
+        *(30_000, *start),
+    )
+    ours = [
+        float(lyapunov_spectrum(BALL, start, impacts, records=1)["exponent"][0, 0])
+        for impacts in (1000, 30_000)
+    ]
+    assert theirs == [*ours, ours[-1]]
+
+
+def test_a_frame_whose_lengths_leave_the_range_of_doubles(browser):
+    """The logarithms are then collected at once; exponents alone would reach it only rarely."""
+    vectors = (1.0, 0.5, -0.25, 0.3, 1.0, 0.1, -0.2, 0.1, 1.0)
+    rest = (0.1, 0.2, 0.6, 0.8, -2.0, 1.5, 0.7)
+    script = """kernel.impact_coefficients(0.2);
+        const [high, low] = kernel.$out, [...values] = floats(args[0]);
+        kernel.push_frame(...values.slice(0, 15), 0.2, 0.04, high, low, ...values.slice(15));
+        return text(kernel.$out.slice(0, 15));"""
+    for lengths in ((1e99, 1.0, 1e-99), (1e100, 2.0, 3.0), (1.0, 1e-101, 1.0), (0.0, 1.0, 1.0)):
+        sums = (3.0, -0.5, 1e-3)
+        a, b, c = (vectors[i : i + 3] for i in (0, 3, 6))
+        coefficients = impact.impact_coefficients(0.2)
+        result = push_frame(a, b, c, lengths, sums, 0.2, 0.04, coefficients, *rest)
+        theirs = unpacked(browser.run(script, packed([*vectors, *lengths, *sums, *rest])))
+        assert bits(sum(result, ())).tolist() == bits(theirs).tolist()
+
+
+def test_starts_points_and_the_reversor(browser):
+    fractions = np.linspace(-1.0, 1.0, 101).tolist()
+    for k, g in BALLS:
+        ball = Ball(k, g)
+        for energy in (0.0, 3.0 * g * g):
+            starts = np.array(ball.start(fractions, energy)).T
+            centre, radius = ball.section(energy)
+            angle = np.linspace(0.0, 6.0, 101)
+            x = centre + 0.9 * radius * np.cos(angle)
+            y = 0.9 * radius * np.sqrt(k * (1.0 + k)) * np.sin(angle)
+            points = np.array(ball.state_xy(x, y, energy)).T
+            mirrored = np.array(ball.reflect(*points.T)).T
+            theirs = browser.run(
+                """const [k, g, energy, fractions, xs, ys] = args, all = [[], [], []];
+                fractions.forEach((fraction, i) => {
+                  all[0].push(...pseudorigid.start(k, g, energy, fraction));
+                  const point = pseudorigid.stateXY(k, g, energy, xs[i], ys[i]);
+                  all[1].push(...point);
+                  all[2].push(...pseudorigid.reverse(k, ...point));
+                });
+                return all.map(values => text(Float64Array.from(values)));""",
+                *(k, g, energy, fractions, x.tolist(), y.tolist()),
+            )
+            for ours, text in zip((starts, points, mirrored), theirs, strict=True):
+                assert np.array_equal(ours.ravel(), unpacked(text)), (k, g, energy)
+
+
+def test_the_derivative_in_the_chart(browser):
+    for fraction in (-0.3, 0.1, 0.5):
+        start = BALL.start(fraction, ENERGY)
+        script = "return pseudorigid.tangent(0.2, 0.04, ...args)"
+        theirs = browser.run(script, *start, 3)
+        ours = np.ravel(BALL.chart_jacobian(*start, 3))
+        assert np.allclose(theirs, ours, rtol=1e-11, atol=1e-11)
+
+
+@pytest.mark.parametrize("length", [0, 1, 55, 56, 63, 64, 65, 119, 120, 1000])
+def test_the_hash(browser, length):
+    values = [i % 251 for i in range(length)]
+    theirs = browser.run("return pseudorigid.sha256(Uint8Array.from(args[0]))", values)
+    assert theirs == hashlib.sha256(bytes(values)).hexdigest()
+
+
+BAD_CALLS = {
+    "pseudorigid.history(0, 0.04, 0.1, 0.1, 0.1, 5)": "k = 0 is not allowed: 0 < k <= 1",
+    "pseudorigid.history(0.2, NaN, 0.1, 0.1, 0.1, 5)": "g = NaN is not allowed: g > 0, finite",
+    "pseudorigid.history(0.2, 0.04, 0.1, -0.2, 0.1, 5)": "a state just before an impact has "
+    "xdot + udot >= 0, eq. (22)",
+    "pseudorigid.exponent(0.2, 0.04, 0.1, 0.1, 0.1, 0.5)": "impacts = 0.5 is not allowed: "
+    "a whole number, at least 1 and below 2^53",
+    "pseudorigid.start(0.2, 0.04, 0.01, 1.5)": "a start is a fraction of the section's radius, "
+    "from -1 to 1",
+    "pseudorigid.start(0.2, 0.04, -1, 0.5)": "energy = -1 is not allowed: finite, at least -0.004",
+    "pseudorigid.stateXY(0.2, 0.04, 0.01, 5, 0)": "no state with this x, y and energy: "
+    "the point is outside the section",
+}
+
+
+@pytest.mark.parametrize("call", BAD_CALLS)
+def test_bad_arguments_are_one_line(browser, call):
+    script = f"try {{ {call}; }} catch (error) {{ return [error.name, error.message]; }}"
+    assert browser.run(script) == ["RangeError", BAD_CALLS[call]]
+
+
+# Changes of the translated kernel, each of one operation, constant or grouping.
+PLANTED = {
+    "a grouping": ("x + t * (b + 0.5 * g * t) - p", "x + (t * (b + 0.5 * g * t) - p)"),
+    "a sign": ("const p = a * cosine - d * sine", "const p = a * cosine + d * sine"),
+    "an order": ("$out[1] = w - e", "$out[1] = v + w - e - v"),
+    "a last digit": ("_S1 = 0.008333333333330204", "_S1 = 0.008333333333330206"),
+    "the rest of a constant": ("s * high + s * low", "s * high"),
+    "a tail": ("+ (cosine_tail - r * low)", "+ cosine_tail"),
+    "the other branch": ("abs(turns) === 1.0 ? b : a", "abs(turns) === 1.0 ? a : b"),
+    "an early end": ("MOST_EVALUATIONS = 0x2710", "MOST_EVALUATIONS = 3"),
+}
+
+
+@pytest.mark.parametrize("fault", PLANTED)
+def test_a_changed_operation_is_noticed(browser, fault):
+    """The page's own check names it, or the kernel stops."""
+    check = """const script = document.scripts[0].textContent, kept = pseudorigid;
+        if (script.split(args[0]).length !== 2) return "not there once";
+        const text = script.replace(args[0], () => args[1]);
+        const changed = new Function(text + "return pseudorigid;");
+        try { return changed().checkFigure(args[2]).difference; }
+        catch (error) { return error.message; }
+        finally { globalThis.pseudorigid = kept; }"""
+    (figure, *_) = published()
+    assert browser.run(check, "[0]; // (25)", "", figure) == "not there once"
+    result = browser.run(check, *PLANTED[fault], figure)
+    assert result and result != "not there once"
+
+
+def published():
+    """The orbits in the committed manifest."""
+    return data.published_orbits()
+
+
+def test_the_orbits_of_the_published_figures_are_the_same(browser):
+    figures = published()
+    assert [figure["figure"] for figure in figures] == ["fig2", "fig8"]
+    assert sum(sum(figure["impacts"]) for figure in figures) == 80_000
+    script = "return args[0].map(figure => pseudorigid.checkFigure(figure))"
+    results = browser.run(script, figures)
+    assert results == [{"impacts": n, "difference": None} for n in (45_000, 35_000)]
+
+
+def test_where_orbits_begin_to_differ(browser):
+    """The first block whose hash differs is located: its orbit, and its impact."""
+    figure = published()[0]
+    variable = figure["variables"]["udot"]
+    blocks = variable["blocks"].split()
+    blocks[5] = "0" * len(blocks[5])
+    figure["variables"]["udot"] = {"sha256": "0" * 64, "blocks": " ".join(blocks)}
+    result = browser.run("return pseudorigid.checkFigure(args[0])", figure)
+    before = sum(figure["impacts"][:2])
+    expected = {"variable": "udot", "orbit": 3, "impact": 5 * 1024 - before + 1}
+    assert result["difference"] == expected
