@@ -1,11 +1,11 @@
 """The kernel in JavaScript gives the bits of the compiled one, in real browsers."""
 
-import base64
 import hashlib
 import math
 
 import numpy as np
 import pytest
+from doubles import bits, digest, packed, unpacked
 
 from pipeline.explorer import data
 from pseudorigid import Ball, lyapunov_spectrum, orbit
@@ -27,25 +27,6 @@ for (let i = 0; i < rows.length / 5; i += 1) {
 }
 return text(result);
 """
-
-
-def packed(array):
-    return base64.b64encode(np.ascontiguousarray(array, dtype="<f8").tobytes()).decode()
-
-
-def bits(array):
-    """The bits of doubles, every NaN the same."""
-    array = np.array(array, dtype=float)
-    array[np.isnan(array)] = math.nan
-    return array.view(np.uint64)
-
-
-def unpacked(text):
-    return np.frombuffer(base64.b64decode(text))
-
-
-def digest(array):
-    return hashlib.sha256(bits(array).tobytes()).hexdigest()
 
 
 def compiled_steps(rows):

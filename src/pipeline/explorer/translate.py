@@ -136,7 +136,7 @@ class Translator:
         if key in self._functions:
             known = self._functions[key]
             if known is None:
-                self.refuse(source, source.functions[name], f"{name} calls itself")
+                self.refuse(source, source.functions[name], f"the recursive function {name}")
             return known
         if name not in source.functions:
             raise TranslationError(f"{source.shown}: there is no function {name}")
