@@ -43,7 +43,9 @@ def _needs_space(before: str, after: str) -> bool:
         return True
     if before == "/" or after == "/":
         return True  # a regular expression, or a comment's first half
-    return not (re.match(_SIGN, before) or re.match(_SIGN, after) or before in "\"'`" or after in "\"'`")
+    return not (
+        re.match(_SIGN, before) or re.match(_SIGN, after) or before in "\"'`" or after in "\"'`"
+    )
 
 
 def style(text: str) -> str:

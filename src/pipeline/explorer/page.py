@@ -38,7 +38,7 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
     translate.TranslationError
         The kernel has a construct that is not translated.
     """
-    kernel_script = f"{kernel.javascript()}\n{_scripts(BOTH)}"
+    kernel_script = kernel_scripts()
     worker_script = _scripts(WORKER)
     app_script = _scripts(APP)
     style = compact.style(script("style.css"))
@@ -75,6 +75,11 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
     return page
 
 
+def kernel_scripts() -> str:
+    """Return the script that computes, in the page and in its worker."""
+    return f"{kernel.javascript()}\n{_scripts(BOTH)}"
+
+
 def _write_copy() -> None:
     """Write the committed copy, which a web server may show."""
     write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))
@@ -90,7 +95,7 @@ def _scripts(names: tuple[str, ...]) -> str:
     return "".join(compact.script(script(name)) for name in names)
 
 
-def _source(script: str) -> str:
+def _source(text: str) -> str:
     """Return how a content security policy calls a script or a style."""
     digest = hashlib.sha256(text.encode()).digest()
     return f"'sha256-{base64.b64encode(digest).decode()}'"
