@@ -254,7 +254,7 @@ PLANTED = {
     "the rest of a constant": ("s * high + s * low", "s * high"),
     "a tail": ("+ (cosine_tail - r * low)", "+ cosine_tail"),
     "the other branch": ("abs(turns) === 1.0 ? b : a", "abs(turns) === 1.0 ? a : b"),
-    "an early end": ("MOST_EVALUATIONS = 0x2710", "MOST_EVALUATIONS = 3"),
+    "an early end": ("MOST_EVALUATIONS = 10000", "MOST_EVALUATIONS = 3"),
 }
 
 

@@ -19,7 +19,7 @@ _SCENES = (PAPER, "claims", "proofs")
 def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     """Return the data, which JSON can hold; the same tree gives the same data."""
     return {
-        "version": _version(root),
+        "version": _version(),
         "scenes": {
             name: block
             for group in _SCENES
@@ -30,8 +30,8 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     }
 
 
-def _version(root: Path) -> str:
-    project = tomllib.loads(read_text(root / "pyproject.toml"))["project"]
+def _version() -> str:
+    project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
     return f"{project['name']} {project['version']}"
 
 

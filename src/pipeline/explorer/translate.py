@@ -14,6 +14,7 @@ refused with its file and line, so that no construct gets another meaning unnoti
 """
 
 import ast
+import json
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -261,7 +262,7 @@ def _kind_of_constant(value: Any) -> str | None:
 
 def _literal_of_constant(value: Any, kind: str) -> str:
     if kind == LONGS:
-        digits = [f"{_literal(int(each))}n" for each in value]
+        digits = [_long_literal(int(each)) for each in value]
         lines = [", ".join(digits[i : i + 8]) for i in range(0, len(digits), 8)]
         return "[\n  " + ",\n  ".join(lines) + ",\n]"
     return str(value).lower() if kind == BOOL else _literal(value)
@@ -270,10 +271,15 @@ def _literal_of_constant(value: Any, kind: str) -> str:
 def _literal(value: int | float) -> str:
     """Return a number as JavaScript reads it; both languages round decimals correctly."""
     if isinstance(value, int):
-        return hex(value) if value > 255 else str(value)
+        return str(value)
     if math.isnan(value):
         return "NaN"
     return repr(value).replace("inf", "Infinity")
+
+
+def _long_literal(value: int) -> str:
+    """Return a 64-bit integer as JavaScript reads it: masks and digits are clearer in base 16."""
+    return f"{hex(value) if value > 255 else value}n"
 
 
 def _leaves(value: Value) -> list[Scalar]:
@@ -458,7 +464,7 @@ class _FunctionTranslator:
             case ast.Raise(
                 exc=ast.Call(func=ast.Name("ArithmeticError"), args=[ast.Constant(value=str(text))])
             ):
-                self._emit(f'throw new Error("{text}");')
+                self._emit(f"throw new Error({json.dumps(text)});")
             case _:
                 self._refuse(node, type(node).__name__)
 
@@ -629,8 +635,8 @@ class _FunctionTranslator:
         if scalar.kind == kind or (scalar.kind, kind) == (INT, FLOAT):
             return scalar
         if (scalar.kind, kind) == (INT, LONG):
-            if scalar.code.isalnum() and scalar.code[0].isdigit():
-                return Scalar(f"{scalar.code}n", LONG)
+            if scalar.code.isdigit():
+                return Scalar(_long_literal(int(scalar.code)), LONG)
             return Scalar(f"BigInt({scalar.code})", LONG)
         if (scalar.kind, kind) == (LONG, FLOAT):
             return Scalar(f"Number({scalar.code})", FLOAT)

@@ -134,7 +134,10 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
             if (root / path).is_file():
                 archived[record_path(path)] = _public_record(root, path)
     archived |= {path: read_bytes(root / path) for path in paths if (root / path).is_file()}
-    archived[EXPLORER] = page.render(checked, root).encode()
+    try:
+        archived[EXPLORER] = page.render(checked, root).encode()
+    except ValueError as error:
+        raise ArchiveError(str(error)) from None
     about = _ABOUT_TEXT.read_text(encoding="utf-8")
     about = about.format(
         certificates=CERTIFICATES,

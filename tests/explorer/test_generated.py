@@ -1,0 +1,175 @@
+"""The page is one file with the same bytes everywhere, which nothing from elsewhere can reach."""
+
+import base64
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from project import ROOT, SHIPPED
+
+from pipeline import config
+from pipeline.cli.commands import explore
+from pipeline.config.paths import EXPLORER
+from pipeline.explorer import atlas, data, page
+
+MOST_CODE = 150_000  # bytes of the page without its data
+MOST = 600_000  # bytes of the committed copy
+
+
+@pytest.fixture(scope="module")
+def text():
+    return page.render(config.load(SHIPPED))
+
+
+class _Elements(HTMLParser):
+    """The elements of a page: tag, attributes and, of scripts and styles, the text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append([tag, dict(attrs), ""])
+
+    def handle_data(self, data):
+        if self.cdata_elem:  # inside a script or a style
+            self.found[-1][2] += data
+
+
+def test_the_committed_copy_is_current(text):
+    """Renew it by .venv/bin/python -m pipeline.explorer.page."""
+    assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
+    assert len(text.encode()) < MOST
+
+
+def test_the_code_is_small(text):
+    (stored,) = (e[2] for e in _Elements(text).found if e[1].get("id") == "data")
+    assert len(text.encode()) - len(stored.encode()) <= MOST_CODE
+
+
+def test_only_the_scripts_of_the_page_may_run(text):
+    elements = _Elements(text).found
+    (policy,) = (e[1]["content"] for e in elements if "http-equiv" in e[1])
+    rules = dict(rule.split(" ", 1) for rule in policy.split("; "))
+    assert rules["default-src"] == "'none'" and rules["worker-src"] == "blob:"
+    assert not {"connect-src", "frame-src", "font-src", "object-src"} & set(rules)
+    hashes = {"script": [], "style": []}
+    for tag, attributes, content in elements:
+        if tag in hashes and attributes.get("type", "module") == "module":
+            digest = base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()
+            hashes[tag].append(f"'sha256-{digest}'")
+    assert rules["script-src"].split() == hashes["script"] and len(hashes["script"]) == 2
+    assert rules["style-src"].split() == hashes["style"] and len(hashes["style"]) == 1
+    for tag, attributes, _ in elements:
+        assert "style" not in attributes and not any(name.startswith("on") for name in attributes)
+        for name in ("src", "href", "action", "data"):
+            assert not re.match(r"(?!#|data:)", attributes.get(name) or "#"), (tag, attributes)
+    assert tag  # it has elements
+    before = text[: text.index("Content-Security-Policy")]
+    assert "<script" not in before and "<style" not in before
+
+
+@pytest.mark.parametrize("seed", ["1", "2"])
+def test_the_bytes_are_the_same_elsewhere(text, tmp_path, seed):
+    """Another folder, locale, time zone and order of sets."""
+    tree = tmp_path / f"another place {seed}"
+    for part in ("src", "paper_figures", "pyproject.toml", "config.yaml"):
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+        tree.mkdir(exist_ok=True)
+        copy(ROOT / part, tree / part)
+    shutil.copy(SHIPPED, tree / "config.yaml")
+    (tree / "docs").mkdir()
+    settings = {"PYTHONHASHSEED": seed, "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
+    subprocess.run(
+        [sys.executable, "-m", "pipeline.explorer.page"],
+        env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
+        cwd=tmp_path,
+        check=True,
+    )
+    assert (tree / page.COPY).read_bytes() == text.encode()
+
+
+def test_the_page_follows_config_and_manifest(text, tmp_path):
+    document = config.load(SHIPPED)
+    document["variants"]["paper"]["fig2"]["energy"] = 0.0123
+    assert '"energy":0.0123' in page.render(document) and '"energy":0.0123' not in text
+    assert data.published_orbits(tmp_path) == []  # nothing is published yet
+    folder = tmp_path / "paper_figures"
+    folder.mkdir()
+    (folder / "MANIFEST.json").write_text('{"scenes": {"fig2": {}}}')
+    with pytest.raises(ValueError, match=r"^paper_figures/MANIFEST.json: broken: .*accept$"):
+        data.published_orbits(tmp_path)
+
+
+def test_data_cannot_end_their_script(text):
+    document = config.load(SHIPPED)
+    document["variants"]["paper"]["fig2"]["title"] = "</script><script>alert(1)"
+    (stored,) = (e for e in _Elements(page.render(document)).found if e[1].get("id") == "data")
+    assert json.loads(stored[2])["scenes"]["fig2"]["title"] == "</script><script>alert(1)"
+
+
+def test_the_atlas_has_the_values_of_a_sweep():
+    """Each share is rounded to a step; one that is missing stays so."""
+    stored = atlas.stored()
+    k, energy = (np.array(stored[name]) for name in ("k", "energy"))
+    steps = np.frombuffer(base64.b64decode(stored["regular"]), np.uint8)
+    assert steps.size == k.size * energy.size
+    assert np.all(np.diff(k) > 0) and np.all(np.diff(energy) > 0)
+    assert np.all((steps <= atlas.STEPS) | (steps == atlas.MISSING))
+    if (ROOT / "results/sweep/plane.nc").is_file() and not changed_sweep():
+        assert atlas.rounded() == stored
+
+
+def changed_sweep():
+    """Whether the sweep here is not the published one."""
+    from pipeline.checks.manifest import describe_data
+    from pipeline.records.artifacts import load
+
+    committed = json.loads((ROOT / "more_figures/atlas/MANIFEST.json").read_text())
+    here = describe_data(load(ROOT / "results/sweep/plane.nc"))
+    return committed["data"]["plane.nc"]["variables"] != here["variables"]
+
+
+def test_explore_writes_the_page_and_opens_it(tmp_path, tree):
+    browser = tmp_path / "browser"
+    browser.write_text(f"#!/bin/sh\necho \"$1\" > '{tmp_path}/opened'\n")
+    browser.chmod(0o755)
+    result = tree.run("explore", "--no-open", BROWSER=str(browser))
+    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: open it in a browser")
+    assert not (tmp_path / "opened").exists()
+    written = (tree.path / EXPLORER).read_bytes()
+    result = tree.run("explore", BROWSER=str(browser))
+    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: opened in a browser")
+    assert (tmp_path / "opened").read_text().strip() == (tree.path / EXPLORER).as_uri()
+    assert (tree.path / EXPLORER).read_bytes() == written
+    tree.run("clean", "--yes")
+    assert not (tree.path / EXPLORER).exists()
+
+
+def test_a_construct_that_is_not_translated_is_one_line(tree):
+    file = tree.path / "src/pseudorigid/kernel/flight.py"
+    text = file.read_text()
+    file.write_text(text.replace("    h4 = h2 * h2\n    versine", "    h4 = h2**2\n    versine"))
+    result = tree.run("explore", "--no-open")
+    assert result.returncode == 1
+    (line,) = result.stdout.splitlines()
+    assert re.fullmatch(
+        r"reproduce: src/pseudorigid/kernel/flight.py:\d+: a power of anything but two numbers is "
+        "not translated",
+        line,
+    )
+
+
+def test_no_display_means_no_browser(monkeypatch):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(explore.webbrowser, "open", lambda *_: pytest.fail("opened"))
+    assert not explore._open()
