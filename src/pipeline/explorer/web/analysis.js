@@ -306,10 +306,13 @@ const analysis = (() => {
 
   // ---------------------------------------------------------------- branches of a saddle
 
-  /** An unstable branch as a function of u >= 0, whose whole part counts images. */
+  /**
+   * An unstable branch as a function of u >= 0, whose whole part counts images; or its mirror image,
+   * a stable branch.
+   */
   class Branch {
-    constructor(k, g, energy, points, saddle, side) {
-      Object.assign(this, { k, g, energy });
+    constructor(k, g, energy, points, saddle, side, stable) {
+      Object.assign(this, { k, g, energy, stable });
       this.radius = geometry.section(k, g, energy).radius;
       const xy = points.map(([x, v, w]) => [x, v - k * w]);
       this.point = points[saddle].slice(0, 3);
@@ -346,7 +349,11 @@ const analysis = (() => {
       const sigma = 1 + (this.multiplier - 1) * (u - image);
       const [x, y] = this.origin.map((value, i) => value + sigma * this.first[i]);
       const state = pseudorigid.stateXY(this.k, this.g, this.energy, x, y);
-      return iterate(this.k, this.g, state, image * this.period);
+      return this.mirror(iterate(this.k, this.g, state, image * this.period));
+    }
+
+    mirror(state) {
+      return this.stable ? pseudorigid.reverse(this.k, ...state) : state;
     }
 
     /** Whether the two orbits to where an image begins agree so far. */
@@ -373,9 +380,9 @@ const analysis = (() => {
     const { stable, side, length, distance = 0.01, bend = 10, window } = spec;
     let { saddle } = spec;
     if (stable) saddle = mirrored(k, points, saddle);
-    const branch = new Branch(k, g, energy, points, saddle, side);
+    const branch = new Branch(k, g, energy, points, saddle, side, stable);
     const rule = { distance, straight: Math.cos((bend * Math.PI) / 180), finest: () => 1 };
-    if (window) rule.finest = magnification(k, g, energy, stable ? { ...window, y: -window.y } : window);
+    if (window) rule.finest = magnification(k, g, energy, window);
     let vertices = [];
     let travelled = 0;
     let ended = null;
@@ -406,7 +413,7 @@ const analysis = (() => {
       travelled = 0;
       for (const step of steps) travelled += step.jump ? 0 : step.length;
     }
-    return { ...polyline(branch, vertices, steps, length, stable), ended };
+    return { ...polyline(branch, vertices, steps, length), ended };
   }
 
   function mirrored(k, points, saddle) {
@@ -474,8 +481,8 @@ const analysis = (() => {
     return refined;
   }
 
-  function polyline(branch, vertices, sides, length, stable) {
-    const rows = [branch.point];
+  function polyline(branch, vertices, sides, length) {
+    const rows = [branch.mirror(branch.point)];
     let travelled = 0;
     for (let i = 0; i < vertices.length; i++) {
       rows.push(vertices[i].state);
@@ -483,8 +490,7 @@ const analysis = (() => {
       if (sides[i].jump) rows.push([NaN, NaN, NaN]);
       else travelled += sides[i].length;
     }
-    const turned = stable ? rows.map((row) => pseudorigid.reverse(branch.k, ...row)) : rows;
-    const [x, xdot, udot] = [0, 1, 2].map((i) => Float64Array.from(turned, (row) => row[i]));
+    const [x, xdot, udot] = [0, 1, 2].map((i) => Float64Array.from(rows, (row) => row[i]));
     return { x, xdot, udot, travelled };
   }
 

@@ -1028,11 +1028,12 @@ class Controls {
     const { explorer } = this;
     element("check").disabled = true;
     const found = [];
+    this.checker ??= new Computer(); // of its own, which no change of the picture interrupts
     try {
       for (const figure of explorer.data.check) {
         const name = `Figure ${figure.figure.replace("fig", "")}`;
         setText("check-note", `Computing ${name} …`);
-        const result = await explorer.follower.ask("check", { figure });
+        const result = await this.checker.ask("check", { figure });
         const count = COUNT.format(result.impacts);
         const { difference } = result;
         if (!difference) found.push(`${name}: the same bits here, in ${count} impacts.`);

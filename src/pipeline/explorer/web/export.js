@@ -50,7 +50,11 @@ function sceneBlock(kind, state, orbits, periodic) {
   if (kind === "exponents") {
     lines.push(`records: ${Math.max(2, Math.min(400, ...shown.map((orbit) => orbit.impacts)))}`);
   }
-  if (kind === "jumps") lines.push("energies: []", "sides: 4000");
+  if (kind === "jumps") {
+    const other = Number((1.25 * geometry.firstJump(k, g)).toPrecision(3)); // where the curve is small
+    const energies = other < geometry.energyBounds(k, g)[1] ? [other] : [energy];
+    lines.push(...flowList("energies", energies.map(number)), "sides: 4000");
+  }
   if (kind === "motion") {
     const { period, type } = state.motion;
     lines.push(`period: ${period}`, `type: ${type}`, `duration: ${number(state.span)}`);

@@ -57,6 +57,8 @@ class Explorer {
   restart(fast) {
     this.generation += 1;
     this.follower.restart();
+    this.follower.ask("reset", {});
+    if (this.asking) this.running = this.asking = false; // that reply will not come
     this.searcher.restart();
     this.periodic.clear();
     this.branchLines = [];
@@ -167,7 +169,10 @@ class Explorer {
       orbit.pace = Math.min(1.18 * orbit.pace + 1, 5000);
       return [orbit.key, count];
     });
-    this.reply(generation, await this.follower.ask("advance", { orbits: wanted }));
+    this.asking = true;
+    const pieces = await this.follower.ask("advance", { orbits: wanted });
+    this.asking = false;
+    this.reply(generation, pieces);
   }
 
   reply(generation, pieces) {
@@ -192,7 +197,10 @@ class Explorer {
     this.controls.updateFacts();
     if (!this.orbits.some((orbit) => !orbit.done)) this.controls.completed();
     this.drawChartSoon();
-    if (!this.playing) this.time.draw();
+    if (!this.playing) {
+      this.time.draw();
+      this.controls.moment();
+    }
     this.section.drawCursors();
     this.run();
   }

@@ -42,8 +42,7 @@ const PRESETS = [
       const half = (0.55 * (x.limits[1] - x.limits[0])) / radius;
       return {
         view: { ...HOME_VIEW, kind: "disk", x: (a - centre) / radius, y: (v - k * w) / height, half },
-        periods: [scene.period],
-        branches: branchesOf({ ...scene, branches: { outer: scene, inner: scene } }),
+        ...saddle({ ...scene, branches: { outer: scene, inner: scene } }),
       };
     },
   },
@@ -89,8 +88,7 @@ const PRESETS = [
     see: "The outer branches cross in wide lobes; the inner ones nearly coincide and close the main island in.",
     make: (scene) => ({
       view: disk(),
-      periods: [scene.period],
-      branches: branchesOf({ ...scene, type: "hyperbolic", branches: { outer: { length: 1.4 }, inner: { length: 1 } } }),
+      ...saddle({ ...scene, type: "hyperbolic", branches: { outer: { length: 1.4 }, inner: { length: 1 } } }),
     }),
   },
   {
@@ -107,7 +105,7 @@ const PRESETS = [
     name: "horseshoe",
     title: "Proof: the horseshoe's branches",
     see: "Outer branches of the saddles cross at a large angle, which is what makes a horseshoe.",
-    make: (scene) => ({ view: disk(), periods: [scene.period], branches: branchesOf(scene) }),
+    make: (scene) => ({ view: disk(), ...saddle(scene) }),
   },
   {
     name: "twist",
@@ -160,6 +158,12 @@ function inTime({ period, type, duration }, all) {
     periods: [period],
     span: duration,
   };
+}
+
+/** A saddle with its branches, and in time. */
+function saddle(scene) {
+  const { period, type } = scene;
+  return { periods: [period], branches: branchesOf(scene), motion: { period, type, nth: 0 }, span: 30 };
 }
 
 function branchesOf({ period, type, branches }) {

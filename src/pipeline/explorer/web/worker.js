@@ -11,6 +11,10 @@ const jobs = {
     followers.set(key, new analysis.Follower(k, g, energy, state));
   },
 
+  reset() {
+    followers.clear();
+  },
+
   close({ keys }) {
     for (const key of keys) followers.delete(key);
   },

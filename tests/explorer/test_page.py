@@ -1,0 +1,686 @@
+"""The explorer's page in Chromium, used as a person uses it: pointer, touch, keys and fields."""
+
+import csv
+import io
+import math
+import re
+import time
+
+import browsers
+import numpy as np
+import pytest
+import yaml
+from project import SHIPPED, fresh_tree, shipped
+from PIL import Image
+
+from pipeline import config
+from pipeline.explorer import page
+from pipeline.records.artifacts import load
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
+from pseudorigid.analyses.jumps import jumps
+from pseudorigid.analyses.regularity import regular
+from pseudorigid.analyses.winding import winding
+from pseudorigid.dynamics.variables import of_type
+
+BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
+K, G = BALL.k, BALL.g
+# Ask a job of a worker like the page's own.
+JOB = "const worker = new Computer(); const [job, values] = args; return worker.ask(job, values);"
+MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
+WHOLE = 1.12  # half the disk's view, in section radii
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    file = tmp_path_factory.mktemp("page") / "explorer.html"
+    file.write_text(page.render(config.load(SHIPPED)), encoding="utf-8")
+    return file.as_uri()
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory):
+    with browsers.start("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
+        yield browser
+
+
+@pytest.fixture
+def person(chromium, address):
+    """Someone who opens the page; at the end, nothing may have gone wrong."""
+    chromium.resize(1400, 1000)
+    user = Person(chromium)
+    user.open(address)
+    yield user
+    assert chromium.errors() == []
+    requests = "return performance.getEntriesByType('resource').map(r => r.name)"
+    assert [name for name in chromium.run(requests) if not name.startswith(("blob:", "data:"))] == []
+
+
+class Person:
+    """What a person does with the page, and sees."""
+
+    def __init__(self, browser):
+        from selenium.webdriver import ActionChains
+        from selenium.webdriver.common.by import By
+
+        self.browser, self.driver = browser, browser.driver
+        self.chain = lambda **how: ActionChains(self.driver, duration=20, **how)
+        self.by = By.ID
+
+    def open(self, address):
+        self.browser.open("about:blank")
+        self.browser.open(address)
+        self.file = address.split("#")[0]
+
+    def find(self, name):
+        return self.driver.find_element(self.by, name)
+
+    def text(self, name):
+        return self.browser.run("return document.getElementById(args[0]).textContent", name)
+
+    def press(self, name):
+        element = self.find(name)
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def unfold(self, name):
+        if self.browser.run("return !document.getElementById(args[0]).open", name):
+            self.driver.find_element("css selector", f"#{name} > summary").click()
+
+    def choose(self, name, value):
+        from selenium.webdriver.support.ui import Select
+
+        Select(self.find(name)).select_by_value(value)
+
+    def type(self, name, text):
+        from selenium.webdriver.common.keys import Keys
+
+        self.find(name).send_keys(Keys.CONTROL + "a", Keys.BACKSPACE, text)
+
+    def state(self):
+        """Fields of the address."""
+        time.sleep(0.5)  # the address follows the state after 0.4 s
+        text = self.browser.run("return decodeURIComponent(location.hash.slice(1))")
+        return dict(part.split("=", 1) for part in text.split("&"))
+
+    def orbits(self):
+        """(start, impacts so far, exponent, rotation number, verdict) of each orbit in the list."""
+        rows = self.browser.run(
+            "return [...document.querySelectorAll('#orbits label')].map(n =>"
+            " [...n.querySelectorAll('div')].slice(1).map(d => d.textContent))"
+        )
+        found = []
+        for title, facts in rows:
+            count, exponent, rotation, start = facts.replace("\N{MINUS SIGN}", "-").split(" · ")
+            found.append(
+                {
+                    "impacts": int(count.split()[0].replace(",", "")),
+                    "exponent": exponent.split()[1],
+                    "rotation": rotation.split()[1],
+                    "start": start.removeprefix("start "),
+                    "verdict": re.sub(r"^\d+\. ", "", title),
+                }
+            )
+        return found
+
+    def wait(self, condition, patience=60):
+        end = time.monotonic() + patience
+        while not (value := condition()):
+            assert time.monotonic() < end, (self.text("hint"), self.browser.errors())
+            time.sleep(0.1)
+        return value
+
+    def settled(self):
+        """Wait until all orbits are complete, and return them."""
+
+        def complete():
+            wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
+            rows = self.orbits() if wanted else []
+            return [r["impacts"] for r in rows] == [int(n) for n in wanted] and (rows or [None])
+
+        return [row for row in self.wait(complete) if row]
+
+    def spot(self, p, q=0.0, shape="disk"):
+        """Where a place of the section is in the whole disk, in pixels from the box's middle."""
+        assert shape == "disk"
+        box = self.find("section").rect
+        wide = box["width"] - 2 - MARGINS["left"] - MARGINS["right"]
+        tall = box["height"] - 2 - MARGINS["top"] - MARGINS["bottom"]
+        scale = min(wide, tall) / 2 / WHOLE
+        across = MARGINS["left"] + wide / 2 - box["width"] / 2 + 1 + p * scale
+        down = MARGINS["top"] + tall / 2 - box["height"] / 2 + 1 - q * scale
+        return round(across), round(down)
+
+    def click(self, p, q=0.0):
+        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+        self.chain().move_to_element_with_offset(self.find("section"), *self.spot(p, q)).click().perform()
+
+    def drag(self, start, end):
+        box = self.find("section")
+        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+        chain = self.chain().move_to_element_with_offset(box, *start).click_and_hold()
+        for share in (0.3, 0.7, 1.0):
+            at = [round(a + share * (b - a)) for a, b in zip(start, end, strict=True)]
+            chain = chain.move_to_element_with_offset(box, *at)
+        chain.release().perform()
+
+    def pixels(self):
+        """The section's canvases as arrays, one over the other."""
+        url = (
+            "const [first, ...rest] = document.querySelectorAll('#section canvas');"
+            "const c = document.createElement('canvas'); c.width = first.width;"
+            "c.height = first.height; const d = c.getContext('2d');"
+            "for (const layer of [first, ...rest]) d.drawImage(layer, 0, 0);"
+            "return c.toDataURL().split(',')[1];"
+        )
+        import base64
+
+        data = base64.b64decode(self.browser.run(url))
+        return np.array(Image.open(io.BytesIO(data)).convert("RGBA"))
+
+
+def test_the_first_picture_is_figure_2_and_says_what_to_do_next(person):
+    rows = person.settled()
+    assert [row["impacts"] for row in rows] == shipped()["scenes"]["fig2"]["impacts"]
+    assert "starts there" in person.text("hint")
+    assert person.state()["preset"] == "fig2"
+    assert "chaos" in person.text("see")
+
+
+def test_facts_of_figure_2_are_those_of_python(person):
+    scene = shipped()["scenes"]["fig2"]
+    for row, start, impacts in zip(person.settled(), scene["starts"], scene["impacts"], strict=True):
+        state = BALL.start(start, ENERGY)
+        exponent = float(lyapunov_spectrum(BALL, state, impacts, 1)["exponent"][0, 0])
+        assert float(row["exponent"]) == pytest.approx(exponent, rel=6e-4)
+        turns, rate = winding(BALL, ENERGY, np.array([start]), impacts)
+        verdict = "regular" if regular(rate, impacts)[0] else "chaotic"
+        assert row["verdict"] == verdict
+        if verdict == "regular":
+            assert float(row["rotation"]) == pytest.approx(turns[0], abs=2e-8)
+
+
+def test_a_new_user_makes_an_island_a_chaotic_orbit_and_the_ball_bounces(person):
+    began = time.monotonic()
+    person.press("as-disk")
+    person.click(-0.3, 0.1)
+    person.wait(lambda: "regular" in person.text("hint"))
+    assert "grey sea" in person.text("hint")
+    person.click(0.6, 0.2)
+    person.wait(lambda: "chaotic" in person.text("hint"))
+    before = person.text("moment")
+    person.wait(lambda: person.text("moment") != before)
+    assert person.text("play") == "Pause"
+    assert time.monotonic() - began < 60
+    assert [row["verdict"] for row in person.settled()][-2:] == ["regular", "chaotic"]
+
+
+def test_a_click_starts_what_the_readout_says_and_the_points_are_the_kernel_s(person):
+    person.press("as-disk")
+    person.press("clear")
+    person.type("impacts", "700")
+    person.click(0.31, 0.22)
+    person.settled()
+    p, q = (float(part) for part in person.state()["orbits"].split("*")[0].split(":"))
+    assert (p, q) == pytest.approx((0.31, 0.22), abs=0.01)
+    centre, radius = BALL.section(ENERGY)
+    x, y = centre + p * radius, q * (math.sqrt(K * (1 + K)) * radius)
+    expected = orbit(BALL, BALL.state_xy(x, y, ENERGY), 700)
+    rows = saved(person)
+    for name in ("x", "xdot", "udot", "tau"):
+        assert np.array_equal([float(row[name]) for row in rows[1:]], expected[name].values)
+
+
+def saved(person):
+    """Save the chosen orbit as CSV, and return its rows."""
+    catch = (
+        "window.saved = null; const make = URL.createObjectURL;"
+        "URL.createObjectURL = blob => { blob.text().then(t => { window.saved = t }); return make(blob) }"
+    )
+    person.browser.run(catch)
+    person.unfold("record-panel")
+    person.press("csv")
+    text = person.wait(lambda: person.browser.run("return window.saved"))
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_backward_orbit_is_the_inverse_map_s(person):
+    person.press("as-disk")
+    person.press("clear")
+    person.type("impacts", "300")
+    person.press("back")
+    person.click(0.31, 0.22)
+    assert "backwards" in person.settled()[0]["verdict"]
+    rows = saved(person)
+    state = tuple(float(rows[0][name]) for name in ("x", "xdot", "udot"))
+    reached = []
+    for _ in range(100):
+        *state, tau = BALL.inverse_impact(*state)
+        reached.append((*state, tau))
+    found = [[float(row[name]) for name in ("x", "xdot", "udot", "tau")] for row in rows[1:41]]
+    assert np.allclose(found, reached[:40], atol=1e-10)  # chaos: rounding grows from there
+    assert rows[1]["impact"] == "-1"
+    assert person.browser.run("return document.getElementById('moment').textContent").startswith("t")
+
+
+def test_dragging_along_the_symmetry_line_shoots_a_fan(person):
+    person.press("as-disk")
+    person.press("clear")
+    person.drag(person.spot(-0.4), person.spot(0.5))
+    rows = person.settled()
+    starts = [float(row["start"]) for row in rows]
+    assert len(rows) == 12
+    assert np.allclose(starts, np.linspace(starts[0], starts[-1], 12), atol=2e-4)
+    assert (starts[0], starts[-1]) == pytest.approx((-0.4, 0.5), abs=0.02)
+
+
+def test_dragging_turns_the_surface_and_moves_the_disk(person):
+    person.settled()
+    before = person.pixels()
+    person.drag((150, 120), (60, 80))
+    kind, azimuth, elevation, *_ = person.state()["view"].split(",")
+    assert kind == "surface"
+    assert float(azimuth) != 115
+    assert float(elevation) != 40
+    assert not np.array_equal(before, person.pixels())
+    person.press("as-disk")
+    person.drag(person.spot(0.2, 0.6), person.spot(0.4, 0.4))
+    view = person.state()["view"].split(",")
+    assert float(view[3]) == pytest.approx(-0.2, abs=0.02)
+    assert float(view[4]) == pytest.approx(0.2, abs=0.02)
+
+
+def test_the_wheel_zooms_without_limit_at_the_pointer(person):
+    person.press("as-disk")
+    box = person.find("section")
+    person.chain().move_to_element_with_offset(box, *person.spot(0.3, 0.2)).perform()
+    place = person.text("where")
+    origin = wheel_origin(box, person.spot(0.3, 0.2))
+    for _ in range(70):
+        person.chain().scroll_from_origin(origin, 0, -240).perform()
+    half = float(person.state()["view"].split(",")[5])
+    assert half < 1e-13
+    person.chain().move_to_element_with_offset(box, 40, 40).perform()
+    there = person.text("where")
+    values = [re.findall(r"[−\d.]+", text)[:2] for text in (place, there)]
+    for before, after in zip(*values, strict=True):
+        number = [float(text.replace("−", "-")) for text in (before, after)]
+        assert number[0] == pytest.approx(number[1], abs=3e-3)
+    person.chain().move_to_element_with_offset(box, 40, 40).click().perform()
+    assert person.settled()[-1]["impacts"] == 3000
+
+
+def wheel_origin(box, spot):
+    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+
+    return ScrollOrigin.from_element(box, *spot)
+
+
+def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
+    person.press("as-disk")
+    touch = person.driver.execute_cdp_cmd
+    person.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+    left, top = person.browser.run(
+        "const b = document.getElementById('section').getBoundingClientRect();"
+        "return [b.left + b.width / 2, b.top + b.height / 2]"
+    )
+
+    def fingers(kind, *points):
+        at = [{"x": left + x, "y": top + y, "id": i} for i, (x, y) in enumerate(points)]
+        touch("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+    fingers("touchStart", (-40, 60))
+    fingers("touchStart", (-40, 60), (40, 60))
+    for reach in (60, 80, 120):
+        fingers("touchMove", (-reach, 60), (reach, 60))
+    fingers("touchEnd")
+    half = float(person.state()["view"].split(",")[5])
+    assert half == pytest.approx(WHOLE * 40 / 120, rel=0.1)
+    count = len(person.orbits())
+    fingers("touchStart", (30, 50))
+    fingers("touchEnd")
+    person.wait(lambda: len(person.orbits()) == count + 1)
+
+
+def test_the_keyboard_does_everything(person):
+    from selenium.webdriver.common.keys import Keys
+
+    person.press("clear")
+    box = person.find("section")
+    person.browser.run("document.getElementById('section').focus()")
+    box.send_keys(*[Keys.ARROW_RIGHT] * 3, *[Keys.ARROW_DOWN] * 2, Keys.ENTER)
+    assert len(person.settled()) == 1
+    person.wait(lambda: person.text("play") == "Pause")
+    box.send_keys(Keys.SPACE)
+    person.wait(lambda: person.text("play") == "Play")
+    view = person.state()["view"]
+    box.send_keys("+")
+    assert person.state()["view"] != view
+    box.send_keys("0", Keys.SHIFT + Keys.ARROW_LEFT)
+    assert person.state()["view"].split(",")[1] != "115"
+    box.send_keys(Keys.NULL, "f", *[Keys.ARROW_LEFT] * 3, "f")
+    assert len(person.settled()) == 13
+    box.send_keys(Keys.SPACE)
+    person.wait(lambda: person.text("play") == "Play")
+    curves = person.find("curves")
+    now = float(person.state()["t"])
+    curves.send_keys(Keys.ARROW_RIGHT)
+    assert float(person.state()["t"]) == pytest.approx(now + 0.16)
+    curves.send_keys(Keys.PAGE_UP)
+    assert float(person.state()["t"]) > now
+
+
+def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
+    person.settled()
+    before = person.pixels()
+    for name, text, words in [
+        ("k", "0", "k = 0 is not allowed"),
+        ("k", "", "nothing is not allowed"),
+        ("k", "1.2", "at most 1"),
+        ("g", "-1", "g = -1 is not allowed"),
+        ("g", "0.3", "between 0 and k"),
+        ("E", "0.07", "0.06"),
+        ("E", "1e", "a number"),
+        ("E", "-1", "−0.004"),
+    ]:
+        person.type(name, text)
+        assert words in person.text(f"{name}-error")
+        assert "\n" not in person.text(f"{name}-error")
+        assert person.find(name).get_attribute("aria-invalid") == "true"
+        person.type(name, {"k": "0.2", "g": "0.04", "E": "0.01"}[name])
+        assert person.text(f"{name}-error") == ""
+    assert np.array_equal(before, person.pixels())
+    person.driver.find_element("css selector", "main details summary").click()
+    person.type("start-x", "3")
+    person.find("start-x").submit()
+    assert "outside the section" in person.text("start-error")
+    person.type("fan-count", "1")
+    person.find("fan-count").submit()
+    assert "2 to 64" in person.text("fan-error")
+    person.type("impacts", "0")
+    assert "whole number" in person.text("impacts-error")
+    assert len(person.orbits()) == 8
+
+
+def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
+    person.settled()
+    starts = person.state()["orbits"]
+    person.type("E", "0.008")
+    rows = person.settled()
+    assert person.state()["orbits"] == starts
+    assert person.state()["E"] == "0.008"
+    exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, 0.008), 25000, 1)["exponent"]
+    assert float(rows[-1]["exponent"]) == pytest.approx(float(exponent[0, 0]), rel=6e-4)
+    person.browser.run(
+        "const s = document.getElementById('k-slide'); s.value = Math.sqrt(0.25);"
+        "s.dispatchEvent(new Event('input', {bubbles: true}))"
+    )
+    person.wait(lambda: person.state()["k"] == "0.25")
+    assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
+
+
+def test_periodic_orbits_are_those_of_python(person):
+    for period in (1, 2, 5, 6):
+        expected = symmetric_orbits(BALL, ENERGY, period)
+        values = {"k": K, "g": G, "energy": ENERGY, "period": period}
+        found = person.browser.run(JOB, "periodic", values)
+        assert [one["type"] for one in found] == expected["type"].values.tolist()
+        for name, variable in (("trace", "trace"), ("rotation", "rotation_number"), ("time", "total_time")):
+            got = [one[name] for one in found]
+            if name == "rotation":
+                pairs = zip(got, expected[variable].values, expected["type"].values, strict=True)
+                got = [a if kind == "elliptic" else b for a, b, kind in pairs]
+            assert np.allclose(got, expected[variable].values, rtol=1e-9, atol=1e-9)
+        for one, row in zip(found, range(len(found)), strict=True):
+            xs = sorted(point[0] for point in one["points"])
+            assert np.allclose(xs, np.sort(expected["x"].values[row]), atol=1e-12)
+
+
+def test_a_person_finds_a_saddle_and_draws_its_branches(person):
+    person.unfold("periodic-panel")
+    person.press("find")
+    person.wait(lambda: "3 symmetric orbits" in person.text("periodic-note"))
+    listed = person.text("periodic")
+    assert "Period 6, hyperbolic" in listed
+    assert "2.53147" in listed
+    person.press("no-branches")
+    person.find("branch-length").submit()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    person.type("branch-length", "-1")
+    person.find("branch-length").submit()
+    assert "above 0" in person.text("branch-error")
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+@pytest.mark.parametrize("stable", [False, True])
+def test_branches_are_those_of_python(person, side, stable):
+    six = of_type(symmetric_orbits(BALL, ENERGY, 6), "hyperbolic")
+    points = np.stack([six[name].values for name in ("x", "xdot", "udot")], axis=1).tolist()
+    expected = trace_manifold(BALL, ENERGY, six, 1, stable=stable, side=side, length=1.5)
+    spec = {"saddle": 1, "stable": stable, "side": side, "length": 1.5}
+    values = {"k": K, "g": G, "energy": ENERGY, "points": points, "spec": spec}
+    line = person.browser.run(
+        JOB.replace("return worker.ask(job, values)", "const line = await worker.ask(job, values);"
+        "return [line.x, line.xdot, line.udot].map(a => [...a])"), "branch", values,
+    )
+    found, radius = np.array(line), BALL.section(ENERGY)[1]
+    reference = np.stack([expected[name].values for name in ("x", "xdot", "udot")])
+    distances = [np.min(np.linalg.norm(reference - point[:, None], axis=0)) for point in found.T]
+    assert max(distances) < 0.011 * radius
+    assert np.linalg.norm(np.diff(found), axis=0).sum() == pytest.approx(1.5 * radius, rel=0.01)
+    assert np.allclose(found[:, -1], reference[:, -1], atol=0.02 * radius)
+
+
+def test_the_jump_curve_has_python_s_length(person):
+    expected = float(jumps(BALL, ENERGY, [0.001], 4000)["length"][0])
+    curve = person.browser.run(JOB, "jump", {"k": K, "g": G, "energy": ENERGY})
+    assert curve["length"] == pytest.approx(expected, rel=1e-9)
+    person.unfold("periodic-panel")
+    person.press("jump")
+    person.wait(lambda: "0.404858" in person.text("jump-note"))
+    person.type("E", "0.001")
+    person.wait(lambda: "continuous" in person.text("jump-note"))
+
+
+def test_the_ball_in_time_steps_from_impact_to_impact(person):
+    person.choose("preset", "fig4")
+    person.wait(lambda: "impact 0" in person.text("moment"))
+    six = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
+    times = np.concatenate([[0.0], np.cumsum(six["tau"].values)])
+    for when in times[1:]:
+        person.press("next-impact")
+        assert float(person.state()["t"]) == pytest.approx(when, abs=1e-9)
+    person.press("back-impact")
+    assert float(person.state()["t"]) == pytest.approx(times[-2], abs=1e-9)
+    person.press("play")
+    person.wait(lambda: float(person.state()["t"]) > times[-2] + 0.5)
+    person.press("play")
+    assert person.text("play") == "Play"
+
+
+def test_every_preset_draws_and_has_one_sentence(person):
+    names = person.browser.run("return PRESETS.map(p => p.name)")
+    assert {f"fig{n}" for n in range(2, 9)} < set(names)
+    assert set(shipped()["claims"]) <= set(names)
+    seen = []
+    for name in names:
+        person.choose("preset", name)
+        person.wait(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))
+        assert person.text("see").endswith(".")
+        seen.append(person.pixels().tobytes())
+        assert person.state()["preset"] == name
+    assert len(set(seen)) == len(names)
+
+
+def test_the_address_holds_the_whole_state(person):
+    person.choose("preset", "fig5")
+    person.settled()
+    person.press("as-disk")
+    person.press("by-verdict")
+    person.click(0.5, 0.3)
+    person.press("play")
+    person.settled()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    state = person.state()
+    where = person.browser.run("return location.href")
+    picture = person.pixels()
+    person.open(where)
+    person.settled()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    assert person.state() == state
+    assert np.mean(np.any(person.pixels() != picture, axis=2)) < 1e-3
+
+
+@pytest.mark.parametrize(
+    "wrong", ["k=0", "orbits=2*10", "E=9", "nonsense", "%E0%A4%A", "orbits=0.1*0", "view=cube,1,2,3,4,5"]
+)
+def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
+    person.open(f"{person.file}#{wrong}")
+    person.wait(lambda: "address" in person.text("hint"))
+    assert len(person.settled()) == 8
+
+
+def test_the_atlas_goes_to_a_ball_and_an_energy(person):
+    person.settled()
+    person.unfold("atlas-panel")
+    canvas = person.find("atlas")
+    person.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    person.chain().move_to_element_with_offset(canvas, 30, -20).click().perform()
+    state = person.state()
+    assert float(state["k"]) != 0.2
+    k, g, energy = (float(state[name]) for name in ("k", "g", "E"))
+    assert energy < k / 2 - g
+    assert f"k = {state['k']}" in person.text("hint")
+    assert len(person.settled()) == 8
+
+
+def test_check_this_machine_finds_the_same_bits(person):
+    person.press("check")
+    person.wait(lambda: "Figure 8: " in person.text("check-note"))
+    assert person.text("check-note") == (
+        "Figure 2: the same bits here, in 45,000 impacts. "
+        "Figure 8: the same bits here, in 35,000 impacts."
+    )
+
+
+def scene(person, kind):
+    """Copy what is on the page as a scene of a kind, and return name, block and points."""
+    person.unfold("record-panel")
+    person.choose("scene-kind", kind)
+    person.press("copy-scene")
+    person.wait(lambda: "config.yaml" in person.text("scene-note"))
+    text = person.browser.run("return document.getElementById('scene').value")
+    ((name, block),) = yaml.safe_load(text).items()
+    assert block["picture"] == kind
+    assert max(map(len, text.splitlines())) <= 100
+    return name, text
+
+
+def test_five_pictures_are_drawn_by_the_pipeline_with_the_same_points(person, tmp_path):
+    texts, points = {}, {}
+    person.press("as-disk")
+    person.press("clear")
+    person.type("impacts", "900")
+    person.click(0.4, 0.3)
+    person.click(-0.2)
+    person.drag(person.spot(0.1), person.spot(0.7))
+    person.settled()
+    name, texts["portrait"] = scene(person, "portrait")
+    points[name] = every_point(person)
+    person.type("E", "0.0123456789")
+    person.settled()
+    name, texts["other energy"] = scene(person, "portrait")
+    points[name] = every_point(person)
+    _, texts["exponents"] = scene(person, "exponents")
+    person.choose("preset", "jumps")
+    person.settled()
+    name, texts["jumps"] = scene(person, "jumps")
+    points[name] = every_point(person)
+    person.choose("preset", "fig4")
+    person.wait(lambda: "3 symmetric" in person.text("periodic-note"))
+    _, texts["motion"] = scene(person, "motion")
+    person.choose("preset", "fig5")
+    person.settled()
+    name, texts["tangle"] = scene(person, "tangle")
+    points[name] = every_point(person)
+    person.choose("preset", "fig6")
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    _, texts["closeup"] = scene(person, "closeup")
+
+    document = shipped()
+    document["scenes"], document["variants"] = {}, {}
+    for text in texts.values():
+        document["scenes"] |= yaml.safe_load(text)
+    assert len(document["scenes"]) == len(texts)
+    tree = fresh_tree(tmp_path / "a tree", document)
+    result = tree.run(*[f"results/paper/figures/{name}.png" for name in document["scenes"]])
+    assert result.returncode == 0, result.stdout
+    for name, expected in points.items():
+        orbits = load(tree.path / f"results/paper/orbits_{name}.nc")
+        for variable, values in expected.items():
+            assert np.array_equal(orbits[variable].values, values), (name, variable)
+
+
+def every_point(person):
+    """The impacts of all orbits on the page, joined as in a dataset of orbits."""
+    columns = {"x": [], "xdot": [], "udot": []}
+    for at in range(len(person.orbits())):
+        person.browser.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
+        rows = saved(person)[1:]
+        for name, values in columns.items():
+            values += [float(row[name]) for row in rows]
+    return {name: np.array(values) for name, values in columns.items()}
+
+
+@pytest.mark.parametrize("width", [360, 1280, 2000])
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_page_fits_and_is_legible(person, width, theme):
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    person.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    try:
+        person.open(person.file)
+        if theme != person.browser.run("return document.documentElement.dataset.theme"):
+            person.press("theme")
+        for panel in ("periodic-panel", "atlas-panel", "record-panel", "keys-panel"):
+            person.unfold(panel)
+        room, needed = person.browser.run(
+            "const e = document.documentElement; return [e.clientWidth, e.scrollWidth]"
+        )
+        assert needed <= room
+        for name, ratio in person.browser.run(CONTRAST):
+            assert ratio >= 4.5, name
+        small = person.browser.run(
+            "return [...document.querySelectorAll('button, select, input:not([type=range])')]"
+            ".map(n => [n.id, n.getBoundingClientRect()]).filter(([, b]) => b.width &&"
+            " (b.height < 24 || b.width < 24) && !(b.width >= 20 && b.height >= 20))"
+            ".map(([id]) => id)"
+        )
+        assert small == []
+        unnamed = person.browser.run(
+            "return [...document.querySelectorAll('button, select, input, textarea, canvas[role]')]"
+            ".filter(n => !(n.textContent.trim() && n.matches('button')) && !n.labels?.length"
+            " && !n.getAttribute('aria-label')).map(n => n.outerHTML)"
+        )
+        assert unnamed == []
+    finally:
+        person.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+# Contrast of the texts on the page with what is behind them.
+CONTRAST = """
+const light = text => {
+  const [r, g, b] = text.match(/[\\d.]+/g).slice(0, 3).map(v => {
+    const c = v / 255; return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; });
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+const ground = node => {
+  for (let n = node; n; n = n.parentElement) {
+    const c = getComputedStyle(n).backgroundColor;
+    if (!c.endsWith(', 0)') && c !== 'transparent') return c; }
+  return 'rgb(255, 255, 255)'; };
+const found = [];
+for (const node of document.querySelectorAll('body *')) {
+  const own = [...node.childNodes].some(n => n.nodeType === 3 && n.textContent.trim());
+  if (!own || !node.getClientRects().length || node.matches('script, style, option, :disabled')) continue;
+  const [a, b] = [light(getComputedStyle(node).color), light(ground(node))];
+  found.push([node.outerHTML.slice(0, 80), (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05)]); }
+return found;
+"""
