@@ -34,7 +34,8 @@ def script(text: str) -> str:
             parts.append(" ")
         parts.append(part)
         space = False
-    return "".join(parts) + "\n"
+    # Every declaration may be one of `let`.
+    return re.sub(r"\bconst\b", "let", "".join(parts)) + "\n"
 
 
 def _needs_space(before: str, after: str) -> bool:

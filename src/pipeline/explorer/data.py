@@ -13,6 +13,7 @@ from . import atlas
 
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
+_PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
 _SCENES = (PAPER, "claims", "proofs")
 
 
@@ -25,6 +26,7 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
             for group in _SCENES
             for name, block in checked["variants"].get(group, {}).items()
         },
+        "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),
         "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
     }

@@ -5,8 +5,8 @@ const CLICK = 6; // pixels that a pointer may move in a click
 const FAN = 12; // orbits of a fan that is shot by dragging
 
 class Controls {
-  constructor(explorer) {
-    this.explorer = explorer;
+  constructor(page) {
+    this.page = page;
     this.box = element("section");
     this.seen = { regular: false, chaotic: false };
     this.fill();
@@ -18,25 +18,20 @@ class Controls {
   }
 
   get state() {
-    return this.explorer.state;
+    return this.page.state;
   }
 
   // ---------------------------------------------------------------- the page's lists and fields
 
   fill() {
-    const option = (value, text) => {
-      const node = document.createElement("option");
-      node.value = value;
-      node.textContent = text;
-      return node;
-    };
-    const known = PRESETS.filter(({ name }) => this.explorer.data.scenes[name]);
+    const option = (value, text) => node("option", { value, textContent: text });
+    const known = this.page.data.presets.filter(({ name }) => this.page.data.scenes[name]);
     element("preset").append(option("", "My own"), ...known.map(({ name, title }) => option(name, title)));
     element("span").append(...[8, 16, 30, 60, 120].map((span) => option(span, `${span} / ω`)));
     for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
     element("period").append(option("all", "1 to 12"));
     element("period").value = "6";
-    element("version").textContent = this.explorer.data.version;
+    element("version").textContent = this.page.data.version;
     this.option = option;
   }
 
@@ -49,7 +44,7 @@ class Controls {
     this.slides();
     this.validate();
     element("preset").value = state.preset;
-    const preset = PRESETS.find(({ name }) => name === state.preset);
+    const preset = this.page.data.presets.find(({ name }) => name === state.preset);
     element("see").textContent =
       preset?.see ?? "Your own picture: closed curves are regular motion, scattered points are chaos.";
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
@@ -94,7 +89,7 @@ class Controls {
 
   /** Tell what has been found, and what to do next. */
   completed() {
-    const orbit = this.explorer.orbits[this.state.chosen];
+    const orbit = this.page.orbits[this.state.chosen];
     const mine = this.state.preset === "" ? orbit : null;
     if (!mine?.facts?.verdict) return;
     this.seen[mine.facts.verdict] = true;
@@ -110,52 +105,33 @@ class Controls {
 
   listOrbits() {
     const list = element("orbits");
-    const { orbits } = this.explorer;
+    const { page } = this;
+    const { orbits } = page;
     list.replaceChildren();
     this.rows = orbits.map((orbit, index) => {
-      const row = document.createElement("li");
-      const radio = document.createElement("input");
-      radio.type = "radio";
-      radio.name = "chosen";
-      radio.id = `orbit-${orbit.key}`;
-      radio.addEventListener("change", () => {
-        this.explorer.choose(index);
-      });
-      const label = document.createElement("label");
-      label.htmlFor = radio.id;
-      const text = document.createElement("div");
-      const title = document.createElement("div");
-      const swatch = document.createElement("span");
-      swatch.className = "swatch";
-      const name = document.createElement("span");
-      title.append(swatch, name);
-      const facts = document.createElement("div");
-      facts.className = "facts";
-      text.append(title, facts);
-      label.append(text);
-      const buttons = document.createElement("div");
-      buttons.className = "bar";
-      buttons.append(
-        button("+", `Follow orbit ${index + 1} twice as long`, () => this.explorer.extend(orbit)),
-        button("×", `Remove orbit ${index + 1}`, () => this.explorer.remove(orbit)),
+      const radio = node("input", { type: "radio", name: "chosen", id: `orbit-${orbit.key}` });
+      radio.addEventListener("change", () => page.choose(index));
+      const swatch = node("span", { className: "swatch" });
+      const name = node("span");
+      const facts = node("div", { className: "facts" });
+      const label = node("label", { htmlFor: radio.id }, node("div", {}, node("div", {}, swatch, name), facts));
+      const buttons = node(
+        "div",
+        { className: "bar" },
+        button("+", `Follow orbit ${index + 1} twice as long`, () => page.extend(orbit)),
+        button("×", `Remove orbit ${index + 1}`, () => page.remove(orbit)),
       );
-      row.append(radio, label, buttons);
-      list.append(row);
+      list.append(node("li", {}, radio, label, buttons));
       return { orbit, index, radio, swatch, name, facts };
     });
-    if (!orbits.length) {
-      const row = document.createElement("li");
-      row.className = "nothing";
-      row.textContent = "None yet.";
-      list.append(row);
-    }
+    if (!orbits.length) list.append(node("li", { className: "nothing", textContent: "None yet." }));
     this.updateFacts();
     this.markChosen();
     this.sceneKinds();
   }
 
   updateFacts() {
-    const { colours } = this.explorer.section;
+    const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
       const verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
@@ -172,7 +148,7 @@ class Controls {
   }
 
   sceneKinds() {
-    const kinds = sceneKinds(this.state, this.explorer.orbits);
+    const kinds = sceneKinds(this.state, this.page.orbits);
     const select = element("scene-kind");
     const now = [...select.options].map(({ value }) => value);
     if (String(now) === String(kinds)) return;
@@ -219,17 +195,11 @@ class Controls {
   /** Show what is wrong with the fields, and return whether nothing is. */
   validate() {
     const { k, g } = this.typed();
-    const errors = ["k", "g", "E"].map((name) => {
-      // Where k or g is wrong, the bounds that depend on them cannot be told.
-      const error = parameterError(name, element(name).value, { k, g });
-      return error;
-    });
+    const errors = ["k", "g", "E"].map((name) => parameterError(name, element(name).value, { k, g }));
+    // Where k or g is wrong, bounds that depend on them cannot be told.
     if (errors[0]) errors[1] = errors[2] = "";
     if (errors[1]) errors[2] = "";
-    ["k", "g", "E"].forEach((name, i) => {
-      setText(`${name}-error`, errors[i]);
-      element(name).setAttribute("aria-invalid", errors[i] ? "true" : "false");
-    });
+    ["k", "g", "E"].forEach((name, i) => complain(name, errors[i], name));
     return errors.every((error) => !error);
   }
 
@@ -244,7 +214,7 @@ class Controls {
     this.drawAtlas();
     clearTimeout(this.ballWaits);
     this.ballWaits = setTimeout(() => {
-      this.explorer.restart(true);
+      this.page.restart(true);
       this.listOrbits();
     }, 60);
   }
@@ -252,13 +222,13 @@ class Controls {
   // ---------------------------------------------------------------- listeners
 
   listen() {
-    const { explorer } = this;
+    const { page } = this;
     const on = (id, type, act) => element(id).addEventListener(type, act);
     on("preset", "change", () => {
       const name = element("preset").value;
       if (!name) return;
-      explorer.pause();
-      explorer.show(presetState(name, explorer.data.scenes));
+      page.pause();
+      page.show(presetState(name, page.data.scenes));
       this.welcome();
     });
     on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
@@ -290,21 +260,21 @@ class Controls {
       });
     }
     on("clear", "click", () => {
-      explorer.clear();
+      page.clear();
       this.hint("Start an orbit anywhere on the section.");
     });
     on("impacts", "input", () => {
       const value = readNumber(element("impacts").value);
       const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
       const most = COUNT.format(MOST_IMPACTS);
-      setText("impacts-error", allowed ? "" : `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`);
-      element("impacts").setAttribute("aria-invalid", !allowed);
+      const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
+      complain("impacts", allowed ? "" : error, "impacts");
       if (allowed) this.state.impacts = value;
-      explorer.saveSoon();
+      page.saveSoon();
     });
     on("back", "change", () => {
       this.state.back = element("back").checked;
-      explorer.saveSoon();
+      page.saveSoon();
     });
     on("start-form", "submit", (event) => {
       event.preventDefault();
@@ -314,21 +284,21 @@ class Controls {
       event.preventDefault();
       this.fanTyped();
     });
-    on("play", "click", () => (explorer.playing ? explorer.pause() : explorer.play()));
-    on("back-impact", "click", () => explorer.stepImpact(-1));
-    on("next-impact", "click", () => explorer.stepImpact(1));
+    on("play", "click", () => (page.playing ? page.pause() : page.play()));
+    on("back-impact", "click", () => page.stepImpact(-1));
+    on("next-impact", "click", () => page.stepImpact(1));
     on("span", "change", () => {
       this.state.span = Number(element("span").value);
-      explorer.time.reset();
-      explorer.setTime(this.state.time);
+      page.time.reset();
+      page.setTime(this.state.time);
     });
     this.listenToPeriodic(on);
     this.listenToRecord(on);
     on("check", "click", () => this.check());
     new ResizeObserver(() => {
-      explorer.section?.resize();
-      explorer.time?.draw();
-      explorer.drawChart();
+      page.section?.resize();
+      page.time?.draw();
+      page.drawChart();
       this.drawAtlas();
     }).observe(this.box);
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => this.theme(matches ? "dark" : "light"));
@@ -338,16 +308,16 @@ class Controls {
   /** Draw after a change of how things are shown. */
   changed() {
     this.press();
-    this.explorer.look();
+    this.page.look();
     this.updateFacts();
-    this.explorer.saveSoon();
+    this.page.saveSoon();
   }
 
   theme(name) {
     document.documentElement.dataset.theme = name;
     element("theme").textContent = name === "dark" ? "Light" : "Dark";
-    if (!this.explorer.controls) return;
-    this.explorer.look();
+    if (!this.page.controls) return;
+    this.page.look();
     this.updateFacts();
     this.drawAtlas();
   }
@@ -363,8 +333,7 @@ class Controls {
       const [low, high] = [centre - radius, centre + radius].map((value) => shortNumber(value, 4));
       error = `x = ${shortNumber(x)}, y = ${shortNumber(y)} lies outside the section: on y = 0, x runs from ${low} to ${high}`;
     }
-    setText("start-error", error);
-    for (const id of ["start-x", "start-y"]) element(id).setAttribute("aria-invalid", error !== "");
+    complain("start", error, "start-x", "start-y");
     if (!error) this.begin([[p, q]]);
   }
 
@@ -375,8 +344,7 @@ class Controls {
     else if (!(Number.isInteger(count) && count >= 2 && count <= MOST_ORBITS)) {
       error = `a fan has 2 to ${MOST_ORBITS} orbits`;
     }
-    setText("fan-error", error);
-    for (const id of ["fan-from", "fan-to", "fan-count"]) element(id).setAttribute("aria-invalid", error !== "");
+    complain("fan", error, "fan-from", "fan-to", "fan-count");
     if (!error) this.shoot(from, to, count);
   }
 
@@ -384,7 +352,7 @@ class Controls {
   begin(places) {
     this.state.preset = "";
     element("preset").value = "";
-    this.explorer.startOrbits(places);
+    this.page.startOrbits(places);
   }
 
   shoot(from, to, count = FAN) {
@@ -397,7 +365,7 @@ class Controls {
   shape(kind) {
     const { view } = this.state;
     if (view.kind === kind) return;
-    const { section } = this.explorer;
+    const { section } = this.page;
     const place = section.place(...section.middle);
     const magnified = view.half < 0.9;
     view.kind = kind;
@@ -414,7 +382,7 @@ class Controls {
       } else [view.x, view.y, view.half] = HOME[kind];
     }
     this.changed();
-    this.explorer.viewChanged();
+    this.page.viewChanged();
   }
 
   whole() {
@@ -424,9 +392,9 @@ class Controls {
   }
 
   /** Zoom by a factor about a point of the screen, which stays where it is. */
-  zoom(factor, at = this.explorer.section.cross ?? this.explorer.section.middle) {
+  zoom(factor, at = this.page.section.cross ?? this.page.section.middle) {
     const { view } = this.state;
-    const { section } = this.explorer;
+    const { section } = this.page;
     const half = Math.min(4, Math.max(2e-15, view.half * factor));
     const across = (at[0] - section.middle[0]) / section.scale;
     const up = (section.middle[1] - at[1]) / section.scale;
@@ -438,7 +406,7 @@ class Controls {
 
   pan(across, down) {
     const { view } = this.state;
-    const { scale } = this.explorer.section;
+    const { scale } = this.page.section;
     view.x -= across / scale;
     view.y += down / scale;
     this.moved();
@@ -462,8 +430,8 @@ class Controls {
     if (this.drawing) return;
     this.drawing = requestAnimationFrame(() => {
       this.drawing = null;
-      this.explorer.section.look();
-      this.explorer.viewChanged();
+      this.page.section.look();
+      this.page.viewChanged();
     });
   }
 
@@ -483,7 +451,7 @@ class Controls {
       down.set(event.pointerId, point);
       box.setPointerCapture(event.pointerId);
       if (down.size === 2) {
-        this.explorer.section.fan = null;
+        this.page.section.fan = null;
         gesture = { kind: "pinch" };
         return;
       }
@@ -527,12 +495,12 @@ class Controls {
     const curves = element("curves");
     const seek = (event) => {
       const { left, top } = curves.getBoundingClientRect();
-      const { plot } = this.explorer.time;
+      const { plot } = this.page.time;
       if (!plot) return;
-      this.explorer.pause();
+      this.page.pause();
       const [time] = plot.valuesAt(event.clientX - left, event.clientY - top);
       const [first, last] = plot.across;
-      this.explorer.setTime(Math.min(Math.max(time, first), last - 1e-9 * (last - first)));
+      this.page.setTime(Math.min(Math.max(time, first), last - 1e-9 * (last - first)));
     };
     curves.addEventListener("pointerdown", (event) => {
       curves.setPointerCapture(event.pointerId);
@@ -545,7 +513,7 @@ class Controls {
 
   /** The place on y = 0 where a drag would shoot a fan; null if it would move the view. */
   onLine(point, type) {
-    const { section } = this.explorer;
+    const { section } = this.page;
     const place = section.place(...point);
     if (!place) return null;
     const near = section.distanceFromLine(...point, place[0]) <= (NEAR_LINE[type] ?? 8);
@@ -558,7 +526,7 @@ class Controls {
   }
 
   describe(point) {
-    const place = this.explorer.section.place(...point);
+    const place = this.page.section.place(...point);
     if (!place) return "outside the section";
     const { k, g, energy, view } = this.state;
     const { x, y } = geometry.pointAt(k, g, energy, ...place);
@@ -573,11 +541,11 @@ class Controls {
       before = gesture.from;
     }
     if (gesture.kind === "fan") {
-      const place = this.explorer.section.place(...point);
+      const place = this.page.section.place(...point);
       if (!place) return;
       gesture.to = place[0];
-      this.explorer.section.fan = [gesture.fan, gesture.to];
-      this.explorer.section.drawCursors();
+      this.page.section.fan = [gesture.fan, gesture.to];
+      this.page.section.drawCursors();
       return;
     }
     const step = [point[0] - before[0], point[1] - before[1]];
@@ -594,13 +562,13 @@ class Controls {
     const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     const [from, to] = [middle(before), middle(after)];
     this.pan(to[0] - from[0], to[1] - from[1]);
-    this.explorer.section.project();
+    this.page.section.project();
     this.zoom(gap(before) / gap(after), to);
-    this.explorer.section.project();
+    this.page.section.project();
   }
 
   finish(gesture, point, cancelled) {
-    const { section } = this.explorer;
+    const { section } = this.page;
     section.fan = null;
     section.drawCursors();
     if (!gesture || cancelled) return;
@@ -609,7 +577,7 @@ class Controls {
   }
 
   startAt(point) {
-    const place = this.explorer.section.place(...point);
+    const place = this.page.section.place(...point);
     if (place) this.begin([place]);
     else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
   }
@@ -617,11 +585,11 @@ class Controls {
   // ---------------------------------------------------------------- keys
 
   keys() {
-    const { box, explorer } = this;
+    const { box, page } = this;
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     box.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
-      const { section } = explorer;
+      const { section } = page;
       const { key } = event;
       if (arrows[key]) {
         if (event.shiftKey) this.nudge(arrows[key][0], -arrows[key][1]);
@@ -641,11 +609,11 @@ class Controls {
     box.addEventListener("blur", () => this.hideCross());
     element("curves").addEventListener("keydown", (event) => {
       const { time, span } = this.state;
-      if (event.key === "ArrowLeft") explorer.setTime(time - span / 100);
-      else if (event.key === "ArrowRight") explorer.setTime(time + span / 100);
-      else if (event.key === "PageUp") explorer.stepImpact(1);
-      else if (event.key === "PageDown") explorer.stepImpact(-1);
-      else if (event.key === "Home") explorer.setTime(Math.max(explorer.time.window()[0], explorer.motion?.ends[0] ?? 0));
+      if (event.key === "ArrowLeft") page.setTime(time - span / 100);
+      else if (event.key === "ArrowRight") page.setTime(time + span / 100);
+      else if (event.key === "PageUp") page.stepImpact(1);
+      else if (event.key === "PageDown") page.stepImpact(-1);
+      else if (event.key === "Home") page.setTime(Math.max(page.time.window()[0], page.motion?.ends[0] ?? 0));
       else if (event.key === " ") element("play").click();
       else return;
       event.preventDefault();
@@ -653,7 +621,7 @@ class Controls {
   }
 
   moveCross(across, down) {
-    const { section } = this.explorer;
+    const { section } = this.page;
     const step = Math.min(section.width, section.height) / 40;
     const [left, top] = section.cross ?? section.middle;
     section.cross = [
@@ -668,14 +636,14 @@ class Controls {
   }
 
   hideCross() {
-    this.explorer.section.cross = null;
+    this.page.section.cross = null;
     this.fanFrom = null;
-    this.explorer.section.drawCursors();
+    this.page.section.drawCursors();
   }
 
   /** Take the pointer's x as one end of a fan on y = 0; the second end shoots it. */
   markFan() {
-    const { section } = this.explorer;
+    const { section } = this.page;
     const place = section.place(...(section.cross ?? section.middle));
     if (!place) return;
     if (this.fanFrom === null || this.fanFrom === undefined) {
@@ -694,12 +662,12 @@ class Controls {
   }
 
   showPlaying() {
-    element("play").textContent = this.explorer.playing ? "Pause" : "Play";
+    element("play").textContent = this.page.playing ? "Pause" : "Play";
   }
 
   /** Say where the motion is. */
   moment() {
-    const { motion, time } = this.explorer;
+    const { motion, time } = this.page;
     const now = time?.now();
     const curves = element("curves");
     for (const id of ["play", "back-impact", "next-impact"]) element(id).disabled = !motion;
@@ -721,20 +689,20 @@ class Controls {
   // ---------------------------------------------------------------- periodic orbits
 
   listenToPeriodic(on) {
-    const { explorer } = this;
+    const { page } = this;
     on("find", "click", () => {
       const value = element("period").value;
       const periods = value === "all" ? Array.from({ length: 12 }, (_, i) => i + 1) : [Number(value)];
       this.state.periods = [...new Set([...this.state.periods, ...periods])].sort((a, b) => a - b);
-      explorer.search();
-      explorer.saveSoon();
+      page.search();
+      page.saveSoon();
     });
     on("forget", "click", () => {
       this.state.periods = [];
-      explorer.searcher.restart();
+      page.searcher.restart();
       this.listPeriodic();
-      explorer.section.drawLines();
-      explorer.saveSoon();
+      page.section.drawLines();
+      page.saveSoon();
     });
     on("saddle", "change", () => this.listPoints());
     on("branch-form", "submit", (event) => {
@@ -743,14 +711,14 @@ class Controls {
     });
     on("no-branches", "click", () => {
       this.state.branches = [];
-      explorer.branchLines = [];
-      explorer.searcher.restart();
+      page.branchLines = [];
+      page.searcher.restart();
       this.noteBranches("");
-      explorer.section.drawLines();
+      page.section.drawLines();
       this.sceneKinds();
-      explorer.saveSoon();
+      page.saveSoon();
     });
-    on("jump", "change", () => explorer.setJump(element("jump").checked));
+    on("jump", "change", () => page.setJump(element("jump").checked));
   }
 
   notePeriodic(text) {
@@ -762,7 +730,7 @@ class Controls {
   }
 
   noteJump() {
-    const { jumpLength, state } = this.explorer;
+    const { jumpLength, state } = this.page;
     let text = "";
     if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
     else if (state.jump && jumpLength) {
@@ -772,21 +740,21 @@ class Controls {
   }
 
   listPeriodic() {
-    const { explorer } = this;
+    const { page } = this;
     const list = element("periodic");
     list.replaceChildren();
     const saddles = [];
     let count = 0;
     for (const period of this.state.periods) {
       const seen = {};
-      for (const orbit of explorer.periodic.get(period) ?? []) {
+      for (const orbit of page.periodic.get(period) ?? []) {
         const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
         count += 1;
         if (orbit.type !== "elliptic") saddles.push({ period, type: orbit.type, nth });
         list.append(this.periodicRow(orbit, nth));
       }
     }
-    if (this.state.periods.length && this.state.periods.every((period) => explorer.periodic.has(period))) {
+    if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
       this.notePeriodic(`${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
     } else if (!this.state.periods.length) this.notePeriodic("");
     const select = element("saddle");
@@ -805,23 +773,17 @@ class Controls {
 
   periodicRow(orbit, nth) {
     const { period, type, trace, multiplier, rotation, time } = orbit;
-    const row = document.createElement("li");
-    const shape = document.createElement("span");
-    shape.textContent = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
-    shape.setAttribute("aria-hidden", "true");
-    const text = document.createElement("div");
-    const title = document.createElement("div");
-    title.textContent = `Period ${period}, ${type}`;
-    const facts = document.createElement("div");
-    facts.className = "facts";
+    const shape = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
     const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}` : `multiplier ${shortNumber(multiplier, 7)}`;
-    facts.textContent = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · ${more} · time ${shortNumber(time, 6)}`;
-    text.append(title, facts);
-    const show = button("In time", `Show the ${type} orbit of period ${period} in time`, () => {
-      this.explorer.showPeriodic(period, type, nth);
-    });
-    row.append(shape, text, show);
-    return row;
+    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · ${more} · time ${shortNumber(time, 6)}`;
+    const show = () => this.page.showPeriodic(period, type, nth);
+    return node(
+      "li",
+      {},
+      node("span", { textContent: shape, ariaHidden: "true" }),
+      node("div", {}, `Period ${period}, ${type}`, node("div", { className: "facts", textContent: facts })),
+      button("In time", `Show the ${type} orbit of period ${period} in time`, show),
+    );
   }
 
   listPoints() {
@@ -831,7 +793,7 @@ class Controls {
   }
 
   drawBranches() {
-    const { explorer } = this;
+    const { page } = this;
     const chosen = element("saddle").value;
     const length = readNumber(element("branch-length").value);
     let error = "";
@@ -839,8 +801,7 @@ class Controls {
     else if (!(length > 0 && length <= 20)) {
       error = `length = ${element("branch-length").value} is not allowed: above 0, at most 20 section radii`;
     }
-    setText("branch-error", error);
-    element("branch-length").setAttribute("aria-invalid", !(length > 0 && length <= 20));
+    complain("branch", error, "branch-length");
     if (error) return;
     const spec = {
       ...this.saddles[Number(chosen)],
@@ -851,17 +812,17 @@ class Controls {
     };
     this.state.branches = [spec];
     this.state.preset = "";
-    explorer.branchLines = [];
-    explorer.searcher.restart();
-    explorer.search();
+    page.branchLines = [];
+    page.searcher.restart();
+    page.search();
     this.sceneKinds();
-    explorer.saveSoon();
+    page.saveSoon();
   }
 
   // ---------------------------------------------------------------- the atlas
 
   makeAtlas() {
-    const { atlas } = this.explorer.data;
+    const { atlas } = this.page.data;
     if (!atlas) {
       element("atlas-panel").hidden = true;
       return;
@@ -902,12 +863,12 @@ class Controls {
 
   drawAtlas() {
     if (!this.atlas || !element("atlas-panel").open) return;
-    const { context, width, height } = fitted(element("atlas"));
+    const { pen, width, height } = fitted(element("atlas"));
     const colours = readColours();
     const { k, energy, bytes, steps } = this.atlas;
     const logs = energy.map(Math.log10);
     const frame = { left: 48, top: 24, right: 12, bottom: 38 };
-    const plot = new Plot(context, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
+    const plot = new Plot(pen, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
     const image = new OffscreenCanvas(k.length, energy.length);
     const paper = image.getContext("2d");
     const cells = paper.createImageData(k.length, energy.length);
@@ -920,40 +881,21 @@ class Controls {
     }
     paper.putImageData(cells, 0, 0);
     const [left, top] = plot.at([k[0], logs.at(-1)]);
-    context.drawImage(image, left, top, ...plot.size);
-    context.fillStyle = colours.muted;
-    context.textBaseline = "middle";
-    context.textAlign = "right";
-    for (const value of [0.1, 0.3, 1, 3, 10, 30]) context.fillText(value, left - 6, plot.at([k[0], Math.log10(value)])[1]);
-    context.textAlign = "center";
-    context.textBaseline = "top";
-    for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) context.fillText(value, plot.at([value, 0])[0], top + plot.size[1] + 5);
-    context.fillStyle = colours.ink;
-    context.textAlign = "left";
-    context.textBaseline = "top";
-    context.fillText("E/g²", 4, 3);
-    context.textAlign = "right";
-    context.textBaseline = "bottom";
-    context.fillText("k", width - frame.right, height - 2);
-    context.textBaseline = "top";
-    context.fillText("dark: chaotic · light: regular", width - frame.right, 4);
-    const ratio = this.state.energy / this.state.g ** 2;
-    if (ratio > 0) this.cross(plot, [this.state.k, Math.log10(ratio)], "#ffffff");
-    if (this.aim) this.cross(plot, this.aim, "#ff7fc0");
-    this.atlasPlot = plot;
-  }
-
-  cross(plot, point, colour) {
-    const { context } = plot;
-    const [left, top] = plot.at(point);
-    for (const [ink, width] of [["#000000", 5], [colour, 2.5]]) {
-      context.strokeStyle = ink;
-      context.lineWidth = width;
-      context.beginPath();
-      context.arc(left, top, 7, 0, 2 * Math.PI);
-      context.stroke();
+    pen.drawImage(image, left, top, ...plot.size);
+    for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
+      write(pen, value, left - 6, plot.at([k[0], Math.log10(value)])[1], colours.muted, "right", "middle");
     }
-    context.lineWidth = 1;
+    for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) {
+      write(pen, value, plot.at([value, 0])[0], top + plot.size[1] + 5, colours.muted, "center");
+    }
+    write(pen, "E/g²", 4, 3, colours.ink);
+    write(pen, "k", width - frame.right, height - 2, colours.ink, "right", "bottom");
+    write(pen, "dark: chaotic · light: regular", width - frame.right, 4, colours.ink, "right");
+    const ratio = this.state.energy / this.state.g ** 2;
+    const here = [this.state.k, Math.log10(ratio)];
+    if (ratio > 0) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
+    if (this.aim) drawRing(pen, plot.at(this.aim), 7, "#000000", "#ff7fc0");
+    this.atlasPlot = plot;
   }
 
   tellAtlas(point) {
@@ -990,25 +932,17 @@ class Controls {
   // ---------------------------------------------------------------- records
 
   listenToRecord(on) {
-    const { explorer } = this;
+    const { page } = this;
     on("copy-scene", "click", async () => {
       const kind = element("scene-kind").value;
-      const block = sceneBlock(kind, this.state, explorer.orbits, explorer.periodic);
+      const block = sceneBlock(kind, this.state, page.orbits, page.periodic);
       element("scene").value = block.text;
       const copied = await copyText(block.text, element("scene"));
       const first = copied ? "Copied." : "Copy the lines above.";
       setText("scene-note", `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
     });
-    on("copy-link", "click", async () => {
-      const address = `${window.location.href.split("#")[0]}${writeAddress(this.state)}`;
-      const area = document.createElement("textarea");
-      document.body.append(area);
-      const copied = await copyText(address, area);
-      area.remove();
-      setText("record-note", copied ? "The address of this picture is copied." : "Copy the address from the browser's bar.");
-    });
     on("csv", "click", () => {
-      const orbit = explorer.orbits[this.state.chosen];
+      const orbit = page.orbits[this.state.chosen];
       if (!orbit?.count) {
         setText("record-note", "Choose an orbit first.");
         return;
@@ -1017,7 +951,7 @@ class Controls {
       setText("record-note", `orbit.csv has ${COUNT.format(orbit.count)} impacts after the start, to the last bit.`);
     });
     on("png", "click", () => {
-      explorer.section.picture().toBlob((blob) => {
+      page.section.picture().toBlob((blob) => {
         download("section.png", blob);
         setText("record-note", "section.png has the section as it is drawn.");
       });
@@ -1025,12 +959,12 @@ class Controls {
   }
 
   async check() {
-    const { explorer } = this;
+    const { page } = this;
     element("check").disabled = true;
     const found = [];
     this.checker ??= new Computer(); // of its own, which no change of the picture interrupts
     try {
-      for (const figure of explorer.data.check) {
+      for (const figure of page.data.check) {
         const name = `Figure ${figure.figure.replace("fig", "")}`;
         setText("check-note", `Computing ${name} …`);
         const result = await this.checker.ask("check", { figure });
@@ -1049,20 +983,28 @@ class Controls {
   }
 }
 
+/** Say what is wrong beside fields, or with an empty text that nothing is. */
+function complain(id, error, ...fields) {
+  setText(`${id}-error`, error);
+  for (const field of fields) element(field).setAttribute("aria-invalid", error !== "");
+}
+
 function setText(id, text) {
   const node = element(id);
   if (node.textContent !== text) node.textContent = text;
 }
 
+/** A new element with properties and children. */
+function node(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
 function button(text, label, act) {
-  const node = document.createElement("button");
-  node.type = "button";
-  node.className = "tight";
-  node.textContent = text;
-  node.setAttribute("aria-label", label);
-  node.title = label;
-  node.addEventListener("click", act);
-  return node;
+  const made = node("button", { type: "button", className: "tight", textContent: text, title: label, ariaLabel: label });
+  made.addEventListener("click", act);
+  return made;
 }
 
 /** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */

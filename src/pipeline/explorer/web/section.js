@@ -31,8 +31,8 @@ class SectionView {
       canvas.width = Math.round(this.width * this.ratio);
       canvas.height = Math.round(this.height * this.ratio);
     }
-    for (const context of [this.ground, this.lines, this.cursors]) {
-      context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    for (const pen of [this.ground, this.lines, this.cursors]) {
+      pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     }
     this.image = this.points.createImageData(this.points.canvas.width, this.points.canvas.height);
     this.pixels = new Uint32Array(this.image.data.buffer);
@@ -217,32 +217,18 @@ class SectionView {
     const unit = (index ? this.sectionHeight : this.radius) / scale; // of a pixel
     const centre = this.origin[index];
     const { offsets, labels, base } = ticksAround(centre, length * unit, length / (index ? 60 : 90));
-    ground.fillStyle = colours.muted;
-    ground.textAlign = index ? "right" : "center";
-    ground.textBaseline = index ? "middle" : "top";
+    const bottom = this.height - frame.bottom;
     offsets.forEach((offset, i) => {
       const at = index ? middle[1] - offset / unit : middle[0] + offset / unit;
-      ground.beginPath();
-      if (index) {
-        ground.moveTo(frame.left, at);
-        ground.lineTo(frame.left - 4, at);
-        ground.fillText(labels[i], frame.left - 7, at);
-      } else {
-        ground.moveTo(at, this.height - frame.bottom);
-        ground.lineTo(at, this.height - frame.bottom + 4);
-        ground.fillText(labels[i], at, this.height - frame.bottom + 6);
-      }
-      ground.stroke();
+      if (index) write(ground, labels[i], frame.left - 7, at, colours.muted, "right", "middle");
+      else write(ground, labels[i], at, bottom + 6, colours.muted, "center");
+      ground.fillStyle = colours.line;
+      if (index) ground.fillRect(frame.left - 4, at, 4, 1);
+      else ground.fillRect(at, bottom, 1, 4);
     });
-    ground.fillStyle = colours.ink;
-    ground.textAlign = "left";
     const title = base ? `${name} − (${base})` : name;
-    if (index) ground.fillText(title, frame.left + 8, frame.top + 14);
-    else {
-      ground.textAlign = "right";
-      ground.textBaseline = "bottom";
-      ground.fillText(title, this.width - frame.right - 8, this.height - frame.bottom - 6);
-    }
+    if (index) write(ground, title, frame.left + 8, frame.top + 8, colours.ink);
+    else write(ground, title, this.width - frame.right - 8, bottom - 6, colours.ink, "right", "bottom");
   }
 
   drawHalfEllipsoid() {
@@ -285,22 +271,15 @@ class SectionView {
     const { ground, colours } = this;
     const size = Math.min(46, 0.1 * this.width + 10);
     const at = [size + 22, this.height - size - 26];
-    ground.strokeStyle = colours.muted;
-    ground.fillStyle = colours.ink;
-    ground.lineWidth = 1.2;
-    ground.textAlign = "center";
-    ground.textBaseline = "middle";
     ["x", "ẋ⁻", "u̇⁻"].forEach((name, i) => {
       const tip = [this.across[i] * size, -this.up[i] * size];
       const length = Math.hypot(...tip);
-      ground.beginPath();
-      ground.moveTo(...at);
-      ground.lineTo(at[0] + tip[0], at[1] + tip[1]);
-      ground.stroke();
-      if (length > 8) {
-        const far = 1 + 12 / length;
-        ground.fillText(name, at[0] + tip[0] * far, at[1] + tip[1] * far);
-      }
+      strokePath(ground, colours.muted, 1.2, () => {
+        ground.moveTo(...at);
+        ground.lineTo(at[0] + tip[0], at[1] + tip[1]);
+      });
+      const far = 1 + 12 / length;
+      if (length > 8) write(ground, name, at[0] + tip[0] * far, at[1] + tip[1] * far, colours.ink, "center", "middle");
     });
     ground.lineWidth = 1;
   }
@@ -384,19 +363,19 @@ class SectionView {
     lines.restore();
   }
 
-  clip(context) {
+  clip(pen) {
     const { frame } = this;
-    context.beginPath();
+    pen.beginPath();
     const wide = this.width - frame.left - frame.right;
-    context.rect(frame.left, frame.top, wide, this.height - frame.top - frame.bottom);
-    context.clip();
+    pen.rect(frame.left, frame.top, wide, this.height - frame.top - frame.bottom);
+    pen.clip();
   }
 
-  stroke(context, { x, xdot, udot }, colour, width) {
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.lineJoin = "bevel";
-    context.beginPath();
+  stroke(pen, { x, xdot, udot }, colour, width) {
+    pen.strokeStyle = colour;
+    pen.lineWidth = width;
+    pen.lineJoin = "bevel";
+    pen.beginPath();
     let down = false;
     let before = null;
     const far = 20 * (this.width + this.height);
@@ -404,40 +383,40 @@ class SectionView {
       const at = Number.isNaN(x[i]) ? null : this.screen(x[i], xdot[i], udot[i]);
       // Far outside, a canvas would lose digits of what it draws.
       const drawn = at && Math.abs(at[0]) < far && Math.abs(at[1]) < far;
-      if (drawn && down) context.lineTo(...at);
+      if (drawn && down) pen.lineTo(...at);
       else if (drawn) {
         if (before) {
-          context.moveTo(...cut(at, before, far));
-          context.lineTo(...at);
-        } else context.moveTo(...at);
-      } else if (down && at) context.lineTo(...cut(before, at, far));
+          pen.moveTo(...cut(at, before, far));
+          pen.lineTo(...at);
+        } else pen.moveTo(...at);
+      } else if (down && at) pen.lineTo(...cut(before, at, far));
       down = Boolean(drawn);
       before = at;
     }
-    context.stroke();
-    context.lineWidth = 1;
+    pen.stroke();
+    pen.lineWidth = 1;
   }
 
-  mark(context, at, colour, shape) {
+  mark(pen, at, colour, shape) {
     if (!at || !this.inside(at)) return;
     const [left, top] = at;
-    context.beginPath();
-    if (shape === "square") context.rect(left - 4, top - 4, 8, 8);
+    pen.beginPath();
+    if (shape === "square") pen.rect(left - 4, top - 4, 8, 8);
     else if (shape === "cross") {
-      context.moveTo(left - 5, top - 5);
-      context.lineTo(left + 5, top + 5);
-      context.moveTo(left + 5, top - 5);
-      context.lineTo(left - 5, top + 5);
-    } else context.arc(left, top, 4.5, 0, 2 * Math.PI);
-    context.strokeStyle = this.colours.page;
-    context.lineWidth = 3.5;
-    context.stroke();
-    context.strokeStyle = colour;
-    context.fillStyle = colour;
-    context.lineWidth = 2;
-    if (shape === "dot") context.fill();
-    context.stroke();
-    context.lineWidth = 1;
+      pen.moveTo(left - 5, top - 5);
+      pen.lineTo(left + 5, top + 5);
+      pen.moveTo(left + 5, top - 5);
+      pen.lineTo(left - 5, top + 5);
+    } else pen.arc(left, top, 4.5, 0, 2 * Math.PI);
+    pen.strokeStyle = this.colours.page;
+    pen.lineWidth = 3.5;
+    pen.stroke();
+    pen.strokeStyle = colour;
+    pen.fillStyle = colour;
+    pen.lineWidth = 2;
+    if (shape === "dot") pen.fill();
+    pen.stroke();
+    pen.lineWidth = 1;
   }
 
   drawCursors() {
@@ -446,7 +425,8 @@ class SectionView {
     cursors.clearRect(0, 0, this.width, this.height);
     cursors.save();
     this.clip(cursors);
-    if (cursor) this.ring(cursor);
+    const now = cursor && this.screen(...cursor);
+    if (now) drawRing(cursors, now, 8, colours.page, colours.ink); // where the ball in time is
     if (this.fan) {
       const [from, to] = this.fan;
       const states = Array.from({ length: 41 }, (_, i) => this.lineState(from + ((to - from) * i) / 40));
@@ -456,30 +436,15 @@ class SectionView {
     if (this.cross) {
       const [left, top] = this.cross;
       for (const [colour, width] of [[colours.page, 4], [colours.focus, 1.5]]) {
-        cursors.strokeStyle = colour;
-        cursors.lineWidth = width;
-        cursors.beginPath();
-        cursors.moveTo(left - 14, top);
-        cursors.lineTo(left + 14, top);
-        cursors.moveTo(left, top - 14);
-        cursors.lineTo(left, top + 14);
-        cursors.stroke();
+        strokePath(cursors, colour, width, () => {
+          cursors.moveTo(left - 14, top);
+          cursors.lineTo(left + 14, top);
+          cursors.moveTo(left, top - 14);
+          cursors.lineTo(left, top + 14);
+        });
       }
     }
     cursors.restore();
-  }
-
-  /** Mark the impact at which the ball in time is. */
-  ring(state) {
-    const at = this.screen(...state);
-    if (!at) return;
-    for (const [colour, width] of [[this.colours.page, 5], [this.colours.ink, 2.5]]) {
-      this.cursors.strokeStyle = colour;
-      this.cursors.lineWidth = width;
-      this.cursors.beginPath();
-      this.cursors.arc(at[0], at[1], 8, 0, 2 * Math.PI);
-      this.cursors.stroke();
-    }
   }
 
   /** All layers on the page's ground, for a file. */
@@ -487,10 +452,10 @@ class SectionView {
     const canvas = document.createElement("canvas");
     canvas.width = this.points.canvas.width;
     canvas.height = this.points.canvas.height;
-    const context = canvas.getContext("2d");
-    context.fillStyle = this.colours.page;
-    context.fillRect(0, 0, canvas.width, canvas.height);
-    for (const layer of this.layers) context.drawImage(layer, 0, 0);
+    const pen = canvas.getContext("2d");
+    pen.fillStyle = this.colours.page;
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    for (const layer of this.layers) pen.drawImage(layer, 0, 0);
     return canvas;
   }
 }
@@ -509,9 +474,11 @@ function cut(near, away, far) {
 /** The page's colours, from its style sheet. */
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea regular chaotic young";
+  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea";
   const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
+  [colours.regular, colours.chaotic] = colours.hues;
+  colours.young = colours.sea;
   colours.font = getComputedStyle(document.body).fontFamily;
   return colours;
 }

@@ -14,7 +14,7 @@ function freshState() {
     k: 0.2,
     g: 0.04,
     energy: 0.01,
-    view: { kind: "surface", azimuth: 115, elevation: 40, x: 0, y: 0, half: HOME.surface[2] },
+    view: { ...HOME_VIEW },
     colour: "orbit",
     orbits: [], // {p, q, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given

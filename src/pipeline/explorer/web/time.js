@@ -130,7 +130,7 @@ class TimeView {
   }
 
   drawCurves(state, motion, colours) {
-    const { context, width, height } = fitted(this.curves);
+    const { pen, width, height } = fitted(this.curves);
     const frame = { left: 50, top: 24, right: 10, bottom: 36 };
     const [from, to] = this.window();
     const lines = { height: [], strain: [] };
@@ -157,12 +157,12 @@ class TimeView {
     let [low, high] = this.extent;
     if (!(low < high)) [low, high] = [-0.5, 0.3];
     const room = 0.06 * (high - low);
-    const plot = new Plot(context, { width, height, frame, colours, across: [from, to], up: [low - room, high + room] });
-    plot.axes("t", "−x, u");
+    const plot = new Plot(pen, { width, height, frame, colours, across: [from, to], up: [low - room, high + room] });
+    plot.axes("t", "");
     plot.line(lines.height, colours.hues[0], 1.8);
     plot.line(lines.strain, colours.hues[1], 1.8);
     for (const point of impacts) plot.dot(point, colours.ink, impacts.length > 100 ? 1.5 : 3);
-    plot.key([["−x, height of the centre", colours.hues[0]], ["u, strain", colours.hues[1]]]);
+    plot.key([["height −x", colours.hues[0]], ["strain u", colours.hues[1]]]);
     const now = this.now();
     if (now) {
       plot.vertical(state.time, colours.focus);
@@ -173,60 +173,42 @@ class TimeView {
   }
 
   drawBall(state, motion, colours) {
-    const { context, width, height } = fitted(this.ball);
+    const { pen, width, height } = fitted(this.ball);
     const now = this.now();
     const top = Math.max(0.4, Math.min(6, this.extent[1] > 0 ? this.extent[1] : 0));
     const scale = Math.min((height - 34) / (2.25 + top), (width - 12) / 2.1); // pixels in R
     const floor = height - 26;
-    context.strokeStyle = colours.ink;
-    context.lineWidth = 2;
-    context.beginPath();
-    context.moveTo(4, floor);
-    context.lineTo(width - 4, floor);
-    context.stroke();
-    context.lineWidth = 1;
-    context.fillStyle = colours.muted;
-    context.font = `13px ${colours.font}`;
-    context.textAlign = "center";
-    if (!now) {
-      context.fillText("no orbit", width / 2, floor + 17);
-      return;
-    }
+    strokePath(pen, colours.ink, 2, () => {
+      pen.moveTo(4, floor);
+      pen.lineTo(width - 4, floor);
+    });
+    pen.font = `13px ${colours.font}`;
+    const label = now ? `u = ${now.u.toFixed(3).replace("-", "−")}` : "no orbit";
+    write(pen, label, width / 2, floor + 6, colours.muted, "center");
+    if (!now) return;
     const middle = floor - scale * (1 - now.x);
     const half = scale * Math.max(0.02, 1 + now.u);
-    context.save();
-    context.beginPath();
-    context.ellipse(width / 2, middle, scale, half, 0, 0, 2 * Math.PI);
-    context.fillStyle = colours.hues[0];
-    context.globalAlpha = 0.22;
-    context.fill();
-    context.globalAlpha = 1;
-    context.strokeStyle = colours.hues[0];
-    context.lineWidth = 2;
-    context.stroke();
-    context.clip();
+    pen.save();
+    const outline = (high) => pen.ellipse(width / 2, middle, scale, high, 0, 0, 2 * Math.PI);
+    strokePath(pen, colours.hues[0], 2, () => outline(half));
+    pen.fillStyle = colours.hues[0];
+    pen.globalAlpha = 0.22;
+    pen.fill();
+    pen.clip();
     // Lines of latitude, which come closer as the ball flattens.
-    context.lineWidth = 1;
-    context.globalAlpha = 0.6;
-    for (const share of [-0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75]) {
-      context.beginPath();
-      context.moveTo(0, middle + half * share);
-      context.lineTo(width, middle + half * share);
-      context.stroke();
-    }
-    context.restore();
-    // The undeformed ball, for comparison.
-    context.setLineDash([3, 4]);
-    context.strokeStyle = colours.muted;
-    context.beginPath();
-    context.ellipse(width / 2, middle, scale, scale, 0, 0, 2 * Math.PI);
-    context.stroke();
-    context.setLineDash([]);
-    context.beginPath();
-    context.arc(width / 2, middle, 2.5, 0, 2 * Math.PI);
-    context.fillStyle = colours.ink;
-    context.fill();
-    context.fillStyle = colours.muted;
-    context.fillText(`u = ${now.u.toFixed(3).replace("-", "−")}`, width / 2, floor + 17);
+    pen.globalAlpha = 0.6;
+    strokePath(pen, colours.hues[0], 1, () => {
+      for (const share of [-0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75]) {
+        pen.moveTo(0, middle + half * share);
+        pen.lineTo(width, middle + half * share);
+      }
+    });
+    pen.restore();
+    // The undeformed ball, for comparison, and the centre.
+    pen.setLineDash([3, 4]);
+    strokePath(pen, colours.muted, 1, () => outline(scale));
+    pen.setLineDash([]);
+    pen.fillStyle = colours.ink;
+    pen.fillRect(width / 2 - 2, middle - 2, 4, 4);
   }
 }
