@@ -91,6 +91,7 @@ class _Page:
                 reason = "not made" if stale == MISSING else f"not current: {stale}"
             picture = caption_of(scene, block)._asdict() | {"id": f"{name}-{scene}"}
             picture |= {"missing": reason, "image": None, "rows": [], "headline": None}
+            picture["explorer"] = scene if name == PAPER else None
             if not reason:
                 picture |= self._image(file) | self._measured(name, scene)
                 picture["file"] = self._file(name, scene)
@@ -117,6 +118,7 @@ class _Page:
         block = published_set.config.get(scene)
         picture: Picture = caption_of(scene, block)._asdict()
         picture |= {"headline": None, "image": None, "id": published.replace("/", "-")}
+        picture["explorer"] = scene if block and "picture" in block else None
         if drawing and drawing not in findings.stale:
             if block and "picture" in block:
                 picture |= self._measured(Path(published_set.results).name, scene)
