@@ -1,7 +1,7 @@
 """Real browsers for tests: Debian's Chromium by Selenium, Debian's Firefox by Marionette.
 
 Debian 12 has no geckodriver, so the client of Firefox's own protocol is here. Both browsers have
-the same interface: `open` a page, `run` a script in it, `screenshot`, `resize`, and `errors`.
+the same interface: `open` a page, `click`, `run` a script, `screenshot`, `resize` and `errors`.
 """
 
 import base64
@@ -83,6 +83,10 @@ class Chromium(_Browser):
     def screenshot(self, path):
         self.driver.save_screenshot(str(path))
 
+    def click(self, selector):
+        """Click with the pointer on the first element that a selector finds."""
+        self.driver.find_element("css selector", selector).click()
+
     def resize(self, width, height):
         self.driver.set_window_size(width, height)
 
@@ -101,7 +105,6 @@ class Firefox(_Browser):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "user.js").write_text(
             'user_pref("marionette.port", 0);\n'  # it chooses a port and writes it to a file
-            'user_pref("devtools.console.stdout.content", true);\n'
             'user_pref("datareporting.policy.dataSubmissionEnabled", false);\n'
         )
         self._log = (folder / "log").open("w+")
@@ -157,17 +160,25 @@ class Firefox(_Browser):
         data = self._command("WebDriver:TakeScreenshot", {"full": False})["value"]
         Path(path).write_bytes(base64.b64decode(data))
 
+    def click(self, selector):
+        """Click with the pointer on the first element that a selector finds."""
+        how = {"using": "css selector", "value": selector}
+        (element,) = self._command("WebDriver:FindElement", how)["value"].values()
+        self._command("WebDriver:ElementClick", {"id": element})
+
     def resize(self, width, height):
         self._command("WebDriver:SetWindowRect", {"width": width, "height": height})
 
     def errors(self):
-        """Return lines of the console since the last call: errors and warnings."""
+        """Return lines about exceptions in pages since the last call.
+
+        Other lines of the console may be the browser's own.
+        """
         self._log.seek(self._read)
         text = self._log.read()
         self._read = self._log.tell()
-        return [
-            line for line in text.splitlines() if "JavaScript error" in line or "console." in line
-        ]
+        marks = "JavaScript error: file:", "JavaScript error: blob:"
+        return [line for line in text.splitlines() if any(mark in line for mark in marks)]
 
     def quit(self):
         try:

@@ -1,0 +1,71 @@
+"""The page's own check of a machine, pressed in Chromium and in Firefox."""
+
+import time
+
+import browsers
+import pytest
+from project import SHIPPED
+
+from pipeline import config
+from pipeline.explorer import kernel, page
+
+SAME = (
+    "Figure 2: the same bits here, in 45,000 impacts. "
+    "Figure 8: the same bits here, in 35,000 impacts."
+)
+NOTE = "return document.getElementById('check-note').textContent"
+RESOURCES = "return performance.getEntriesByType('resource').map(entry => entry.name)"
+
+
+@pytest.fixture(scope="module", params=browsers.PROGRAMS)
+def opened(request, tmp_path_factory):
+    """A browser, with a function that opens the page from a file."""
+    folder = tmp_path_factory.mktemp(request.param)
+    with browsers.start(request.param, folder / "profile") as browser:
+
+        def show():
+            (folder / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
+            browser.open((folder / "explorer.html").as_uri())
+            return browser
+
+        yield show
+
+
+def checked(browser, patience=120):
+    """Press the button, and return the answer."""
+    browser.run("document.querySelectorAll('details').forEach(e => e.open = true)")
+    browser.click("#check")
+    end = time.monotonic() + patience
+    while "Figure 8: " not in (note := browser.run(NOTE)):
+        assert time.monotonic() < end, (note, browser.errors())
+        time.sleep(0.1)
+    return note
+
+
+def test_the_page_says_that_the_bits_are_the_same(opened):
+    browser = opened()
+    assert checked(browser) == SAME
+    assert browser.errors() == []
+    assert all(name.startswith(("blob:", "data:")) for name in browser.run(RESOURCES))
+
+
+def test_the_page_names_where_a_changed_kernel_begins_to_differ(opened, monkeypatch):
+    """One operation of the translated kernel is regrouped, which shows in the last bit only."""
+    text = kernel.javascript()
+    changed = text.replace("x + t * (b + 0.5 * g * t) - p", "x + (t * (b + 0.5 * g * t) - p)")
+    assert changed != text
+    monkeypatch.setattr(kernel, "javascript", lambda: changed)
+    note = checked(opened())
+    assert "the same bits here" not in note
+    assert note.count("other bits here, in x of orbit 1") == 2
+
+
+def test_nothing_can_be_fetched(opened):
+    """The policy of the page forbids it, before the network is asked."""
+    script = """const forbidden = new Promise(done =>
+          document.addEventListener("securitypolicyviolation", e => done(e.effectiveDirective)));
+        fetch("http://127.0.0.1:9/").catch(() => null);
+        return await forbidden;"""
+    browser = opened()
+    assert browser.run(script) == "connect-src"
+    browser.errors()  # which report it
