@@ -373,6 +373,9 @@ class _FunctionTranslator:
         for variable in self._declared - {*self._hoisted}:
             if len(re.findall(rf"(?<![\w$.]){re.escape(variable)} = ", body)) == 1:
                 body = body.replace(f"let {variable} = ", f"const {variable} = ")
+        for word in ("const", "let"):  # one declaration for all variables of a line
+            while (joined := re.sub(rf"({word} [^;\n]*); {word} ", r"\1, ", body)) != body:
+                body = joined
         return "\n".join([*head, body, "}", ""])
 
     def _tuple_parameters(self, names: list[str]) -> dict[str, int]:
