@@ -204,19 +204,19 @@ class Controls {
   }
 
   /** Take over k, g and E if they are allowed; the starts keep their places. */
-  applyBall() {
+  applyBall(delay = 30) {
+    clearTimeout(this.ballWaits);
     if (!this.validate()) return;
     const { k, g, E } = this.typed();
     if (k === this.state.k && g === this.state.g && E === this.state.energy) return;
-    Object.assign(this.state, { k, g, energy: E, preset: "" });
-    element("preset").value = "";
-    this.slides();
-    this.drawAtlas();
-    clearTimeout(this.ballWaits);
     this.ballWaits = setTimeout(() => {
+      Object.assign(this.state, { k, g, energy: E, preset: "" });
+      element("preset").value = "";
+      this.slides();
+      this.drawAtlas();
       this.page.restart(true);
       this.listOrbits();
-    }, 60);
+    }, delay);
   }
 
   // ---------------------------------------------------------------- listeners
@@ -253,7 +253,7 @@ class Controls {
       on(id, "click", () => this.nudge(across, up));
     }
     for (const name of ["k", "g", "E"]) {
-      on(name, "input", () => this.applyBall());
+      on(name, "input", () => this.applyBall(250)); // more digits may follow
       on(`${name}-slide`, "input", () => {
         element(name).value = String(this.slid(name));
         this.applyBall();
