@@ -10,6 +10,8 @@ import pytest
 from verdicts import against
 
 from pipeline import config
+from pipeline.config.paths import EXPLORER
+from pipeline.explorer import page
 from pipeline.publication import archive
 
 FILE = "results/archive/pseudorigid.tar"
@@ -42,6 +44,7 @@ def test_contents_of_an_archive(accepted, packed, tmp_path):
     assert data and {name[14:] for name in names if name.endswith(".nc")} == data
     figures = {p.name for p in (accepted.path / "paper_figures").iterdir()}
     assert {name[14:] for name in names if name.startswith("paper_figures/")} == figures
+    assert (folder / EXPLORER).read_text() == page.render(config.load(accepted.config), folder)
     assert f"{len(data)} of {len(data)} datasets" in (folder / "README.txt").read_text()
     for place in (folder, folder / "paper_figures"):
         subprocess.run(["sha256sum", "--quiet", "-c", "SHA256SUMS"], cwd=place, check=True)

@@ -113,7 +113,7 @@ def test_the_page_needs_no_network_and_its_links_have_targets(text):
     links = [a["href"] for a in outline.all("a")]
     assert links[0] == "#main"  # the skip link comes first
     explorer = [link for link in links if link.startswith("../explorer.html")]
-    assert len(explorer) > 7  # one for all, and one for each figure
+    assert {"../explorer.html", "../explorer.html#fig3"} <= {*explorer}
     assert {*links} - {*explorer} <= {f"#{name}" for name in ids}
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h\d", tag)]
     assert levels[0] == 1 and levels.count(1) == 1
