@@ -18,7 +18,7 @@ FILE = "results/archive/pseudorigid.tar"
 
 
 def written(tree, path):
-    return archive.write(tree.path, config.load(tree.config), path)[0]
+    return archive.write(tree.path, config.load(tree.config), path)
 
 
 def sha256(path):

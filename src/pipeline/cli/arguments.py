@@ -324,7 +324,5 @@ def _versions() -> "str":
     ours = search(r'^version = "(.+)"', "pyproject.toml")
     snakemake = search("^snakemake==([^ ;]+)", "requirements/lock.txt")
     lines = [f"pseudorigid {ours}, snakemake {snakemake}"]
-    identifier = swhid.of_commit(ROOT)
-    if identifier:
-        lines.append(f"{identifier}  the committed tree")
+    lines += [f"{identifier}  {what}" for what, identifier in swhid.identifiers(ROOT)]
     return "\n".join(lines)

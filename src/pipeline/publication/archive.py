@@ -27,7 +27,7 @@ from ..checks.published_sets import PublishedSet
 from ..config.paths import EXPLORER, LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
 from ..explorer import page
-from ..records import files, swhid
+from ..records import files
 from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, read_bytes
 from ..records.pictures import PictureError, difference
@@ -60,11 +60,10 @@ class ArchiveError(ValueError):
 
 def write(
     root: Path, checked: YamlMapping, path: Path | str, packages: Collection[Path] = ()
-) -> tuple[str, str]:
-    """Write the archive of the tree at `root`, whole or not at all.
+) -> str:
+    """Write the archive of the tree at `root`, whole or not at all, and return its sha256.
 
-    With `packages`, files of the locked packages, it also has these and the tree's sources. Returns
-    its sha256 and the SWHID of the folder that it holds.
+    With `packages`, files of the locked packages, it also has these and the tree's sources.
 
     Raises
     ------
@@ -83,12 +82,7 @@ def write(
         for name, data in archived.items():
             entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
             tar.addfile(entry, io.BytesIO(data))
-    return str(file_hash(path)), identifier(archived)
-
-
-def identifier(archived: Contents) -> str:
-    """Return the SWHID of the folder that an archive holds."""
-    return swhid.of_files({name: (data, _mode(name)) for name, data in archived.items()})
+    return str(file_hash(path))
 
 
 def refuse_unpublished(root: Path, checked: YamlMapping) -> None:

@@ -7,6 +7,7 @@ imports this module before anything is installed, so it needs only Python 3.6.
 
 import hashlib
 import subprocess
+import tarfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,31 @@ def of_commit(root: "Path") -> "str | None":
         return None
     folder, tree = output.decode().splitlines()
     return None if folder else _PREFIX + tree  # a folder of another project's repository
+
+
+def identifiers(root: "Path") -> "list[tuple[str, str]]":
+    """Return name and identifier of the committed tree and of the content of each archive."""
+    found = []
+    tree = of_commit(root)
+    if tree:
+        found.append(("the committed tree", tree))
+    for path in sorted((root / "results" / "archive").glob("*.tar")):
+        try:
+            found.append((path.name, _of_tar(path)))
+        except (OSError, tarfile.TarError):
+            continue  # `verify --against` says what is wrong with it
+    return found
+
+
+def _of_tar(path: "Path") -> "str":
+    """Return the identifier of the one folder that an archive unpacks to."""
+    files = {}
+    with tarfile.open(str(path)) as tar:
+        for entry in tar:
+            content = tar.extractfile(entry)
+            if content:
+                files[entry.name.partition("/")[2]] = content.read(), entry.mode
+    return of_files(files)
 
 
 def _of_tree(tree: "dict[str, Any]") -> "bytes":

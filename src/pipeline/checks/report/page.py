@@ -15,6 +15,7 @@ from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
+from ...records import swhid
 from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import pixels
@@ -27,6 +28,7 @@ from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
 from .captions import caption_of
 
+_OTHERS = ("article.pdf", "archive/pseudorigid.tar")  # in results/, linked where they exist
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -66,6 +68,8 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
         claims=page.claims(),
         corrected=(FALSE, CORRECTED),
         results=list(page.provenance()),
+        others=[file for file in _OTHERS if (root / "results" / file).is_file()],
+        identifiers=swhid.identifiers(root),
     )
 
 

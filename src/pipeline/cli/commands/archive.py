@@ -26,7 +26,6 @@ def run(args: Arguments) -> int:
             archive.refuse_unpublished(ROOT, args.checked)  # before the download
             folder = ROOT / FOLDER / f"packages{name}"
             packages = wheels.download(folder, python, args.machine)
-        digest, identifier = archive.write(ROOT, args.checked, path, packages)
+        digest = archive.write(ROOT, args.checked, path, packages)
     print(f"{digest}  {file}  {path.stat().st_size / 1e6:.1f} MB")
-    print(f"{identifier}  its files")
     return 0

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from pseudorigid.dynamics.paper import EXPONENT
 from pseudorigid.proofs.theorems.statements import THEOREMS
 
 from ...checks import manifest, published_sets
@@ -34,15 +35,8 @@ def numbers_of(root: Path, checked: Table) -> str:
         for each in sets
         for scene, entry in committed[each.folder]["scenes"].items()
     }
-    files = paths.artifact_paths(checked["variants"])
     for scene, block in checked["variants"][PAPER].items():
-        data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
-        printed = PAPER_NUMBERS.get(scene, {})
-        figures[scene]["rows"] = {
-            name: {"paper": printed.get(name, "not printed"), "ours": ours}
-            for name, ours in KINDS[block["picture"]].numbers(block, **data).items()
-        }
-        figures[scene]["settings"] = block
+        figures[scene] |= {"rows": _rows(root, checked, scene), "settings": block}
     return json.dumps(
         {
             "title": metadata.OWN["article"],
@@ -53,6 +47,7 @@ def numbers_of(root: Path, checked: Table) -> str:
             "counts": Counter(row.verdict for row in verdicts),
             "statements": len(verdicts),
             "figures": figures,
+            "printed": {"exponent": EXPONENT},
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
             "packages": committed[PUBLISHED[PAPER]]["environment"],
         },
@@ -60,6 +55,17 @@ def numbers_of(root: Path, checked: Table) -> str:
         indent=1,
         ensure_ascii=False,
     )
+
+
+def _rows(root: Path, checked: Table, scene: str) -> Table:
+    """Return quantity -> the paper's value and the one measured in a scene's datasets."""
+    block, files = checked["variants"][PAPER][scene], paths.artifact_paths(checked["variants"])
+    data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
+    printed = PAPER_NUMBERS.get(scene, {})
+    return {
+        name: {"paper": printed.get(name, "not printed"), "ours": ours}
+        for name, ours in KINDS[block["picture"]].numbers(block, **data).items()
+    }
 
 
 def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) -> Table:
@@ -72,6 +78,7 @@ def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) ->
         digest = hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]
         hashes.append(f"{file} {digest}")
     return {
+        "name": caption.name,
         "title": f"{caption.name}: {caption.title}",
         "shows": caption.shows,
         "see": caption.see,
