@@ -72,7 +72,7 @@ def loops(a, b):
     while n < 5 and total < 100.0:
         total = total * 1.5 + a
         n += 1
-    return total, n
+    return total, n, 1.0 / -n, 2.0 / (n * -3), float(-n)
 
 
 @jit
@@ -249,6 +249,8 @@ REFUSED = {
     "no result": ("a = b", 0, "f, which returns nothing,"),
     "an empty return": ("if a > b:\n        return\n    return a", 2, "a return of nothing"),
     "another exception": ('raise ValueError("no")', 1, "Raise"),
+    "two meanings": ("c = other(a)\n    c_0 = b\n    return c[0] + c_0", 0,
+                     "f, in which c_0 has two meanings,"),
     "itself": ("return f(b, a)", 0, "the recursive function f"),
     "an array": ("c = np.zeros(3)\n    return a", 1, "the call of np.zeros"),
     "a text": ('return "a"', 1, "Constant"),
@@ -333,6 +335,15 @@ def test_words_of_javascript_and_equal_names_of_two_modules_are_told_apart(tmp_p
     script = both.javascript()
     assert "function zoo_gap(let_)" in script and "function gap(new_)" in script
     assert "const var_ = let_ + 1.0;" in script and "return gap(var_);" in script
+
+
+def test_a_variable_that_hides_a_function_is_refused(tmp_path):
+    """In Python, the function has another name."""
+    (tmp_path / "more.py").write_text("@jit\ndef gap(t):\n    return t * 2.0\n")
+    text = "from .more import gap as twice\n\n\n@jit\ndef f(a):\n    gap = twice(a)\n"
+    hiding = translator(tmp_path, f"{text}    return twice(gap)\n")
+    with pytest.raises(TranslationError, match="f, in which gap has two meanings, is not"):
+        hiding.function("zoo", "f")
 
 
 # Edits of the kernel's Python, and what they change in the script.

@@ -322,9 +322,7 @@ class _FunctionTranslator:
         self._node = ast.FunctionDef(node.name, node.args, body, [], lineno=node.lineno)
         self._shapes: dict[str, Shape] = {}
         self._result: Shape | None = None
-        self._known = -1
-        self._used = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
-        self._used |= {each.arg for each in node.args.args}
+        self._globals: set[str] = set()  # functions and constants that it uses
         self._reset()
 
     def _reset(self) -> None:
@@ -357,6 +355,15 @@ class _FunctionTranslator:
                 break
         if self._result is None:
             self._refuse(node, f"{node.name}, which returns nothing,")
+        variables = [
+            leaf.code
+            for name, shape in self._shapes.items()
+            if shape != NONE
+            for leaf in _leaves(_names_of(name, shape))
+        ]
+        for variable in variables:  # `a_0` may be a part of `a`, or a function that is called
+            if variables.count(variable) > 1 or variable in self._globals:
+                self._refuse(node, f"{node.name}, in which {variable} has two meanings,")
         parameters = [(name, self._shapes[name]) for name in names]
         name = self._all.unique(self._module, node.name)
         return Function(name, parameters, self._result, self._text(name, parameters))
@@ -689,6 +696,8 @@ class _FunctionTranslator:
                 return self._operation(node, left, op, right)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 value = self._number(operand)
+                if value.kind == INT and not isinstance(operand, ast.Constant):  # -0 is 0
+                    return Scalar(f"0 - {self._grouped(value, _PRODUCT)}", INT, _SUM)
                 code = f"-{self._grouped(value, _UNARY + 1)}"
                 return Scalar(code, value.kind, _UNARY)
             case ast.UnaryOp(op=ast.Not(), operand=operand):
@@ -715,7 +724,9 @@ class _FunctionTranslator:
                 Scalar(self._safe(leaf.code), leaf.kind) for leaf in _leaves(_names_of(name, shape))
             ]
             return _filled(shape, iter(variables))
-        return self._all.constant(self._module, name, node)
+        constant = self._all.constant(self._module, name, node)
+        self._globals.add(constant.code)
+        return constant
 
     def _tuple(self, elements: list[ast.expr]) -> list[Value]:
         values: list[Value] = []
@@ -759,6 +770,8 @@ class _FunctionTranslator:
             code = f"{self._grouped(a, precedence)} {symbol} {self._grouped(b, precedence + 1)}"
             if kind == LONG:
                 return Scalar(f"$long({code})", LONG)
+            if kind == INT and isinstance(op, ast.Mult):  # an integer has no -0
+                return Scalar(f"{code} + 0", INT, _SUM)
             return Scalar(code, kind, precedence)
         if kind != LONG:
             self._refuse(node, f"{type(op).__name__} of anything but 64-bit integers")
@@ -917,6 +930,7 @@ class _FunctionTranslator:
     def _call_code(self, function: Function, node: ast.Call) -> str:
         if node.keywords:
             self._refuse(node, "a keyword argument")
+        self._globals.add(function.name)
         values = self._tuple(node.args)
         shapes = [shape for _, shape in function.parameters]
         if len(values) != len(shapes):
