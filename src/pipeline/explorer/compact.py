@@ -15,7 +15,7 @@ _TOKEN = re.compile(
       |(?<=[(])/(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\n])+/[a-z]*
       |(?<=return\s)/(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\n])+/[a-z]*)
     |(?P<space>\s+)
-    |(?P<other>.)
+    |(?P<other>[\w$]+|.)
     """,
     re.VERBOSE | re.DOTALL,
 )
@@ -34,8 +34,32 @@ def script(text: str) -> str:
             parts.append(" ")
         parts.append(part)
         space = False
-    # Every declaration may be one of `let`.
-    return re.sub(r"\bconst\b", "let", "".join(parts)) + "\n"
+    return "".join(_joined(parts)) + "\n"
+
+
+def _joined(parts: list[str]) -> list[str]:
+    """Return the parts with one `let` for declarations that follow each other."""
+    declares, before = [False], ""
+    joined: list[str] = []
+    for part in parts:
+        word = "let" if part == "const" else part
+        if part in "([{":
+            declares.append(False)
+        elif part in ")]}":
+            declares.pop()
+        if word == "let" and before == ";" and declares[-1]:
+            joined[-1] = ","
+            before = ","
+            continue
+        if before == "," and part == " " and joined[-1] == ",":
+            continue
+        if before == ";":
+            declares[-1] = False
+        if word == "let":
+            declares[-1] = True
+        joined.append(word)
+        before = part if part != " " else before
+    return joined
 
 
 def _needs_space(before: str, after: str) -> bool:

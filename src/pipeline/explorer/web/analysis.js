@@ -336,10 +336,8 @@ const analysis = (() => {
         this.multiplier *= this.multiplier;
       }
       this.weak = this.multiplier < WEAK;
-      // A weak branch takes many images; a longer first segment, at the price of its square, has
-      // them begin further out.
-      const segment = this.weak ? 1e-4 : 1e-6;
-      this.first = e.map((value) => (segment * this.radius * value) / this.multiplier);
+      this.jumps = energy > geometry.firstJump(k, g);
+      this.first = e.map((value) => (1e-6 * this.radius * value) / this.multiplier);
       this.images = MOST_IMAGES;
       if (this.weak) this.images = (MOST_IMAGES * Math.log(WEAK)) / Math.log(this.multiplier);
     }
@@ -350,6 +348,40 @@ const analysis = (() => {
       const [x, y] = this.origin.map((value, i) => value + sigma * this.first[i]);
       const state = pseudorigid.stateXY(this.k, this.g, this.energy, x, y);
       return this.mirror(iterate(this.k, this.g, state, image * this.period));
+    }
+
+    /**
+     * The state at u. Of a weak branch, which takes many images, it is mapped from the image before,
+     * from a vertex or a point on the cubic through the four vertices around it: rounding errors
+     * would scatter points that are mapped from the first segment.
+     */
+    next(u, known) {
+      if (!this.weak || known.length < 2 * POINTS_OF_IMAGE) return this.at(u);
+      const { k } = this;
+      const before = u - 1;
+      let [low, high] = [0, known.length - 1];
+      while (low < high) {
+        const middle = (low + high) >> 1;
+        if (known[middle].u < before) low = middle + 1;
+        else high = middle;
+      }
+      let state = this.mirror(known[low].state);
+      if (known[low].u !== before) {
+        const first = Math.min(Math.max(low - 2, 0), known.length - 4);
+        const nodes = known.slice(first, first + 4).map((vertex) => vertex.u);
+        const rows = known.slice(first, first + 4).map((vertex) => this.mirror(vertex.state));
+        const share = (before - nodes[0]) / (nodes[3] - nodes[0]);
+        const columns = [rows.map((row) => row[0]), rows.map((row) => row[1] - k * row[2])];
+        const ends = columns.map((values) =>
+          [0, 1].map((i) => parabola(nodes.slice(i, i + 3), values.slice(i, i + 3), before)),
+        );
+        const extent = Math.max(...columns.map((values) => Math.max(...values) - Math.min(...values)));
+        if (this.jumps && ends.some(([a, b]) => Math.abs(a - b) > 0.5 * extent)) return this.at(u);
+        const [x, y] = ends.map(([a, b]) => a + share * (b - a));
+        state = geometry.chartState(k, this.g, this.energy, x, y);
+        if (!state) return this.at(u);
+      }
+      return this.mirror(iterate(k, this.g, state, this.period));
     }
 
     mirror(state) {
@@ -368,6 +400,13 @@ const analysis = (() => {
       const after = this.at(image);
       return Math.max(...after.map((v, i) => Math.abs(v - before[i]))) <= LARGEST_SPLIT * extent;
     }
+  }
+
+  /** The parabola through three values at nodes. */
+  function parabola([a, b, c], values, at) {
+    const slope = (values[1] - values[0]) / (b - a);
+    const bend = ((values[2] - values[1]) / (c - b) - slope) / (c - a);
+    return values[0] + (at - a) * (slope + (at - b) * bend);
   }
 
   /**
@@ -398,10 +437,11 @@ const analysis = (() => {
       let rest = vertices.slice(fixed.length);
       for (let i = 0; i < POINTS_OF_IMAGE; i++) {
         const u = image + i / POINTS_OF_IMAGE;
-        rest.push({ u, state: branch.at(u) });
+        rest.push({ u, state: branch.next(u, vertices) });
       }
       for (;;) {
-        const refined = refine(branch, rest, rule);
+        const known = branch.weak ? fixed.concat(rest) : rest;
+        const refined = refine(branch, rest, rule, known);
         if (refined.length === rest.length) break;
         rest = refined;
         if (fixed.length + rest.length > MOST_VERTICES) {
@@ -458,7 +498,7 @@ const analysis = (() => {
   }
 
   /** The vertices with a further one in the middle of each side that is too long or bends. */
-  function refine(branch, vertices, { distance, straight, finest }) {
+  function refine(branch, vertices, { distance, straight, finest }, known) {
     const sides = sidesOf(vertices, branch.radius);
     const limits = sides.map((_, i) => distance * finest(vertices[i].state, vertices[i + 1].state));
     const coarse = sides.map((side, i) => side.length > limits[i]);
@@ -474,7 +514,7 @@ const analysis = (() => {
     sides.forEach((side, i) => {
       if (coarse[i] && !side.indivisible) {
         const u = 0.5 * (vertices[i].u + vertices[i + 1].u);
-        refined.push({ u, state: branch.at(u) });
+        refined.push({ u, state: branch.next(u, known) });
       }
       refined.push(vertices[i + 1]);
     });

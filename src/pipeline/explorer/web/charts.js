@@ -142,7 +142,7 @@ function drawExponents(canvas, orbits, cursor) {
   const top = Math.min(1, Math.max(0.1, ...values));
   const plot = new Plot(pen, {
     width, height, colours, across: [0, most], up: [-0.06 * top, 1.08 * top],
-    frame: { left: 50, top: 24, right: 12, bottom: 36 },
+    frame: { left: 50, top: 24, right: 26, bottom: 36 },
   });
   plot.axes("number of impacts", "largest exponent so far");
   for (const orbit of shown) plot.line(orbit.history, orbit.colour(colours));
@@ -164,7 +164,7 @@ function drawRotations(canvas, orbits) {
   };
   const plot = new Plot(pen, {
     width, height, colours, across: range(starts, 0.01), up: range(values, 1e-4),
-    frame: { left: 58, top: 24, right: 12, bottom: 36 },
+    frame: { left: 58, top: 24, right: 26, bottom: 36 },
   });
   plot.axes("start along y = 0, section radii", "rotation number");
   shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(colours), 3.5));

@@ -89,9 +89,9 @@ class Controls {
 
   /** Tell what has been found, and what to do next. */
   completed() {
-    const orbit = this.page.orbits[this.state.chosen];
-    const mine = this.state.preset === "" ? orbit : null;
+    const mine = this.watched;
     if (!mine?.facts?.verdict) return;
+    this.watched = null;
     this.seen[mine.facts.verdict] = true;
     const first =
       mine.facts.verdict === "regular"
@@ -578,8 +578,10 @@ class Controls {
 
   startAt(point) {
     const place = this.page.section.place(...point);
-    if (place) this.begin([place]);
-    else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+    if (place) {
+      this.begin([place]);
+      this.watched = this.page.orbits.at(-1);
+    } else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
   }
 
   // ---------------------------------------------------------------- keys
