@@ -302,7 +302,7 @@ class SectionView {
   plot(orbit, from) {
     const { pixels, image, ratio, frame } = this;
     const colour = packed(orbit.colour(this.colours));
-    const size = Math.max(1, Math.round((orbit.isSea() ? 1 : 1.7) * ratio));
+    const size = Math.max(1, Math.round((orbit.isSea() ? 0.7 : 1.7) * ratio));
     const left = frame.left * ratio;
     const top = frame.top * ratio;
     const right = (this.width - frame.right) * ratio - size;
