@@ -720,3 +720,38 @@ for (const node of document.querySelectorAll('body *')) {
   found.push([node.outerHTML.slice(0, 80), (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05)]); }
 return found;
 """
+
+
+def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
+    with browsers.start("firefox", tmp_path / "firefox", 1280, 1000) as firefox:
+        firefox.open(address)
+        rows = "return [...document.querySelectorAll('#orbits .facts')].map(n => n.textContent)"
+        wait_for(lambda: firefox.run(rows)[-1:] and "25,000" in firefox.run(rows)[-1])
+        exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, ENERGY), 25000, 1)["exponent"]
+        assert f"exponent {float(exponent[0, 0]):.4g} " in firefox.run(rows)[-1]
+        across, down = firefox.run(
+            "const b = document.getElementById('section').getBoundingClientRect();"
+            "return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)"
+        )
+        mouse = [
+            {"type": "pointerMove", "x": across, "y": down, "duration": 20},
+            {"type": "pointerDown", "button": 0},
+            {"type": "pointerUp", "button": 0},
+        ]
+        actions = [{"type": "pointer", "id": "mouse", "actions": mouse}]
+        firefox._command("WebDriver:PerformActions", {"actions": actions})
+        hint = "return document.getElementById('hint').textContent"
+        wait_for(lambda: firefox.run(hint).startswith("This orbit is"))
+        assert len(firefox.run(rows)) == 9
+        assert firefox.run("return document.getElementById('play').textContent") == "Pause"
+        firefox.run("location.hash = 'flux'")
+        note = "return document.getElementById('branch-note').textContent"
+        wait_for(lambda: "24 branches" in firefox.run(note))
+        assert firefox.errors() == []
+
+
+def wait_for(condition, patience=60):
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.1)
