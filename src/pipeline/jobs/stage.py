@@ -9,6 +9,7 @@ import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 
+from ..config.schema.stages import RESUMED
 from ..records import artifacts
 from ..records.build_spec import BuildSpec
 from ..records.stage_call import compute_stage
@@ -39,6 +40,20 @@ def _compute_exactly(
     )
 
 
+def _resumable(spec: BuildSpec) -> dict[str, Any]:
+    """Return the arguments by which a long stage reports its progress and keeps its work."""
+
+    reported = 0.0
+
+    def progress(share: float, text: str) -> None:
+        nonlocal reported
+        if share >= reported:
+            print(f"{spec.scene}: {share:.0%}, {text}", file=sys.stderr, flush=True)
+            reported = share + 0.05
+
+    return {"progress": progress, "folder": f"{spec.result}.part"}
+
+
 def make(spec: BuildSpec) -> None:
     """Compute with the module and function that the specification names."""
     block, (module, name) = spec.config, spec.given
@@ -49,6 +64,8 @@ def make(spec: BuildSpec) -> None:
         dataset = _compute_exactly(function, spec, fields)
     else:
         inputs = [artifacts.load(path) for path in spec.inputs]
+        if spec.step in RESUMED:
+            fields |= _resumable(spec)
         dataset = compute_stage(function, ball, block["energy"], inputs, fields, method)
     attributes = {"stage": spec.step, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
     title = artifacts.title_of(function)

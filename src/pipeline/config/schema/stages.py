@@ -52,8 +52,15 @@ STAGES = {
             "jumps": "energies sides",
             "flux": "period distance grid between orbits impacts",
             "last_curve": "nobles convergents between impacts drawn",
+            "families": "parameter span period levels",
         }.items()
     },
+    "shares": Stage(
+        "pseudorigid.sweep.shares",
+        "shares",
+        ("parameter", "span", "step", "starts", "impacts"),
+        follows=False,
+    ),
     "horseshoe": Stage(
         f"{_PROOFS}.theorems.scenes",
         "scene_horseshoe",
@@ -64,6 +71,9 @@ STAGES = {
     "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",), follows=False),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
+
+# Stages that report their progress and keep their work while it lasts.
+RESUMED = {"families"}
 
 
 def upstream(stages: Iterable[str]) -> list[str]:

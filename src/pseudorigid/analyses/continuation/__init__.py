@@ -1,0 +1,1 @@
+"""Curves of periodic orbits against a parameter: pseudo-arclength continuation and its events."""

@@ -1,0 +1,155 @@
+"""Periodic orbits without symmetry, which branch off where a symmetric orbit breaks its own.
+
+Unknowns are a point of the section, in section radii, and the parameter: with rho = sqrt(1 + 2 k E)
+and g = 1 the point (X, Y) of the unit disk is x = (1 + rho X)/k, y = rho sqrt((1 + k)/k) Y. The
+reversor is (X, Y) -> (X, -Y), so that such orbits come in pairs, of which one is followed.
+"""
+
+import math
+
+import numpy as np
+
+from ...kernel.arithmetic import quadrant
+from ...kernel.compiled import jit
+from ...kernel.flight import first_impact
+from ...kernel.impact import flight_derivatives, impact_coefficients, rebound
+from .curve import Place, Point
+from .half_orbit import ENERGY, LONGEST_PERIOD
+
+# Entries of the result of `evaluate_orbit`: the derivatives of (X, Y) after the period by X, Y and
+# the parameter; from POINTS on the points (X, Y), from FLIGHTS on the times of flight.
+DX, DY, DP, TOTAL, SLOWEST, POINTS = 0, 2, 4, 6, 7, 8
+FLIGHTS = POINTS + 2 * (LONGEST_PERIOD + 1)
+ROOM = FLIGHTS + LONGEST_PERIOD
+
+# Contact speed, in units where g = 1, below which an orbit is not followed: derivatives grow like
+# its reciprocal.
+_LEAST_SPEED = 1e-5
+
+
+@jit
+def evaluate_orbit(period, parameter, k, rho, at_x, at_y, out):
+    """Write an orbit of `period` impacts from (X, Y) and its derivatives to out (ROOM,)."""
+    coefficients = impact_coefficients(k)
+    energy = 0.5 * (rho - 1.0) * (rho + 1.0) / k
+    rho_p, k_p = (1.0, 0.0) if parameter == ENERGY else (energy / rho, 1.0)
+    unit_x, unit_y = rho / k, rho * math.sqrt((1.0 + k) / k)
+    # relative growth of the units of y and s with the parameter
+    grow_y = rho_p / rho + 0.5 * k_p * (1.0 / (1.0 + k) - 1.0 / k)
+    rest = math.sqrt(1.0 - at_x * at_x - at_y * at_y)
+    x, y = (1.0 + rho * at_x) / k, unit_y * at_y
+    unit_s = rho * math.sqrt(1.0 + k) / k
+    s = unit_s * rest
+    grow_s = rho_p / rho + k_p * (0.5 / (1.0 + k) - 1.0 / k)
+    v, w = (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+    # three tangent vectors: by X, by Y, by the parameter
+    t = np.zeros((3, 3))
+    for j in range(3):
+        dx = unit_x if j == 0 else 0.0
+        dy = unit_y if j == 1 else 0.0
+        ds = -unit_s * (at_x if j == 0 else at_y) / rest
+        dk = 0.0
+        if j == 2:
+            dx, dy, ds = (rho_p * at_x - x * k_p) / k, y * grow_y, s * grow_s
+            dk = k_p
+        t[j, 0] = dx
+        t[j, 1] = (dy + k * ds + s * dk - v * dk) / (1.0 + k)
+        t[j, 2] = (ds - dy - w * dk) / (1.0 + k)
+    slowest, total = s, 0.0
+    out[POINTS], out[POINTS + 1] = at_x, at_y
+    for i in range(period):
+        b, c, s = rebound(v, w, k, coefficients)
+        tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
+        sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
+        more = 2.0 * s / ((1.0 + k) * (1.0 + k))
+        x, v = p, b + tau
+        w = max(rate, -v)
+        for j in range(3):
+            db, dc, ds = rebound(t[j, 1], t[j, 2], k, coefficients)
+            if j == 2:
+                db, dc = db - k_p * more, dc + k_p * more
+            dt = tau_x * t[j, 0] + tau_s * ds + tau_c * dc
+            t[j, 0], t[j, 1], t[j, 2] = (
+                cosine * t[j, 0] - sine * dc - w * dt,
+                db + dt,
+                sine * t[j, 0] + cosine * dc + x * dt,
+            )
+        total += tau
+        slowest = min(slowest, v + w)
+        out[FLIGHTS + i] = tau
+        out[POINTS + 2 * i + 2] = (k * x - 1.0) / rho
+        out[POINTS + 2 * i + 3] = (v - k * w) / unit_y
+    for j in range(3):
+        dx, dy = t[j, 0], t[j, 1] - k * t[j, 2]
+        if j == 2:
+            dx += (x * k_p - rho_p * (k * x - 1.0) / rho) / k
+            dy += -w * k_p - (v - k * w) * grow_y
+        out[2 * j], out[2 * j + 1] = dx / unit_x, dy / unit_y
+    out[TOTAL], out[SLOWEST] = total, slowest
+
+
+class AsymmetricOrbits:
+    """Orbits of one period without symmetry, as a `System` of `curve`."""
+
+    line = -1
+
+    def __init__(self, period, parameter):
+        self.period, self.parameter = period, parameter
+        self.limits = parameter.low, parameter.high
+        self.scale = parameter.high - parameter.low
+        self._divisors = [d for d in range(1, period) if period % d == 0]
+
+    def point(self, place: Place) -> Point | None:
+        """Return the orbit from a place (X, Y, parameter), or None beyond the section."""
+        at_x, at_y, p = place
+        if not (at_x * at_x + at_y * at_y < 1.0 and p > 0.0):
+            return None
+        k, rho = self.parameter.k_and_rho(p)
+        out = np.empty(ROOM)
+        evaluate_orbit(self.period, self.parameter.kind, k, rho, at_x, at_y, out)
+        a, c, b, d, x_p, y_p = out[:6].tolist()
+        points = out[POINTS : POINTS + 2 * self.period + 2].reshape(-1, 2)
+        defect = tuple((points[-1] - points[0]).tolist())
+        if not all(math.isfinite(value) for value in (a, b, c, d, x_p, y_p, *defect)):
+            return None
+        if out[SLOWEST] < _LEAST_SPEED:
+            return None
+        size = math.sqrt(a * a + b * b + c * c + d * d)
+        matrix = [a / size, b / size, c / size, d / size]
+        guard = np.concatenate((matrix, out[FLIGHTS : FLIGHTS + self.period]))
+        orbit = points[:-1]
+        mirrored = orbit * np.array([1.0, -1.0])
+        index = np.arange(self.period)
+        apart = [np.roll(orbit, -d, axis=0) - orbit for d in self._divisors]
+        apart += [orbit[(shift - index) % self.period] - mirrored for shift in index]
+        gradients = (a - 1.0, b, x_p), (c, d - 1.0, y_p)
+        return Point(place, defect, gradients, guard, tuple(v.ravel() for v in apart), out)
+
+    def separation(self, point: Point) -> float:
+        """Return how far the orbit is from a symmetric or a shorter one, in section radii."""
+        return min(float(np.max(np.abs(a))) for a in point.apart)
+
+    @staticmethod
+    def trace(point: Point) -> float:
+        """Return the trace of the orbit's Jacobian in canonical coordinates."""
+        return float(point.data[DX] + point.data[DY + 1])
+
+    @staticmethod
+    def time(point: Point) -> float:
+        """Return the total time of the orbit."""
+        return float(point.data[TOTAL])
+
+    @property
+    def tests(self):
+        """Events: kind, function that changes its sign there, and its size against rounding."""
+
+        def fold(point: Point) -> float:
+            return self.trace(point) - 2.0
+
+        def doubling(point: Point) -> float:
+            return self.trace(point) + 2.0
+
+        return [
+            ("fold", fold, lambda point: abs(fold(point))),
+            ("doubling", doubling, lambda point: 1.0),
+        ]

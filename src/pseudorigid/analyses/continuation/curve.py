@@ -1,0 +1,290 @@
+"""Pseudo-arclength continuation of solutions of d - 1 equations in d - 1 positions and a parameter.
+
+A place is (position, ..., parameter); d is 2 or 3. Lengths are measured in (position, ...,
+parameter/scale). A curve is oriented by its equations: the unit tangent is the normalized cross
+product of their gradients, and never changes its sign along a curve. On the neighbouring solution
+of an equation the gradient points the other way, which shows if a step has gone astray.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+Place = tuple[float, ...]
+
+LARGEST_STEP, FIRST_STEP, LEAST_STEP = 0.02, 1e-3, 1e-11
+# Largest angle (cosine) by which the tangent may turn in a step, and from predictor to solution.
+_STRAIGHT = 0.98
+_CORRECTION = 0.25  # largest correction of a predictor, in steps
+_CHANGE = 0.2  # largest change of a guarded quantity in a step
+# A vector that must not vanish may shrink in a step by this factor, and turn by this cosine.
+_SHRINK, _TURN = 0.6, 0.7
+_NEWTON_STEPS = 12
+_ROUNDING = 1e-9  # Newton steps below this that no longer fall have reached rounding
+_DEFECT = 1e-5  # largest defect of a solution: at a jump Newton steps shrink, but it does not
+_CUTS = 200  # of a chord, to locate an event
+MOST_POINTS = 20_000
+
+
+class Point(NamedTuple):
+    """A point near or on a curve."""
+
+    place: Place
+    defect: Place  # values of the equations
+    gradients: tuple[Place, ...]  # of each equation
+    guard: np.ndarray  # quantities that change little in a step
+    apart: tuple[np.ndarray, ...]  # vectors that vanish only where the curve ends
+    data: np.ndarray  # what else is known of the point
+
+    @property
+    def q(self) -> float:
+        """The first position."""
+        return self.place[0]
+
+    @property
+    def p(self) -> float:
+        """The parameter."""
+        return self.place[-1]
+
+
+class System(Protocol):
+    """Equations whose solutions are curves."""
+
+    scale: float  # unit of the parameter in lengths
+    limits: tuple[float, float]  # range of the parameter
+
+    def point(self, place: Place) -> Point | None:
+        """Return the equations at a place, or None where they are not defined."""
+
+
+class Curve(NamedTuple):
+    """Points along a curve, and why it stops there: range, closed, collapse or blocked."""
+
+    points: list[Point]
+    reason: str
+
+
+def _dot(a: Place, b: Place) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _cross(a: Place, b: Place) -> Place:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _rows(system: System, point: Point) -> list[Place]:
+    """Return the gradients by the scaled coordinates."""
+    return [(*row[:-1], row[-1] * system.scale) for row in point.gradients]
+
+
+def tangent(system: System, point: Point) -> Place:
+    """Return the unit tangent, in scaled coordinates, oriented by the equations."""
+    rows = _rows(system, point)
+    vector = (-rows[0][1], rows[0][0]) if len(rows) == 1 else _cross(*rows)
+    size = math.sqrt(_dot(vector, vector))
+    return tuple(x / size for x in vector) if 0.0 < size < math.inf else (math.nan,) * len(vector)
+
+
+def moved(system: System, place: Place, vector: Place, length: float) -> Place:
+    """Return the place at a scaled vector times a length from another one."""
+    steps = (*vector[:-1], vector[-1] * system.scale)
+    return tuple(x + length * step for x, step in zip(place, steps, strict=True))
+
+
+def distance(system: System, first: Place, last: Place) -> float:
+    """Return the scaled distance, in the maximum norm."""
+    *ends, parameter = (abs(a - b) for a, b in zip(first, last, strict=True))
+    return max(*ends, parameter / system.scale)
+
+
+def _newton_step(rows: list[Place], defect: Place, along: Place) -> Place | None:
+    """Return the step, normal to `along`, at which the linearized equations vanish."""
+    if len(rows) == 1:
+        ((a, b),) = rows
+        slope = b * along[0] - a * along[1]
+        vectors: list[Place] = [(-along[1], along[0])]
+    else:
+        vectors = [_cross(rows[1], along), _cross(along, rows[0])]
+        slope = _dot(rows[0], vectors[0])
+    if not 0.0 < abs(slope) < math.inf:
+        return None
+    return tuple(
+        -sum(h * vector[i] for h, vector in zip(defect, vectors, strict=True)) / slope
+        for i in range(len(along))
+    )
+
+
+def correct(system: System, place: Place, along: Place, reach: float) -> Point | None:
+    """Return the solution in the plane through a place that is normal to `along`, or None.
+
+    Newton's method may move at most `reach`.
+    """
+    first, previous = place, math.inf
+    for _ in range(_NEWTON_STEPS):
+        point = system.point(place)
+        if point is None:
+            return None
+        step = _newton_step(_rows(system, point), point.defect, along)
+        if step is None:
+            return None
+        size = max(map(abs, step))
+        if size <= 4e-17 or (previous <= _ROUNDING and size >= 0.25 * previous):
+            return point if max(map(abs, point.defect)) < _DEFECT else None
+        if not size < 0.7 * previous:
+            return None
+        previous = size
+        place = moved(system, place, step, 1.0)
+        if not distance(system, first, place) <= 2.0 * reach:
+            return None
+    return point if previous <= _ROUNDING and max(map(abs, point.defect)) < _DEFECT else None
+
+
+def solve_at(system: System, place: Place, reach: float) -> Point | None:
+    """Return the solution at the parameter of a place next to it, or None."""
+    return correct(system, place, (*(0.0,) * (len(place) - 1), 1.0), reach)
+
+
+def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
+    """Return whether a step stays on its curve."""
+    before, between, after = (tangent(system, point) for point in (old, predicted, new))
+    if not (_dot(before, after) > _STRAIGHT and _dot(between, after) > _STRAIGHT):
+        return False
+    if not distance(system, new.place, predicted.place) <= _CORRECTION * step:
+        return False
+    if not np.all(np.abs(new.guard - old.guard) <= _CHANGE):
+        return False
+    for first, last in zip(old.apart, new.apart, strict=True):
+        square, last_square = float(np.sum(first * first)), float(np.sum(last * last))
+        if last_square < _SHRINK * _SHRINK * square:
+            return False
+        if not np.sum(first * last) > _TURN * math.sqrt(square * last_square):
+            return False
+    return True
+
+
+def trace(system: System, start: Point, sign: float, collapsed: Callable[[Point], bool]) -> Curve:
+    """Follow a curve from a point on it until it ends.
+
+    Parameters
+    ----------
+    system : System
+    start : Point
+        On the curve.
+    sign : {1.0, -1.0}
+        Along the tangent, or against it.
+    collapsed : callable
+        Whether a point is so near to the end of the curve that only its end is missing.
+    """
+    points, step = [start], FIRST_STEP
+    low, high = system.limits
+    while len(points) < MOST_POINTS:
+        old = points[-1]
+        along = tuple(sign * x for x in tangent(system, old))
+        place = moved(system, old.place, along, step)
+        predicted = system.point(place)
+        new = correct(system, place, along, step) if predicted is not None else None
+        if new is None or not _acceptable(system, old, predicted, new, step):
+            step *= 0.5
+            if step < LEAST_STEP:
+                return Curve(points, "blocked")
+            continue
+        if not low <= new.p <= high:
+            end = at_parameter(system, old, new, high if new.p > high else low)
+            return Curve([*points, end] if end is not None else points, "range")
+        points.append(new)
+        if collapsed(new):
+            return Curve(points, "collapse")
+        if len(points) > 3 and _returns(system, start, old, new):
+            return Curve(points, "closed")
+        step = min(1.5 * step, LARGEST_STEP)
+    return Curve(points, "blocked")
+
+
+def _chord(system: System, first: Point, last: Point) -> tuple[Place, float]:
+    """Return the unit vector from one point to another, in scaled coordinates, and its length."""
+    difference = [b - a for a, b in zip(first.place, last.place, strict=True)]
+    vector = (*difference[:-1], difference[-1] / system.scale)
+    length = math.sqrt(_dot(vector, vector))
+    return tuple(x / length if length > 0.0 else 0.0 for x in vector), length
+
+
+def part_of_chord(system: System, first: Point, last: Point, point: Point) -> float:
+    """Return where a point lies along the chord between two points, 0 to 1."""
+    along, length = _chord(system, first, last)
+    across, away = _chord(system, first, point)
+    return _dot(along, across) * away / length if length > 0.0 else 0.0
+
+
+def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
+    """Return whether the segment from `old` to `new` passes through `start` in its direction."""
+    if not _dot(tangent(system, start), tangent(system, new)) > _STRAIGHT:
+        return False
+    part = part_of_chord(system, old, new, start)
+    along, length = _chord(system, old, new)
+    beside = distance(system, moved(system, old.place, along, part * length), start.place)
+    return 0.0 <= part <= 1.0 and beside <= 0.05 * length
+
+
+def between(system: System, first: Point, last: Point, share: float) -> Point | None:
+    """Return the point of the curve beside a share of the chord between two of its points."""
+    along, length = _chord(system, first, last)
+    if not length > 0.0:
+        return first
+    return correct(system, moved(system, first.place, along, share * length), along, length)
+
+
+def locate(
+    system: System, first: Point, last: Point, value: Callable[[Point], float]
+) -> Point | None:
+    """Return the point between two points of a curve at which `value` of the point changes sign.
+
+    The chord is cut by secants (the Illinois rule), with bisection as a safeguard, until its parts
+    are neighbouring doubles or `value` no longer falls. The value must have opposite signs at the
+    ends. Returns None where a point between them is not found.
+    """
+    low, high = 0.0, 1.0
+    at_low, at_high = value(first), value(last)
+    best, least = (first, abs(at_low)) if abs(at_low) < abs(at_high) else (last, abs(at_high))
+    weight_low, weight_high, idle = at_low, at_high, 0
+    for turn in range(_CUTS):
+        share = low + (high - low) * (weight_low / (weight_low - weight_high))
+        if turn % 4 == 3 or not low < share < high:
+            share = 0.5 * (low + high)
+        if share in (low, high):
+            break
+        point = between(system, first, last, share)
+        if point is None:
+            return None
+        at = value(point)
+        idle = 0 if abs(at) < least else idle + 1
+        if abs(at) <= least:
+            best, least = point, abs(at)
+        if at == 0.0 or (idle > 8 and high - low < 1e-9):
+            break
+        if (at > 0.0) == (at_low > 0.0):
+            low, weight_low, weight_high = share, at, 0.5 * weight_high
+        else:
+            high, weight_high, weight_low = share, at, 0.5 * weight_low
+    return best
+
+
+def at_parameter(system: System, first: Point, last: Point, p: float) -> Point | None:
+    """Return the point at the parameter p between two points of a curve, or None."""
+    if p in (first.p, last.p):
+        return first if p == first.p else last
+    share = (p - first.p) / (last.p - first.p)
+    length = distance(system, first.place, last.place)
+    pairs = list(zip(first.place[:-1], last.place[:-1], strict=True))
+    point = solve_at(system, (*(a + share * (b - a) for a, b in pairs), p), length)
+    if point is not None and all(
+        min(a, b) - margin <= x <= max(a, b) + margin
+        for x, (a, b) in zip(point.place, pairs, strict=False)
+        for margin in (0.25 * abs(a - b) + 1e-9,)
+    ):
+        return point
+    near = locate(system, first, last, lambda point: point.p - p)
+    if near is None:
+        return None
+    return solve_at(system, (*near.place[:-1], p), length) or near

@@ -1,0 +1,96 @@
+"""Ends of families where an impact grazes."""
+
+import math
+
+import numpy as np
+
+from .asymmetric import SLOWEST, AsymmetricOrbits
+from .curve import Point
+from .families import End
+from .half_orbit import FIX_RP, H_P, LOWEST_SPEED, SIZE, H, evaluate, touches
+from .symmetric import Orbits
+
+_SLOW = 1e-3  # contact speed, in units where g = 1, of an impact that all but grazes
+_FAR = 1e-4  # a touch farther than this from the last point of a curve is another one
+
+
+def grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
+    """Return the grazing end that is next to the last point of a blocked curve.
+
+    It is a touch, where a flight meets the floor without an impact and is solved for, or at the
+    rim, where the speed of an impact vanishes.
+    """
+    if isinstance(system, AsymmetricOrbits):
+        kind = "rim" if float(last.data[SLOWEST]) < 2.0 * _SLOW else "touch"
+        return End(kind, last.p, last.q, point=last)
+    k, rho = system.parameter.k_and_rho(last.p)
+    times = system.times(last)
+    heights = np.empty((times.size, 2))
+    touches(system.line, system.period, k, rho, last.q, times, np.full(times.size, np.nan), heights)
+    speed = float(last.data[LOWEST_SPEED])
+    flight = int(np.nanargmax(heights[:, 1])) if np.any(~np.isnan(heights[:, 1])) else -1
+    height = -float(heights[flight, 1]) if flight >= 0 else math.inf
+    if 0.5 * speed * speed < height:
+        return End("rim", last.p, last.q, point=last)
+    end = _touch(system, last, times, flight, float(heights[flight, 0]))
+    if end is not None:
+        return end
+    kind = "rim" if speed < _SLOW else "unresolved"
+    return End(kind, last.p, last.q, impact=flight, point=last)
+
+
+def _touch(system: Orbits, last: Point, times: np.ndarray, flight: int, at: float) -> End | None:
+    """Solve for the orbit of which a flight touches the floor, from a point next to it."""
+    near = np.full(times.size, np.nan)
+    near[flight] = at
+    heights = np.empty((times.size, 2))
+    out = np.empty(SIZE)
+
+    def values(q: float, p: float) -> tuple[float, float]:
+        k, rho = system.parameter.k_and_rho(p)
+        evaluate(system.line, system.period, system.parameter.kind, k, rho, q, times, out)
+        h = float(out[H])
+        found = system.times_in(out).copy()
+        touches(system.line, system.period, k, rho, q, found, near, heights)
+        return h, float(heights[flight, 1])
+
+    q, p = last.q, last.p
+    if system.line == FIX_RP and flight == 0 and at == 0.0:  # the ball is at rest on the floor
+        q = math.copysign(1.0, q)
+        for _ in range(20):
+            h = values(q, p)[0]
+            step = -h / float(out[H_P])
+            p += step
+            if abs(step) < 1e-15 * p:
+                break
+        return _touched(system, last, q, p, flight, times, out)
+    least = math.inf
+    best = q, p
+    for _ in range(30):
+        h, height = values(q, p)
+        error = abs(h) + abs(height)
+        if error < least:
+            least, best = error, (q, p)
+        elif least < 1e-12:
+            break
+        dq, dp = 1e-7, 1e-7 * p
+        h1, height1 = values(q + dq, p)
+        h2, height2 = values(q, p + dp)
+        a, b, c, d = (h1 - h) / dq, (h2 - h) / dp, (height1 - height) / dq, (height2 - height) / dp
+        det = a * d - b * c
+        if det == 0.0:
+            return None
+        q, p = q - (d * h - b * height) / det, p - (a * height - c * h) / det
+        if not (abs(q - last.q) < _FAR and abs(p - last.p) < _FAR * last.p):
+            return None
+    if least > 1e-12:
+        return None
+    values(*best)
+    return _touched(system, last, *best, flight, times, out)
+
+
+def _touched(system, last, q, p, flight, times, out) -> End | None:
+    if not (abs(q - last.q) < _FAR and abs(p - last.p) < _FAR * last.p):
+        return None
+    point = last._replace(place=(q, p), data=out.copy())
+    return End("touch", p, q, impact=flight, point=point)

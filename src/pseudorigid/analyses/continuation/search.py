@@ -1,0 +1,299 @@
+"""Search for all families: brute force on a grid, branch switching, parents and partners."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from .asymmetric import POINTS, AsymmetricOrbits
+from .curve import Point, at_parameter, correct, solve_at
+from .families import COLLAPSED, End, Event, Family, find_events, follow
+from .grazing import grazing
+from .half_orbit import FIX_R, FIX_RP, TIMES, X_END, XI, landing, scan
+from .symmetric import CELLS, SAME, Orbits, Parameter, divisors, lines, root_between, roots
+
+# Separation below which a collapsed orbit is the shorter orbit traversed several times.
+_SHORTER = 20.0 * COLLAPSED
+# Distances in the parameter's range at which branches are sought beside an event, and distances in
+# q from the parent's point between which they are.
+_BESIDE = 1e-6, 1e-5, 1e-4, 1e-3
+_OFFSETS = np.cumprod(np.append(1e-5, np.full(399, 1.0204)))
+_NEAR_RIM, _NEAR_TIME = 1e-5, 1e-2  # of a grazing orbit from its partner, in p and total time
+_NEAR_EVENT = 1e-3  # largest distance, in p and in q, from a collapsed end to the parent's event
+_ASIDE = 3e-3  # distance from a pitchfork, in section radii, at which its branch is entered
+
+
+class Search:
+    """All families that brute force on a grid of the parameter and branch switching find."""
+
+    def __init__(self, parameter: Parameter, longest: int, cells: int = CELLS):
+        self.parameter, self.longest, self.cells = parameter, longest, cells
+        self.systems = {
+            (period, line): Orbits(line, period, parameter)
+            for period in range(1, longest + 1)
+            for line in lines(period)
+        }
+        self.families: list[Family] = []
+        self.starts: list[tuple[int, int, float, float]] = []  # of each symmetric family
+
+    def resume(self, starts: list[tuple[int, int, float, float]]) -> None:
+        """Follow the families again of which an earlier search kept the starts."""
+        for period, line, q, p in starts:
+            point = self.systems[period, line].point((q, p))
+            if point is None:
+                raise ValueError("the starts are not those of this search")
+            self._append(self._followed(period, line, point), point)
+
+    def crossings(self, family: Family, p: float) -> list[Point]:
+        """Return the points of a family at a parameter."""
+        found = []
+        for old, new in zip(family.points, family.points[1:], strict=False):
+            if (old.p < p) != (new.p < p):
+                point = at_parameter(family.system, old, new, p)
+                if point is not None:
+                    found.append(point)
+        return found
+
+    def holders(self, period: int, line: int, point: Point) -> list[int]:
+        """Return the numbers of the families that hold a solution."""
+        found = []
+        for family in self.families:
+            if (family.period, family.line) == (period, line):
+                for crossing in self.crossings(family, point.p):
+                    places = positions(family.system, crossing)
+                    if min(abs(q - point.q) for q in places) < SAME:
+                        found.append(family.number)
+        return found
+
+    def add(self, period: int, line: int, point: Point) -> bool:
+        """Follow the family of a solution unless a known family holds it; return if it is new."""
+        if self.holders(period, line, point):
+            return False
+        family = self._followed(period, line, point)
+        # Next to its end at a shorter orbit a known family has no points; farther away it has.
+        middle = family.points[len(family.points) // 2]
+        if self.holders(period, line, middle):
+            return False
+        self._append(family, point)
+        return True
+
+    def _followed(self, period: int, line: int, point: Point) -> Family:
+        family = follow(self.systems[period, line], point, grazing)
+        find_events(family, self.longest)
+        return family
+
+    def _append(self, family: Family, start: Point) -> None:
+        family.number = len(self.families)
+        self.families.append(family)
+        self.starts.append((family.period, family.line, start.q, start.p))
+
+    def sweep(self, levels: list[float], first: int = 0) -> Iterator[int]:
+        """Add the families of all solutions on a grid of the parameter, a level at a time.
+
+        Yields the number of levels done. `first` levels are left out.
+        """
+        for done, p in enumerate(levels[first:], first + 1):
+            for period, line, point in roots(self.parameter, p, self.longest, self.cells):
+                self.add(period, line, point)
+            yield done
+
+    def switch(self) -> int:
+        """Add the families that branch off at resonances and doublings; return how many are new."""
+        new, number = 0, 0
+        while number < len(self.families):
+            family = self.families[number]
+            number += 1
+            for event in family.events:
+                short = family.period * event.order <= self.longest
+                if event.kind in ("resonance", "doubling") and short:
+                    new += sum(self.add(*child) for child in self.children(family, event))
+        return new
+
+    def children(self, family: Family, event: Event) -> list[tuple[int, int, Point]]:
+        """Return (period, line, point) of the orbits next to an event, on both sides of it."""
+        found = []
+        period = family.period * event.order
+        width = self.parameter.high - self.parameter.low
+        for p in (event.point.p + sign * part * width for part in _BESIDE for sign in (-1.0, 1.0)):
+            if not self.parameter.low < p < self.parameter.high:
+                continue
+            near = solve_at(family.system, (event.point.q, p), 0.05)
+            if near is None:  # past a fold of the parent
+                near = event.point
+            k, rho = self.parameter.k_and_rho(p)
+            for line, q in symmetric_points(family.system, near):
+                if line not in lines(period):
+                    continue
+                system = self.systems[period, line]
+                for side in (_OFFSETS, -_OFFSETS):
+                    grid = q + side
+                    grid = grid[(grid > -1.0) & (grid < 1.0)]
+                    values = np.empty((grid.size, period + 1))
+                    scan(line, k, rho, grid, period, values)
+                    column = values[:, period]
+                    (cell,) = np.nonzero(column[:-1] * column[1:] <= 0.0)
+                    for i in cell.tolist():
+                        low, high = sorted((grid[i], grid[i + 1]))
+                        point = root_between(system, p, low, high)
+                        if point is not None and system.is_prime(point):
+                            found.append((period, line, point))
+        return found
+
+    def break_symmetry(self) -> None:
+        """Add the families without symmetry that branch off at pitchforks."""
+        for family in list(self.families):
+            if family.line < 0:
+                continue
+            for event in family.events:
+                if event.kind != "pitchfork" or self._starts_known(family, event):
+                    continue
+                system = AsymmetricOrbits(family.period, self.parameter)
+                start = self._aside(system, family, event)
+                if start is None:
+                    continue
+                branch = follow(system, start, grazing)
+                find_events(branch, self.longest)
+                branch.number = len(self.families)
+                self.families.append(branch)
+                for end in branch.ends:
+                    if end.kind == "collapse":
+                        self._pitchfork(branch, end)
+
+    def _starts_known(self, family: Family, event: Event) -> bool:
+        """Return whether a known family without symmetry ends at a pitchfork."""
+        return any(
+            end.kind == "pitchfork" and end.family == family.number and end.p == event.point.p
+            for branch in self.families
+            if branch.line < 0
+            for end in branch.ends
+        )
+
+    def _aside(self, system: AsymmetricOrbits, family: Family, event: Event) -> Point | None:
+        """Return an orbit without symmetry beside a pitchfork, or None."""
+        place = first_point(family.system, event.point)
+        point = system.point((*place, event.point.p))
+        if point is None:
+            return None
+        # Start at the orbit's point that is farthest from the rim, where derivatives are bounded.
+        points = point.data[POINTS : POINTS + 2 * system.period].reshape(-1, 2)
+        place = tuple(points[np.argmin(np.sum(points * points, axis=1))].tolist())
+        point = system.point((*place, event.point.p))
+        if point is None:
+            return None
+        (a, b, _), (c, d, _) = point.gradients
+        across = (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
+        size = math.sqrt(across[0] * across[0] + across[1] * across[1])
+        if not 0.0 < size < math.inf:
+            return None
+        along = (across[0] / size, across[1] / size, 0.0)
+        beside = (place[0] + _ASIDE * along[0], place[1] + _ASIDE * along[1], event.point.p)
+        start = correct(system, beside, along, _ASIDE)
+        if start is None or system.separation(start) < COLLAPSED:
+            return None
+        return start
+
+    def _pitchfork(self, branch: Family, end: End) -> None:
+        """Find the pitchfork of a symmetric family at which a branch without symmetry ends."""
+        best, distance = None, _NEAR_EVENT
+        for parent in self.families:
+            if (parent.period, parent.line < 0) != (branch.period, False):
+                continue
+            for event in parent.events:
+                away = abs(event.point.p - end.p) / (self.parameter.high - self.parameter.low)
+                time = abs(parent.system.time(event.point) - branch.system.time(end.point))
+                if event.kind == "pitchfork" and away + time < distance:
+                    best, distance = (parent, event), away + time
+        if best is not None:
+            parent, event = best
+            end.kind, end.family, end.turns, end.order = "pitchfork", parent.number, 1, 1
+            end.p, end.q = event.point.p, first_point(parent.system, event.point)[0]
+
+    def link(self) -> None:
+        """Name the parents of families that begin at a point of a shorter orbit, and partners."""
+        for family in self.families:
+            for end in family.ends:
+                if end.kind == "collapse":
+                    self._parent(family, end)
+                if end.kind == "collapse":
+                    end.kind = "unresolved"
+        for family in self.families:
+            for end in family.ends:
+                if end.kind == "rim":
+                    self._partner(family, end)
+
+    def _parent(self, family: Family, end: End) -> None:
+        """Find the event of a shorter orbit at which a family ends."""
+        best, distance = None, _NEAR_EVENT
+        if family.line < 0:
+            return
+        separations = dict(
+            zip(
+                divisors(family.period),
+                (float(np.max(np.abs(a))) for a in end.point.apart),
+                strict=True,
+            )
+        )
+        shorter = next(d for d, size in separations.items() if size < _SHORTER)
+        scale = self.parameter.high - self.parameter.low
+        for parent in self.families:
+            if parent.period != shorter or parent.line < 0:
+                continue
+            for event in parent.events:
+                if event.order != family.period // shorter or event.kind == "fold":
+                    continue
+                for line, q in symmetric_points(parent.system, event.point):
+                    away = abs(q - end.q) + abs(event.point.p - end.p) / scale
+                    if line == family.line and away < distance:
+                        best, distance = (parent, event, q), away
+        if best is not None:
+            parent, event, q = best
+            end.kind, end.family = event.kind, parent.number
+            end.turns, end.order = event.turns, event.order
+            end.p, end.q = event.point.p, q
+
+    def _partner(self, family: Family, end: End) -> None:
+        """Find the family whose flight touches the floor where an impact of this one grazes.
+
+        Without its grazing impacts the orbit is one of the other family, traversed once or, where
+        it grazes only in some of its rounds, several times.
+        """
+        for other in self.families:
+            rounds = max(1, family.period // other.period)
+            grazing_impacts = family.period - rounds * other.period
+            if not 1 <= grazing_impacts <= 2 * rounds:
+                continue
+            for touch in other.ends:
+                if touch.kind != "touch":
+                    continue
+                away = abs(touch.p - end.p) / end.p
+                time = family.system.time(end.point) - rounds * other.system.time(touch.point)
+                if away < _NEAR_RIM and abs(time) < _NEAR_TIME:
+                    end.family, end.p = other.number, touch.p
+                    if rounds == 1 and (family.line < 0) == (other.line < 0):
+                        touch.family = family.number
+                    return
+
+
+def positions(system: Orbits, point: Point) -> list[float]:
+    """Return the parameters q of an orbit's points on the line on which its half orbit starts."""
+    if system.period % 2:
+        return [point.q]
+    return [point.q, system.position(point.p, float(point.data[X_END]))]
+
+
+def symmetric_points(system: Orbits, point: Point) -> list[tuple[int, float]]:
+    """Return (line, q) of the two points at which an orbit meets the symmetry lines."""
+    end = FIX_RP if system.period % 2 else system.line
+    return [
+        (system.line, point.q),
+        (end, system.position(point.p, float(point.data[X_END]))),
+    ]
+
+
+def first_point(system: Orbits, point: Point) -> tuple[float, float]:
+    """Return (X, Y), in section radii, of the first impact of a symmetric half orbit."""
+    k, rho = system.parameter.k_and_rho(point.p)
+    if system.line == FIX_R:
+        return (k * float(point.data[XI]) - 1.0) / rho, 0.0
+    x, v, w = landing(float(point.data[XI]), float(point.data[TIMES]))
+    return (k * x - 1.0) / rho, (v - k * w) / (rho * math.sqrt((1.0 + k) / k))

@@ -1,0 +1,243 @@
+"""Families of periodic orbits against the energy or the inertia: a dataset of curves and events."""
+
+import json
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ..dynamics.ball import Ball
+from ..dynamics.fixed_point import rotation
+from ..dynamics.variables import ENERGY, LENGTH, SPEED, TIME, described
+from .continuation.asymmetric import AsymmetricOrbits
+from .continuation.curve import Point
+from .continuation.families import Family
+from .continuation.half_orbit import ENERGY as BY_ENERGY
+from .continuation.half_orbit import FIX_R, INERTIA, TIMES, XI, landing
+from .continuation.search import Search
+from .continuation.symmetric import CELLS, Parameter
+
+_LINES = {0: "Fix R", 1: "Fix RP", -1: "none"}
+_EVENT = "fold, doubling, pitchfork, or resonance of that order"
+_END = "range, fold, resonance, doubling, pitchfork, touch, rim or closed"
+_CHECKPOINT = 20  # levels between two checkpoints
+
+
+def families(
+    ball: Ball,
+    energy: float,
+    parameter: str,
+    span: list[float],
+    period: int,
+    levels: int,
+    *,
+    progress: Callable[[float, str], None] | None = None,
+    folder: str | os.PathLike | None = None,
+) -> xr.Dataset:
+    """Find all families of symmetric periodic orbits, and follow them against E or k.
+
+    Brute force on the symmetry lines at `levels` values of the parameter finds orbits, and
+    pseudo-arclength continuation follows the families of those that no family holds yet.
+    Families that branch off at resonances p/q, doublings and pitchforks are added, at pitchforks
+    those without symmetry. Each is followed through folds to both its ends.
+
+    Parameters
+    ----------
+    ball : Ball
+    energy : float
+        Against k, E/g^2 is that of this energy.
+    parameter : {"energy", "k"}
+        What orbits are followed against.
+    span : (float, float)
+        Its least and largest value.
+    period : int
+        Largest period, 1 to 24.
+    levels : int
+        Number of values of the parameter at which brute force seeks orbits.
+    progress : callable, optional
+        Called with the share of levels done and a text.
+    folder : path, optional
+        Keeps the search while it lasts, so that a killed one continues.
+
+    Returns
+    -------
+    xarray.Dataset
+        long_name describes each variable. On `family`: period, line, row_size, and, of both ends on
+        (family, end), what ends it and where. On `point`: the curves, one after the other (CF). On
+        `event`: what happens along them. Attributes: parameter, levels, cells, the cells of a
+        symmetry line; unresolved, the number of ends without a name.
+
+    References
+    ----------
+    E. L. Allgower and K. Georg, Introduction to Numerical Continuation Methods (SIAM, 2003).
+    R. S. MacKay, Renormalisation in Area-Preserving Maps (World Scientific, 1993): bifurcations of
+    symmetric orbits.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
+    >>> data = families(Ball(k=0.2, g=0.04), 0.01, "energy", [0.005, 0.012], 6, 4)
+    >>> data["period"].values.tolist()
+    [1, 6, 6, 6]
+    """
+    unit = ball.g * ball.g
+    if parameter == "energy":
+        low, high = (math.sqrt(1.0 + 2.0 * ball.k * (value / unit)) for value in span)
+        along = Parameter(BY_ENERGY, ball.k, low, high)
+    else:
+        along = Parameter(INERTIA, energy / unit, *span)
+        low, high = span
+    search = Search(along, period)
+    grid = [low + (high - low) * ((i + 0.5) / levels) for i in range(levels)]
+    checkpoint = None if folder is None else Path(folder, "families.json")
+    key = [parameter, ball.k, energy / unit, *span, period, levels]
+    first = _resume(search, checkpoint, key)
+    for done in search.sweep(grid, first):
+        if progress is not None:
+            progress(done / levels, f"{len(search.families)} families")
+        if checkpoint is not None and done % _CHECKPOINT == 0:
+            _keep(search, checkpoint, key, done)
+    search.switch()
+    search.break_symmetry()
+    search.link()
+    if checkpoint is not None:
+        checkpoint.unlink(missing_ok=True)
+        if checkpoint.parent.is_dir():
+            checkpoint.parent.rmdir()
+    data = xr.Dataset(_Table(ball, along, search.families).variables())
+    unresolved = sum(end.kind == "unresolved" for f in search.families for end in f.ends)
+    data.attrs |= {"parameter": parameter, "period": period, "levels": levels, "cells": CELLS}
+    data.attrs |= {"low": float(span[0]), "high": float(span[1]), "unresolved": unresolved}
+    return data
+
+
+def _resume(search: Search, checkpoint: Path | None, key: list) -> int:
+    """Continue from a checkpoint of the same search; return the number of levels done."""
+    if checkpoint is None or not checkpoint.is_file():
+        return 0
+    kept = json.loads(checkpoint.read_text(encoding="utf-8"))
+    if kept["key"] != key:
+        return 0
+    starts = [(n, line, float.fromhex(q), float.fromhex(p)) for n, line, q, p in kept["starts"]]
+    search.resume(starts)
+    return kept["done"]
+
+
+def _keep(search: Search, checkpoint: Path, key: list, done: int) -> None:
+    """Write a checkpoint; the file appears whole."""
+    starts = [(n, line, float(q).hex(), float(p).hex()) for n, line, q, p in search.starts]
+    checkpoint.parent.mkdir(parents=True, exist_ok=True)
+    part = checkpoint.with_suffix(".new")
+    part.write_text(json.dumps({"key": key, "done": done, "starts": starts}), encoding="utf-8")
+    part.replace(checkpoint)
+
+
+class _Table:
+    """Variables of the dataset of some families, in the paper's units."""
+
+    def __init__(self, ball: Ball, along: Parameter, families: list[Family]):
+        self.ball, self.along = ball, along
+        self.families = families
+
+    def variables(self) -> dict:
+        """Return Dataset variables."""
+        g = self.ball.g
+        families = self.families
+        points = [(family, point) for family in families for point in family.points]
+        events = [(family, event) for family in families for event in family.events]
+        ends = [[(family, end) for end in family.ends] for family in families]
+        traces = np.array([family.system.trace(point) for family, point in points])
+        states = np.array([self._first(*pair) for pair in points]).reshape(-1, 2)
+        marks = np.array([self._first(f, event.point) for f, event in events]).reshape(-1, 2)
+        table = {
+            "period": ("family", [f.period for f in families], "number of impacts"),
+            "line": (
+                "family",
+                [_LINES[f.line] for f in families],
+                "symmetry line of the points, none for orbits without symmetry",
+            ),
+            "row_size": ("family", [len(f.points) for f in families], "points of each family"),
+            "energy": ("point", self._energies(points), "energy", ENERGY),
+            "k": ("point", self._inertias(points), "Euler inertia, eq. (5)"),
+            "x": ("point", states[:, 0] * g, "position of the orbit's first impact", LENGTH),
+            "y": ("point", states[:, 1] * g, "xdot - k udot just before it", SPEED),
+            "place": ("point", [z.q for _, z in points], "position q on the symmetry line"),
+            "total_time": ("point", [f.system.time(z) for f, z in points], "total time", TIME),
+            "trace": ("point", traces, "trace of the Jacobian of P^n on the energy surface"),
+            "rotation_number": (
+                "point",
+                [rotation(trace) for trace in traces.tolist()],
+                "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
+            ),
+            "type": ("point", _types(traces), "type of stability"),
+            "event_family": ("event", [f.number for f, _ in events], "family of the event"),
+            "event_kind": ("event", [event.kind for _, event in events], _EVENT),
+            "event_turns": ("event", [e.turns for _, e in events], "p of a resonance p/q, else 1"),
+            "event_order": (
+                "event",
+                [event.order for _, event in events],
+                "period of the branches over that of the family",
+            ),
+            "event_energy": ("event", self._energies([(f, e.point) for f, e in events]), "energy",
+                             ENERGY),
+            "event_k": ("event", self._inertias([(f, e.point) for f, e in events]),
+                        "Euler inertia, eq. (5)"),
+            "event_x": ("event", marks[:, 0] * g, "position of the orbit's first impact", LENGTH),
+            "event_y": ("event", marks[:, 1] * g, "xdot - k udot just before it", SPEED),
+            "event_point": ("event", [e.at for _, e in events], "place on the family's curve, an "
+                            "index of its points"),
+            "event_time": ("event", [f.system.time(e.point) for f, e in events], "total time",
+                           TIME),
+            "end_kind": (("family", "side"), [[e.kind for _, e in pair] for pair in ends], _END),
+            "end_energy": (("family", "side"), [[self._energy(e.p) for _, e in pair]
+                                                for pair in ends], "energy", ENERGY),
+            "end_k": (("family", "side"), [[self._inertia(e.p) for _, e in pair]
+                                           for pair in ends], "Euler inertia, eq. (5)"),
+            "end_family": (("family", "side"), [[e.family for _, e in pair] for pair in ends],
+                           "the parent, or the family on the other side of a grazing; -1 if none"),
+            "end_turns": (("family", "side"), [[e.turns for _, e in pair] for pair in ends],
+                          "p of the parent's rotation number p/q there"),
+            "end_order": (("family", "side"), [[e.order for _, e in pair] for pair in ends],
+                          "q of the parent's rotation number p/q there, 2 at a doubling"),
+            "end_impact": (("family", "side"), [[e.impact for _, e in pair] for pair in ends],
+                           "flight of the half orbit that touches the floor; -1 if none"),
+        }  # fmt: skip
+        data = described(table)
+        data["row_size"][2]["sample_dimension"] = "point"
+        return data
+
+    def _energy(self, p: float) -> float:
+        return self.along.energy(p) * (self.ball.g * self.ball.g)
+
+    def _inertia(self, p: float) -> float:
+        return self.along.k_and_rho(p)[0]
+
+    def _energies(self, points: list[tuple[Family, Point]]) -> list[float]:
+        return [self._energy(point.p) for _, point in points]
+
+    def _inertias(self, points: list[tuple[Family, Point]]) -> list[float]:
+        return [self._inertia(point.p) for _, point in points]
+
+    def _first(self, family: Family, point: Point) -> tuple[float, float]:
+        """Return x and y of the orbit's first impact, in units where g = 1.
+
+        On Fix RP it is the impact before the symmetric flight.
+        """
+        k, rho = self.along.k_and_rho(point.p)
+        if isinstance(family.system, AsymmetricOrbits):
+            x, y, _ = point.place
+            return (1.0 + rho * x) / k, rho * math.sqrt((1.0 + k) / k) * y
+        if family.line == FIX_R:
+            return float(point.data[XI]), 0.0
+        x, v, w = landing(float(point.data[XI]), float(point.data[TIMES]))
+        return x, -(v - k * w)
+
+
+def _types(traces: np.ndarray) -> list[str]:
+    """Return the types of stability of traces."""
+    words = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
+    words[np.abs(traces) < 2.0] = "elliptic"
+    return words.tolist()
