@@ -60,11 +60,16 @@ def _stages() -> dict[str, File]:
     files = {}
     for name, stage in STAGES.items():
         fields = SMALL[name]
-        inputs = [_computed(used, {"period": fields["period"]}) for used in stage.inputs]
+        inputs = [_computed(used, _fields_of(used, fields)) for used in stage.inputs]
         title = artifacts.title_of(_function(name))
         data = _computed(name, fields, *inputs)
         files[name] = _saved(f"results/VARIANT/{name}_SCENE.nc", data, stage=name, title=title)
     return files
+
+
+def _fields_of(stage: str, fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of an input: those of the stage that takes it, or those of its own run."""
+    return {name: fields.get(name, SMALL[stage].get(name)) for name in STAGES[stage].fields}
 
 
 def _function(stage: str) -> Any:

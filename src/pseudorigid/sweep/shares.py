@@ -1,38 +1,118 @@
-"""The regular share of the section along a line of energies or of inertias."""
+"""The regular share along a line of E or k, its chains of islands, and causes of its extrema.
 
+A regular orbit belongs to the chain of an elliptic orbit of period n if its points under P^n go
+around exactly one of the n points. Of several such orbits the one with the longest period counts,
+since chains lie inside others. Orbits that go around the fixed point alone belong to the main
+island or to a chain around it whose period is longer than those of the families.
+"""
+
+import math
 from fractions import Fraction
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
+from ..dynamics.tangent_orbits import angle
 from ..dynamics.variables import ENERGY, described
-from .cell import cells
+from ..kernel.compiled import jit
+from .cell import sunflower_points, wilson
+from .verdict import classify_orbits
 
-_NAMES = {
-    "regular": "share of the section's area with regular orbits",
-    "regular_low": "lower end of its 95 % interval, starts and threshold together",
-    "regular_high": "upper end of its 95 % interval, starts and threshold together",
-}
+ROUNDS = 200  # points under P^n by which an orbit is seen to go around a point
+_WIDEST = 2.8  # radians: the largest angle without a point, as seen from a point inside
+_NEWTON_STEPS = 12
+_CLOSED = 1e-9  # |P^n z - z|, in section radii, of a point that Newton's method has found
+_HALF = 0.5  # share of a change for which a chain must account
+
+
+@jit
+def _goes_around(x, y, at_x, at_y):
+    """Return whether the points (n,) are seen from (at_x, at_y) in all directions."""
+    angles = np.empty(x.size)
+    for i in range(x.size):
+        angles[i] = angle(x[i] - at_x, y[i] - at_y)
+    angles.sort()
+    widest = angles[0] + 2.0 * math.pi - angles[-1]
+    for i in range(1, x.size):
+        widest = max(widest, angles[i] - angles[i - 1])
+    return widest < _WIDEST
+
+
+def elliptic_orbits(
+    ball: Ball, families: xr.Dataset, parameter: str, energy: float
+) -> list[tuple[int, Any]]:
+    """Return (family, points (2, period) in (x, y)) of a ball's elliptic orbits at an energy."""
+    ends = np.cumsum(families["row_size"].values)
+    levels, types = families[parameter].values, families["type"].values
+    wanted = energy if parameter == "energy" else ball.k
+    found = []
+    for number, (last, size) in enumerate(zip(ends, families["row_size"].values, strict=True)):
+        period = int(families["period"].values[number])
+        for i in range(last - size, last - 1):
+            a, b = levels[i], levels[i + 1]
+            if (a < wanted) == (b < wanted) or "elliptic" not in (types[i], types[i + 1]):
+                continue
+            part = (wanted - a) / (b - a)
+            x, y = (
+                float(families[name].values[i] * (1.0 - part) + families[name].values[i + 1] * part)
+                for name in "xy"
+            )
+            orbit = _closed(ball, energy, x, y, period)
+            if orbit is not None:
+                found.append((number, orbit))
+                if families["line"].values[number] == "none":  # the mirror image is another orbit
+                    found.append((number, orbit * np.array([[1.0], [-1.0]])))
+    return found
+
+
+def _closed(ball: Ball, energy: float, x: float, y: float, period: int) -> Any:
+    """Return the points (2, period) of the elliptic orbit next to (x, y), or None."""
+    _, radius = ball.section(energy)
+    for _ in range(_NEWTON_STEPS):
+        try:
+            state = ball.state_xy(x, y, energy)
+        except ValueError:  # off the section
+            return None
+        states = [state]
+        for _ in range(period):
+            states.append(ball.impact(*states[-1])[:3])
+        points = np.array([(s[0], s[1] - ball.k * s[2]) for s in states]).T
+        (a, b), (c, d) = ball.chart_jacobian(*state, impacts=period)
+        gap_x, gap_y = points[:, -1] - points[:, 0]
+        if abs(gap_x) + abs(gap_y) < _CLOSED * radius:
+            return points[:, :-1] if abs(a + d) < 2.0 else None
+        det = (a - 1.0) * (d - 1.0) - b * c
+        if det == 0.0:
+            return None
+        x += (b * gap_y - (d - 1.0) * gap_x) / det
+        y += (c * gap_x - (a - 1.0) * gap_y) / det
+    return None
 
 
 def shares(
     ball: Ball,
     energy: float,
+    families: xr.Dataset,
     parameter: str,
     span: list[float],
     step: float,
     starts: int,
     impacts: int,
 ) -> xr.Dataset:
-    """Compute the regular share of the section at multiples of a step in E or k.
+    """Compute the regular share along E or k, the chains in it, and causes of its extrema.
 
-    A value has the bits of the sweep's cell with the same k, E/g^2, starts and impacts.
+    A regular share has the bits of the sweep's cell with the same k, E/g^2, starts and impacts.
 
     Parameters
     ----------
     ball : Ball
     energy : float
         Along k, E/g^2 is that of this energy.
+    families : xarray.Dataset
+        From `analyses.families.families`, against the same parameter.
     parameter : {"energy", "k"}
     span : (float, float)
         Least and largest value of the parameter.
@@ -44,29 +124,179 @@ def shares(
     Returns
     -------
     xarray.Dataset
-        energy, k, regular, regular_low and regular_high on `value`.
+        On `value`: energy, k, regular, regular_low and regular_high, and outside, the share that
+        goes around no elliptic orbit of the families; share on (value, family). On `extremum`: the
+        minima and maxima of the share, and on (extremum, side) which chain changes most from there
+        to the nearest value that differs, and its nearest event; see `causes`.
 
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> data = shares(Ball(k=0.2, g=0.04), 0.01, "energy", [0.01, 0.02], 0.005, 10, 1000)
-    >>> data["energy"].values.tolist()
-    [0.01, 0.015, 0.02]
+    >>> from pseudorigid.analyses.families import families
+    >>> ball, span = Ball(k=0.2, g=0.04), [0.01, 0.012]
+    >>> held = families(ball, 0.01, "energy", span, 6, 2)
+    >>> shares(ball, 0.01, held, "energy", span, 0.001, 10, 1000)["energy"].values.tolist()
+    [0.01, 0.011, 0.012]
     """
-    unit, low, high = (Fraction(str(value)) for value in (step, *span))
     square = Fraction(str(ball.g)) ** 2
-    values = [unit * i for i in range(-int(-low // unit), int(high // unit) + 1)]
-    if parameter == "energy":
-        scaled = [float(value / square) for value in values]
-        rows = cells(ball.k, scaled, starts, impacts)
-        energies, inertias = [float(value) for value in values], [ball.k] * len(values)
-    else:
-        scaled = float(Fraction(str(energy)) / square)
-        rows = [cells(float(k), [scaled], starts, impacts)[0] for k in values]
-        energies, inertias = [float(energy)] * len(values), [float(value) for value in values]
-    table = {
-        "energy": ("value", energies, "energy", ENERGY),
-        "k": ("value", inertias, "Euler inertia, eq. (5)"),
+    unit, low, high = (Fraction(str(value)) for value in (step, *span))
+    rows, counts = [], []
+    for i in range(-int(-low // unit), int(high // unit) + 1):
+        value = unit * i
+        level = value if parameter == "energy" else Fraction(str(energy))
+        this = ball if parameter == "energy" else Ball(float(value), ball.g)
+        e = float(level / square)
+        states = sunflower_points(this.k, e, starts)
+        place, _, turn = fixed_point.numbers(this.k, e)
+        centre, expected = np.full(starts, place), np.full(starts, turn)
+        verdicts = classify_orbits(this.k, states, centre, expected, impacts)
+        regular = [a[verdicts.regular] for a in states]
+        owners = _owners(this, float(level), families, parameter, regular)
+        counts.append(np.bincount(owners[owners >= 0], minlength=families.sizes["family"]))
+        bounds = (
+            wilson(int(verdicts.strict.sum()), starts)[0],
+            wilson(int(verdicts.lenient.sum()), starts)[1],
+        )
+        shares_here = verdicts.regular.sum() / starts, *bounds, np.sum(owners < 0) / starts
+        rows.append((float(level), this.k, *shares_here))
+    columns = np.array(rows).T
+    share = np.array(counts) / starts
+    names = {
+        "energy": ("energy", ENERGY),
+        "k": ("Euler inertia, eq. (5)",),
+        "regular": ("share of the section's area with regular orbits",),
+        "regular_low": ("lower end of its 95 % interval, starts and threshold together",),
+        "regular_high": ("upper end of its 95 % interval, starts and threshold together",),
+        "outside": ("share of regular orbits that go around no orbit of the families",),
     }
-    table |= {name: ("value", [row[name] for row in rows], text) for name, text in _NAMES.items()}
+    table = {
+        name: ("value", column, *text)
+        for (name, text), column in zip(names.items(), columns, strict=True)
+    }
+    table["share"] = ("value", "family"), share, "share in the chain of a family"
+    values = columns[0] if parameter == "energy" else columns[1]
+    table |= causes(families, parameter, values, columns[2:5], share, step)
     return xr.Dataset(described(table), attrs={"starts": starts, "impacts": impacts})
+
+
+def _owners(
+    ball: Ball, level: float, families: xr.Dataset, parameter: str, states: list
+) -> np.ndarray:
+    """Return the family of each regular orbit, -1 if it goes around no elliptic orbit."""
+    count = states[0].size
+    owners, longest = np.full(count, -1), np.zeros(count, np.int64)
+    orbits = elliptic_orbits(ball, families, parameter, level)
+    most = max((points.shape[1] for _, points in orbits), default=1)
+    out = np.empty((count, ROUNDS * most, 4))
+    # the sweep's unit of length is g R
+    columns = [np.ascontiguousarray(a) * ball.g for a in states]
+    ball.map.history(*columns, ball.k, ball.g, out)
+    x, y = out[:, :, 0], out[:, :, 1] - ball.k * out[:, :, 2]
+    for number, points in orbits:
+        period = points.shape[1]
+        for i in np.flatnonzero(longest < period).tolist():
+            path = slice(0, ROUNDS * period, period)
+            across, up = x[i, path].copy(), y[i, path].copy()
+            inside = 0
+            for at_x, at_y in points.T.tolist():
+                inside += _goes_around(across, up, at_x, at_y)
+                if inside > 1:
+                    break
+            if inside == 1:
+                owners[i], longest[i] = number, period
+    return owners
+
+
+def extrema(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[int, int, int]]:
+    """Return (index, left, right) of the minima and maxima of a curve with intervals.
+
+    At `left` and `right`, the nearest such values on both sides, the interval is disjoint from that
+    at the extremum, and the curve has not passed the extremum's value before. Of equal values the
+    first one counts.
+    """
+    found = []
+    for sign in (1.0, -1.0):
+        value = sign * share
+        below, above = (low, high) if sign > 0.0 else (-high, -low)
+        for i in range(share.size):
+            sides = []
+            for order in (range(i - 1, -1, -1), range(i + 1, share.size)):
+                for j in order:
+                    if value[j] < value[i] or (value[j] == value[i] and j < i):
+                        break
+                    if below[j] > above[i]:
+                        sides.append(j)
+                        break
+            if len(sides) == 2:
+                found.append((i, *sides))
+    return sorted(found)
+
+
+def causes(families, parameter, values, regular, share, step) -> dict:
+    """Return variables on `extremum` and (extremum, side) from the shares (value, family).
+
+    `regular` holds the regular share and the ends of its interval. On each side the chain counts
+    whose share changes most, in the direction of the regular share, from the extremum to the
+    nearest value that differs by more than the intervals. Its nearest event is the cause of the
+    extremum only if the chain accounts for at least half of the change and the event lies within
+    one step of the extremum.
+    """
+    rows, sides_of = [], []
+    for i, *sides in extrema(*regular):
+        cause: tuple = (0.0, -1, "unexplained", math.nan)
+        found = []
+        for j in sides:
+            parts = (share[j] - share[i]) / (regular[0][j] - regular[0][i])
+            number = int(np.argmax(parts))
+            part = float(parts[number])
+            events = _events_of(families, parameter, number)
+            event, at = min(
+                events, key=lambda item: abs(item[1] - values[i]), default=("", math.nan)
+            )
+            found.append((values[j], number, part, event, at))
+            if part >= _HALF and abs(at - values[i]) <= step * (1.0 + 1e-9):
+                cause = max(cause, (part, number, event, at), key=lambda row: row[0])
+        kind = "minimum" if regular[0][sides[0]] > regular[0][i] else "maximum"
+        rows.append((values[i], kind, *cause[1:]))
+        sides_of.append(found)
+    names = {
+        "extremum_at": "energy, or k, of an extremum of the regular share",
+        "extremum_kind": "minimum or maximum",
+        "cause_family": "family whose event is the cause, -1 if the extremum is unexplained",
+        "cause_event": "that event, or unexplained",
+        "cause_at": "energy, or k, of that event",
+    }
+    columns = list(zip(*rows, strict=True)) if rows else [()] * len(names)
+    table: dict = {
+        name: ("extremum", list(column), text)
+        for (name, text), column in zip(names.items(), columns, strict=True)
+    }
+    names = {
+        "side_at": "nearest value on that side at which the regular share differs",
+        "side_family": "family whose chain changes most from the extremum to there",
+        "side_part": "its change over the change of the regular share",
+        "side_event": "event or end of that family nearest to the extremum",
+        "side_event_at": "energy, or k, of that event",
+    }
+    for index, (name, text) in enumerate(names.items()):
+        table[name] = ("extremum", "side"), [[r[index] for r in pair] for pair in sides_of], text
+        if not sides_of:
+            table[name] = ("extremum", "side"), np.empty((0, 2)), text
+    return table
+
+
+def _events_of(families: xr.Dataset, parameter: str, number: int) -> list[tuple[str, float]]:
+    """Return the events and ends of a family with their energies."""
+    chosen = np.flatnonzero(families["event_family"].values == number)
+    found = []
+    for i in chosen.tolist():
+        kind = str(families["event_kind"].values[i])
+        if kind == "resonance":
+            turns, order = (int(families[f"event_{n}"].values[i]) for n in ("turns", "order"))
+            kind = f"resonance {turns}/{order}"
+        found.append((kind, float(families[f"event_{parameter}"].values[i])))
+    for side in (0, 1):
+        kind = str(families["end_kind"].values[number, side])
+        if kind != "range":
+            found.append((f"end: {kind}", float(families[f"end_{parameter}"].values[number, side])))
+    return found

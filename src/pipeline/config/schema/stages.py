@@ -59,6 +59,7 @@ STAGES = {
         "pseudorigid.sweep.shares",
         "shares",
         ("parameter", "span", "step", "starts", "impacts"),
+        ("families",),
         follows=False,
     ),
     "horseshoe": Stage(

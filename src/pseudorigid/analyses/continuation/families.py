@@ -15,6 +15,7 @@ from .symmetric import Orbits
 COLLAPSED = 3e-4
 # Largest |trace - 2| there. Where an impact grazes, rounds of an orbit come near each other too.
 _RESTS = 0.1
+_STRONG = 4  # largest order of the resonances at which islands vanish
 # Products B C below this are rounding: their signs are no events.
 _NOISE = 1e-8
 
@@ -91,7 +92,8 @@ def follow(system: Orbits | AsymmetricOrbits, start: Point, grazing: Callable[..
 def find_events(family: Family, longest: int) -> None:
     """Find folds, pitchforks, doublings and resonances of a family, and put them on its curve.
 
-    Resonances are those whose children have periods up to `longest`.
+    Resonances are those whose children have periods up to `longest`, and those of orders 3 and 4,
+    at which islands vanish.
     """
     system = family.system
     points: list[Point] = [family.points[0]]
@@ -118,7 +120,7 @@ def find_events(family: Family, longest: int) -> None:
     family.events = [
         Event(kind, 1, 2 if kind == "doubling" else 1, points[i], float(i)) for i, kind in marks
     ]
-    for turns, order in fractions(longest // family.period):
+    for turns, order in fractions(max(_STRONG, longest // family.period)):
         wanted = 2.0 * sincos(2.0 * math.pi * turns / order)[1]
 
         def above(point: Point, wanted: float = wanted) -> float:

@@ -9,7 +9,7 @@ from ..axes.panel import Window, key
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
-_LEFT, _RIGHT = 125, 1020  # pixels
+_LEFT, _RIGHT = 125, 1000  # pixels
 _SIZE = 6.0  # points: names of resonances
 _NAME = 50  # pixels: room for the name of a resonance
 # Colours by period; a longer period has that of the period less a multiple of their number.
@@ -114,6 +114,7 @@ def _events(panel, scene, families, shown):
     for kind, marker in _MARKS.items():
         at = chosen & (kinds == kind)
         if kind == "resonance":  # of longer chains there are too many
+            at &= families["event_order"].values * families["period"].values[number] <= 12
             at &= families["event_order"].values <= 6
         panel.dots(across[at], up[at], style.BLACK, 2.6, hollow=True, marker=marker)
     spans = _spans(families)
