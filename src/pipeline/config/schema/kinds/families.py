@@ -14,17 +14,6 @@ class Families(Scene):
 
     stages = ("families", "shares")
     headline = "families"
-    example = """
-    ball: {k: 0.3333333333333333, g: 0.04}
-    energy: 0.01
-    span: [-0.002, 0.02]
-    period: 6
-    levels: 20
-    drawn: 6
-    step: 0.002
-    starts: 50
-    impacts: 1000
-    """
 
     parameter: Literal["energy", "k"] = allowed("energy or k", default="energy")
     """What orbits are followed against: the energy of the ball, or its inertia k at the scene's
