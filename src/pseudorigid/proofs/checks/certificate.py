@@ -77,6 +77,17 @@ class Certificate:
             raise NotProvedError(f"the certificate's {name} has no rows")
         return [self._row(name, row, width) for row in rows]
 
+    def whole(self, name: str) -> int:
+        """Return a whole number."""
+        return self._take(name, int)
+
+    def whole_numbers(self, name: str) -> list[int]:
+        """Return a list of whole numbers, which may be empty."""
+        numbers = self._take(name, list)
+        if not all(type(a) is int for a in numbers):
+            raise NotProvedError(f"the certificate's {name} is no list of whole numbers")
+        return numbers
+
     def row(self, name: str, width: int) -> list[Fraction]:
         """Return one row of `width` numbers."""
         return self._row(name, self._take(name, list), width)

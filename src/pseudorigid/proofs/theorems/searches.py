@@ -2,9 +2,10 @@
 
 from fractions import Fraction
 
-from ..checks import horseshoe, jump, periodic, twist
+from ..checks import curve, horseshoe, jump, periodic, twist
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
+from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
 from ..search import periodic as orbit_search
@@ -13,6 +14,9 @@ from ..search import twist as twist_search
 _PLANS = {
     "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
     "horseshoe-inner": horseshoe_search.Plan(side=-1, steps=177, size=1e-10, room=1.12),
+}
+_CURVES = {  # the partial quotients, and the strips
+    "curve-fixed-point": ((5, 1, 3), curve_search.Strips("0.025", "0.004", 256, 6, 6, 380)),
 }
 _ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
 _SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
@@ -44,6 +48,12 @@ def _horseshoe(theorem) -> str:
     return horseshoe_search.propose(*near, _PLANS[theorem.name], theorem.prove)
 
 
+def _curve(theorem) -> str:
+    surface, points = _near(theorem, "elliptic")
+    bounds = {name: str(float(theorem.bounds[name])) for name in ("radius", "share", "error")}
+    return curve_search.propose(surface, points, *_CURVES[theorem.name], **bounds)
+
+
 def _jump(theorem) -> str:
     return jump_search.propose(theorem.bounds["surface"], _SPEED, _JUMP_RADIUS)
 
@@ -54,6 +64,7 @@ SEARCHES = {
     twist.check: _twist,
     twist.check_zero: _zero,
     horseshoe.check: _horseshoe,
+    curve.check: _curve,
     jump.check: _jump,
     jump.check_smooth: lambda it: jump_search.propose_smooth(it.bounds["k"], it.bounds["g"]),
 }

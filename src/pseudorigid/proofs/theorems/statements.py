@@ -13,7 +13,7 @@ from importlib import resources
 import pseudorigid
 
 from ...dynamics import paper
-from ..checks import horseshoe, jump, periodic, twist
+from ..checks import curve, horseshoe, jump, periodic, twist
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
@@ -183,6 +183,29 @@ def _horseshoe(side: str, low: str, high: str, entropy: str) -> Theorem:
     return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
 
 
+def _curve(name: str, orbit: dict, rotation: tuple[str, str], share: str) -> Theorem:
+    """State that an invariant curve encloses a share of the section."""
+    period = orbit["period"]
+    power, point, discs = ("P", "the elliptic fixed point", "the disc inside")
+    if period > 1:
+        power, point = f"P^{period}", f"a point of the elliptic orbit of period {period}"
+        discs = f"the disc inside and its {period - 1} images, which are disjoint"
+    low, high = rotation
+    statement = (
+        f"at E = {orbit['surface'].energy} there is an analytic curve, invariant under {power}, "
+        f"around {point} with a point in {_region(orbit['window'])}; on it {power} is conjugate to "
+        f"a rotation by omega clockwise, {low} < omega < {high}; it encloses more than {share} of "
+        f"the section, and no orbit ever enters or leaves {discs}"
+    )
+    bounds = {bound: value for bound, value in orbit.items() if bound != "type"}
+    bounds |= {
+        "rotation": (Fraction(low), Fraction(high)),
+        "share": Fraction(share),
+        "error": Fraction("1e-36"),
+    }
+    return Theorem(name, statement, curve.check, bounds)
+
+
 _ORBITS = {
     name: dict(surface=surface, period=period, type=kind, radius=Fraction(radius), window=window)
     for name, surface, period, kind, radius, window in (
@@ -221,6 +244,7 @@ _THEOREMS = (
     _invariant_curves("twist-six", _ORBITS["six-elliptic"]),
     _invariant_curves("twist-ten", _ORBITS["ten-elliptic"]),
     _invariant_curves("twist-twelve", _ORBITS["twelve-elliptic"]),
+    _curve("curve-fixed-point", _ORBITS["fixed-point"], ("0.1729", "0.173"), "0.117"),
     Theorem(
         "twist-zero",
         "as E rises through the band below, the fixed point's twist changes from positive to "

@@ -1,0 +1,509 @@
+"""Invariant curves of visible size around elliptic orbits, by an a-posteriori KAM theorem.
+
+docs/proofs.md ("Invariant curves of visible size") has the theorem with its proof, in the names
+used here. For an orbit of period n the curves K_0 ... K_(n-1) around its points are one curve over
+T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import acb, arb, ctx
+
+from ..enclosure import complex_impact
+from ..enclosure.flight import UndecidedError
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Surface, ball_of
+from . import periodic
+from .certificate import Certificate, Finding, NotProvedError, lowest
+from .circle import (
+    Cells,
+    derivative,
+    evaluate,
+    noble,
+    real_values,
+    rotated,
+    transform,
+    values,
+)
+from .periodic import Window
+
+BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
+CELL_BITS = 80
+NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
+MOST_CELLS, MOST_MODES = 4096, 4096
+_FINER = 8  # cells of the circle over which the twist's mean is taken, for each column
+_SHRUNK = Fraction(1, 1000)  # relative distance of the polygon from the curve
+_DEPTH = 14  # of the subdivision of the disc inside
+_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
+_COLUMNS_OF_PIECE = 8  # of the first pieces of the disc, around the curve
+
+Curve = tuple[list[acb], list[acb]]  # Fourier coefficients of x and of y
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Bounds for every curve near K, and on the map near it; max norms.
+
+    `tangent`, `normal` and `twist` are of |L|, |N| and |T|, `torsion` is a lower bound of |<T>|,
+    `first` and `second` are of |DP| and |D^2 P|. `image` is of |P(K)| and |K| on the wide strip.
+    """
+
+    tangent: arb
+    normal: arb
+    twist: arb
+    torsion: arb
+    first: arb
+    second: arb
+    image: arb
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Numbers of a certificate: the strips, the cells and rows, and what each step loses."""
+
+    strip: arb
+    wide: arb
+    loss: arb
+    height: arb  # of a cell
+    columns: int
+    rows: int
+    all_rows: int
+
+
+def check(
+    text: str,
+    surface: Surface,
+    *,
+    period: int,
+    radius: Fraction,
+    window: Window | None,
+    rotation: tuple[Fraction, Fraction] | None,
+    share: Fraction,
+    error: Fraction,
+) -> Finding:
+    """Prove a certificate's invariant curve around the first point of an elliptic orbit.
+
+    The orbit's bounds are those of `periodic.prove_stated`. The rotation number, in clockwise turns
+    of P^n, must lie between the two given, the disc inside the curve have more than a share of the
+    section, and the error of the certificate's curve be no larger than the given one. The parts are
+    orbit, polygons (of points (x, y), inside the curve around each of the orbit's points), curve
+    (Fourier coefficients of x and y), omega and area.
+    """
+    with ctx.workprec(periodic.BITS):
+        certificate = Certificate(text, "invariant curve", surface)
+        orbit = periodic.prove_stated(
+            certificate, surface, period=period, type="elliptic", radius=radius, window=window
+        )
+    with ctx.workprec(BITS):
+        centres = [[ball_of(a) for a in row] for row in certificate.numbers("points", 2)]
+        omega, gamma = noble(*_quotients(certificate))
+        if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
+            raise NotProvedError("the rotation number is not in the statement's interval")
+        stated_error, stated_share = certificate.number("error"), certificate.number("share")
+        if not 0 < stated_error <= error:
+            raise NotProvedError(f"the error is not stated to be below {float(error):g}")
+        if not stated_share >= share:
+            raise NotProvedError(f"the share is stated as {float(stated_share):g}, less than "
+                                 f"{float(share):g}")  # fmt: skip
+        plan = _plan(certificate)
+        first = _first_curve(certificate)
+        try:
+            most = _highest(plan, len(first[0]))
+            count = 1 << (2 * most + 2).bit_length()
+            curves, errors = _curves(surface, first, period, omega, count)
+            with ctx.workprec(CELL_BITS):
+                bounds = _bounds(surface, curves, centres, omega, plan)
+            size = _size_of_error(errors, most, count, bounds.image, plan)
+        except (UndecidedError, ZeroDivisionError) as reason:
+            raise NotProvedError(f"the strip around the curve: {reason}") from None
+        if not size < ball_of(stated_error):
+            raise NotProvedError(
+                f"the curve's error is not proved to be below {float(stated_error):g}: "
+                f"its bound is {float(size.upper()):.3g}"
+            )
+        margins, distance, slope = _theorem(ball_of(stated_error), bounds, gamma, period, plan.loss)
+        area = _area(first)
+        area = arb(area.mid(), area.rad() + (distance * (2 * bounds.tangent + slope)).upper())
+        part = area / _section(surface)
+        if not part > ball_of(stated_share):
+            raise NotProvedError(
+                f"the curve is not proved to enclose {float(stated_share):g} of the section"
+            )
+    with ctx.workprec(CELL_BITS):
+        polygons = []
+        for curve, centre in zip(curves, centres, strict=True):
+            _check_winding(curve, centre, plan.columns)
+            polygons.append(_polygon(curve, centre, plan.columns))
+        _check_disjoint(curves, plan.columns)
+        discs = [_Disc(*pair, plan.columns) for pair in zip(curves, centres, strict=True)]
+        for disc in discs:
+            disc.check(surface)
+    digits = {"rotation number": omega, "area": area, "share": part, "distance": distance.upper()}
+    parts = dict(orbit=orbit, polygons=polygons, curve=first, omega=omega, area=area)
+    return Finding(digits, margins, parts)
+
+
+def _quotients(certificate: Certificate) -> tuple[list[int], list[int]]:
+    """Return the partial quotients of the rotation number, and those that repeat."""
+    return certificate.whole_numbers("quotients"), certificate.whole_numbers("repeating")
+
+
+def _plan(certificate: Certificate) -> Plan:
+    """Return the certificate's strips and cells."""
+    strip, loss = certificate.number("strip"), certificate.number("loss")
+    columns, rows, more = (certificate.whole(name) for name in ("columns", "rows", "more_rows"))
+    if not (0 < strip < 1 and loss > 0 and 8 <= columns <= MOST_CELLS):
+        raise NotProvedError("the certificate's strip, loss or columns are out of range")
+    if not (1 <= rows <= 1000 and 1 <= more <= 1000):
+        raise NotProvedError("the certificate's rows or more_rows are out of range")
+    if not 6 * loss < strip:
+        raise NotProvedError("the strip is too narrow: its half width is at most 6 times the loss")
+    height = ball_of(strip) / rows
+    return Plan(
+        ball_of(strip), height * (rows + more), ball_of(loss), height, columns, rows, rows + more
+    )
+
+
+def _first_curve(certificate: Certificate) -> Curve:
+    """Return the Fourier coefficients of the certificate's curve."""
+    rows = certificate.numbers("coefficients", 2)
+    if not 3 <= len(rows) <= MOST_MODES:
+        raise NotProvedError(f"the curve has {len(rows)} coefficients, not 3 to {MOST_MODES}")
+    if rows[0][1] != 0:
+        raise NotProvedError("the coefficient of sin(0) is not 0")
+    x = [acb(ball_of(a) / 2) for a, _ in rows]
+    x[0] *= 2
+    return x, [acb(0, -ball_of(b) / 2) for _, b in rows]
+
+
+def _highest(plan: Plan, modes: int) -> int:
+    """Return a frequency beyond which the error's coefficients are less than 1e-45 in the strip."""
+    with ctx.workprec(64):
+        return max(modes, int(float(17 / (plan.wide - plan.strip))))
+
+
+def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int):
+    """Return all curves, and the discrete Fourier coefficients of P(K_i) - K_(i+1).
+
+    K_i for i > 0 are truncated series of the images, taken as exact.
+    """
+    modes = len(first[0]) - 1
+    curves, errors = [first], []
+    for i in range(period):
+        points = zip(*(real_values(row, count) for row in curves[i]), strict=True)
+        images = [surface.impact(x, y)[:2] for x, y in points]
+        waves = [transform([image[r] for image in images], count // 2) for r in (0, 1)]
+        if i + 1 < period:
+            curves.append(tuple([c.mid() for c in row[: modes + 1]] for row in waves))
+            target = curves[i + 1]
+        else:
+            target = tuple(rotated(row, omega) for row in first)
+        errors.append([
+            [c - target[r][q] if q <= modes else c for q, c in enumerate(waves[r])]
+            for r in (0, 1)
+        ])  # fmt: skip
+    return curves, errors
+
+
+def _size_of_error(errors: list, most: int, count: int, image: arb, plan: Plan) -> arb:
+    """Bound |e| on the strip, from its discrete Fourier coefficients up to frequency `most`.
+
+    Coefficient q of `count` points is the sum of all e_(q + m count), and |e_q| is at most
+    2 image exp(-2 pi wide |q|).
+    """
+    turn = 2 * arb.pi()
+    crude = 2 * image
+    aliasing = crude / (1 - (-turn * plan.wide * count).exp())
+    beyond = (-turn * (plan.wide - plan.strip) * (most + 1)).exp()
+    tail = 2 * crude * beyond / (1 - (-turn * (plan.wide - plan.strip)).exp())
+    sizes = []
+    for rows in errors:
+        for waves in rows:
+            total = tail
+            for q in range(most + 1):
+                alias = (-turn * plan.wide * (count - q)).exp()
+                alias += (-turn * plan.wide * (count + q)).exp()
+                bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
+                total += bound if q == 0 else 2 * bound
+            sizes.append(total.upper())
+    return _most(sizes)
+
+
+def _theorem(error: arb, b: Bounds, gamma: arb, period: int, d: arb) -> tuple[dict, arb, arb]:
+    """Check the theorem's inequalities; returns margins, the curve's distance and its slope's."""
+    kappa = period / (8 * arb.pi() ** 2 * gamma) + 2 * (period - 1) * d**2
+    torsion = 1 / b.torsion
+    a2 = 2 * kappa * b.tangent
+    a2 += torsion * (2 * b.normal * d**2 + 2 * b.twist * b.tangent * kappa)
+    a1 = kappa * (2 * b.normal * d**2 + b.twist * a2)
+    a = b.tangent * a1 + b.normal * a2 * d**2
+    c = 2 * b.tangent * b.normal * a1 * d**3 + b.second * a**2 / 2
+    c += b.normal * (d**7 + 2 * b.tangent * a1 * d**3 + 2 * b.first * b.normal * a2 * d**5)
+    contraction = 2**8 * c * error / d**8
+    distance, slope = 2 * a * error / d**4, 2 * a * error / d**5
+    for name, value, most in (
+        ("the steps are not proved to converge", contraction, arb(1) / 2),
+        ("the curve may leave the neighbourhood", distance, NEAR),
+        ("the curve's slope may leave the neighbourhood", slope, NEAR_SLOPE),
+    ):
+        if not value < most:
+            raise NotProvedError(f"{name}: {float(value.upper()):.3g} is not below {float(most):g}")
+    margins = {
+        "contraction": lowest(1 / (2 * contraction)),
+        "distance": lowest(NEAR / distance),
+        "torsion": lowest(b.torsion),
+    }
+    return margins, distance, slope
+
+
+def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Plan) -> Bounds:
+    """Compute the constants of the theorem over cells of the strips."""
+    tangent, normal, first, second, image = [], [], [], [], []
+    for curve, centre in zip(curves, centres, strict=True):
+        known = _first_roots(surface, curve, plan.columns)
+        for row in range(plan.all_rows):
+            inner = row < plan.rows
+            for x, y, slopes, root in _row_of_cells(surface, curve, plan, row, known):
+                image += [_size(x), _size(y)]
+                if not inner:
+                    image += [_size(a) for a in complex_impact.impact(surface, x, y, root)]
+                    continue
+                jets = complex_impact.impact(surface, *Jet.plane(2, x, y), root)
+                image += [_size(jet.constant) for jet in jets]
+                first.append(_most(_size(j[1, 0]) + _size(j[0, 1]) for j in jets))
+                second.append(
+                    _most(2 * (_size(j[2, 0]) + _size(j[1, 1]) + _size(j[0, 2])) for j in jets)
+                )
+                away = x - centre[0], y - centre[1]
+                area = (away[0] * slopes[1] - away[1] * slopes[0]).abs_lower()
+                if not area > 0:
+                    raise NotProvedError("K - c and K' may be parallel in the strip")
+                tangent.append(_most(map(_size, slopes)))
+                normal.append(_most(map(_size, away)) / area)
+    sizes = [_most(row) for row in (tangent, normal, first, second, image)]
+    twist = 2 * sizes[2] * sizes[1] ** 2
+    torsion = abs(_torsion(surface, curves, centres, omega, _FINER * plan.columns)).lower()
+    if not torsion > 0:
+        raise NotProvedError("the twist's mean along the curve may be zero")
+    return Bounds(sizes[0], sizes[1], twist, torsion, *sizes[2:])
+
+
+def _first_roots(surface: Surface, curve: Curve, columns: int) -> list[acb]:
+    """Return the flight times of the cells' middles; first roots over all of the real curve."""
+    boxes = _real_cells(curve, columns)
+    middles = zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True)
+    times = []
+    for j, middle in enumerate(middles):
+        surface.impact(*boxes[j])
+        times.append(acb(surface.impact(*middle).tau))
+    return times
+
+
+def _real_cells(curve: Curve, columns: int) -> list[list[arb]]:
+    """Return boxes (x, y) around all curves near K, over the cells of the real circle."""
+    rows = [Cells(row, columns) for row in curve]
+    return [[_inflated(row[j], NEAR) for row in rows] for j in range(columns)]
+
+
+def _row_of_cells(
+    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[acb]
+) -> Iterator[tuple]:
+    """Yield x, y, (x', y') and the flight time of each cell of a row, for all curves near K.
+
+    `known` has the flight time at a point on the lower edge of each cell, and is replaced by that
+    at a point on the upper edge.
+    """
+    half = plan.height / 2
+    middle, top = plan.height * row + half, plan.height * (row + 1)
+    cells = [Cells(waves, plan.columns, middle, half) for waves in curve]
+    slopes = [Cells(derivative(waves), plan.columns, middle, half) for waves in curve]
+    edge = [values(waves, plan.columns, arb(0.5), top) for waves in curve]
+    for j in range(plan.columns):
+        x, y = (_inflated(cell[j], NEAR) for cell in cells)
+        root = complex_impact.unique_root(complex_impact.Flights.of(surface, x, y), known[j])
+        upper = complex_impact.gap_at(surface, edge[0][j], edge[1][j])
+        known[j] = complex_impact.point_root(upper, root)
+        yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root.value
+
+
+def _torsion(surface: Surface, curves: list, centres: list, omega: arb, columns: int) -> arb:
+    """Enclose the mean of T = det(DP N, N_+) over the real circles, for all curves near K."""
+    total = arb(0)
+    for i, curve in enumerate(curves):
+        last = i + 1 == len(curves)
+        after = tuple(rotated(row, omega) for row in curves[0]) if last else curves[i + 1]
+        here = _normals(curve, centres[i], columns)
+        there = _normals(after, centres[0] if last else centres[i + 1], columns)
+        boxes = _real_cells(curve, columns)
+        for box, n, m in zip(boxes, here, there, strict=True):
+            rows, _ = surface.jacobian(*box)
+            pushed = [row[0] * n[0] + row[1] * n[1] for row in rows]
+            total += pushed[0] * m[1] - pushed[1] * m[0]
+    return total / (columns * len(curves))
+
+
+def _normals(curve: Curve, centre: list[arb], columns: int) -> list[tuple[arb, arb]]:
+    """Enclose N = -(K - c)/det(K - c, K') over the cells of the real circle."""
+    boxes = _real_cells(curve, columns)
+    slopes = [Cells(derivative(row), columns) for row in curve]
+    out = []
+    for j, box in enumerate(boxes):
+        away = [a - b for a, b in zip(box, centre, strict=True)]
+        dx, dy = (_inflated(row[j], NEAR_SLOPE) for row in slopes)
+        area = away[0] * dy - away[1] * dx
+        if not area < 0:
+            raise NotProvedError("the curve may not turn clockwise around the centre everywhere")
+        out.append((-away[0] / area, -away[1] / area))
+    return out
+
+
+def _check_winding(curve: Curve, centre: list[arb], columns: int) -> None:
+    """Check that every curve near K turns around the centre once, clockwise.
+
+    det(K - c, K') < 0 is checked by `_normals`. Here K - c stays, over each cell, within a right
+    angle of its value at the cell's middle, so that arguments from middle to middle are principal.
+    """
+    boxes = _real_cells(curve, columns)
+    middles = list(zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True))
+    total = arb(0)
+    for j, (x, y) in enumerate(middles):
+        here = acb(x - centre[0], y - centre[1])
+        after = acb(*(a - b for a, b in zip(middles[(j + 1) % columns], centre, strict=True)))
+        for k in (j, (j + 1) % columns):
+            if not (acb(*(a - b for a, b in zip(boxes[k], centre, strict=True))) / here).real > 0:
+                raise NotProvedError("the cells are too wide to count the curve's turns")
+        total += (after / here).arg()
+    turns = total / (2 * arb.pi())
+    if not (turns + arb(1)).contains(0) or not turns.rad() < 0.1:
+        raise NotProvedError(
+            f"the curve turns {turns.mid().str(3, radius=False)} times around the centre, not -1"
+        )
+
+
+def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]:
+    """Return a polygon inside every curve near K, with the centre inside.
+
+    Vertex j is K at the left end of cell j, moved towards the centre. The curve over a cell that is
+    wider than the edge's sector lies beyond the edge; so each ray meets the edge first.
+    """
+    wide = arb(1) / (2 * columns)
+    cells = [Cells(row, columns, wide=wide * 1.25) for row in curve]
+    ends = [real_values(row, columns) for row in curve]
+    before = [real_values(row, columns, arb(-0.125)) for row in curve]
+    after = [real_values(row, columns, arb(0.125)) for row in curve]
+    left = [[_inflated(row[j], NEAR) for row in before] for j in range(columns)]
+    right = [[_inflated(row[j], NEAR) for row in after] for j in range(columns)]
+    factor = 1 - ball_of(_SHRUNK)
+    corners = [
+        [float(centre[r] + factor * (ends[r][j] - centre[r])) for r in (0, 1)]
+        for j in range(columns)
+    ]
+    exact = [[arb(a) for a in corner] for corner in corners]
+    for j, a in enumerate(exact):
+        k = (j + 1) % columns
+        b = exact[k]
+        side = [q - p for p, q in zip(a, b, strict=True)]
+        line = [
+            side[0] * (t[1].real) - side[1] * (t[0].real)
+            for t in zip(*(cell.taylor(j) for cell in cells), strict=True)
+        ]
+        line[0] -= side[0] * a[1] - side[1] * a[0]
+        rest = abs(side[0]) * abs(cells[1].rest) + abs(side[1]) * abs(cells[0].rest)
+        rest += (abs(side[0]) + abs(side[1])) * NEAR
+        height = evaluate([acb(c) for c in line], cells[0].box).real
+        if not (height > rest and _turn(centre, left[j], a) < 0 and _turn(centre, b, right[k]) < 0):
+            raise NotProvedError("the polygon is not proved to lie inside the curve")
+    return corners
+
+
+def _turn(centre: list[arb], a: list[arb], b: list[arb]) -> arb:
+    """Return det(a - c, b - c)."""
+    return (a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0])
+
+
+def _check_disjoint(curves: list, columns: int) -> None:
+    """Check that the discs inside the curves around different points are disjoint."""
+    hulls = []
+    for curve in curves:
+        boxes = _real_cells(curve, columns)
+        hulls.append([_hull([box[r] for box in boxes]) for r in (0, 1)])
+    for i, a in enumerate(hulls):
+        if any(a[0].overlaps(b[0]) and a[1].overlaps(b[1]) for b in hulls[:i]):
+            raise NotProvedError("the discs inside two of the curves may overlap")
+
+
+class _Disc:
+    """The closed disc inside a curve, in pieces c + l (K - c), l in an interval of [0, 1]."""
+
+    def __init__(self, curve: Curve, centre: list[arb], columns: int):
+        self._boxes, self._centre = _real_cells(curve, columns), centre
+
+    def check(self, surface: Surface) -> None:
+        """Check that P is analytic on the disc: each flight's first root is simple."""
+        columns = len(self._boxes)
+        for begin in range(0, columns, _COLUMNS_OF_PIECE):
+            end = min(begin + _COLUMNS_OF_PIECE, columns)
+            for layer in range(_LAYERS):
+                low, high = Fraction(layer, _LAYERS), Fraction(layer + 1, _LAYERS)
+                self._check_piece(surface, begin, end, low, high, 0)
+
+    def _check_piece(self, surface, begin, end, low, high, depth):
+        box = []
+        for r in (0, 1):
+            away = _hull([b[r] for b in self._boxes[begin:end]]) - self._centre[r]
+            box.append(self._centre[r] + away * ball_of(low).union(ball_of(high)))
+        try:
+            surface.impact(*box)
+        except (UndecidedError, ZeroDivisionError) as reason:
+            if depth == _DEPTH:
+                raise NotProvedError(f"the disc inside the curve: {reason}") from None
+            middle = (low + high) / 2
+            pieces = [(begin, end)]
+            if end - begin > 1:
+                pieces = [(begin, (begin + end) // 2), ((begin + end) // 2, end)]
+            for a, b in pieces:
+                self._check_piece(surface, a, b, low, middle, depth + 1)
+                self._check_piece(surface, a, b, middle, high, depth + 1)
+
+
+def _area(curve: Curve) -> arb:
+    """Return the area inside a curve that turns clockwise: minus the integral of x dy."""
+    total = arb(0)
+    for q, (a, b) in enumerate(zip(*curve, strict=True)):
+        total += 2 * (a.conjugate() * b * acb(0, 2 * q * arb.pi())).real
+    return -total
+
+
+def _section(surface: Surface) -> arb:
+    """Return the section's area."""
+    k, g, energy = surface.constants()
+    return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
+
+
+def _inflated(value: acb | arb, radius: arb) -> acb | arb:
+    """Return the set of all numbers whose parts are within a radius of the value's."""
+    if isinstance(value, acb):
+        return acb(_inflated(value.real, radius), _inflated(value.imag, radius))
+    return arb(value.mid(), (value.rad() + radius).upper())
+
+
+def _size(value: acb) -> arb:
+    return value.abs_upper()
+
+
+def _most(sizes) -> arb:
+    most = arb(0)
+    for size in sizes:
+        if not size < arb("inf"):
+            raise NotProvedError("a bound over the strip is not finite")
+        most = most.max(size)
+    return most
+
+
+def _hull(balls: list[arb]) -> arb:
+    total = balls[0]
+    for ball in balls[1:]:
+        total = total.union(ball)
+    return total
