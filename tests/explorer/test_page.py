@@ -19,9 +19,10 @@ from pipeline.records.artifacts import load
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.regularity import regular
-from pseudorigid.analyses.winding import winding
+from pseudorigid.analyses.rotation import winding
 from pseudorigid.dynamics.variables import of_type
 
+pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
 K, G = BALL.k, BALL.g
 # Ask a job of a worker like the page's own.
@@ -301,7 +302,6 @@ def test_dragging_turns_the_surface_and_moves_the_disk(person):
     assert float(view[4]) == pytest.approx(0.2, abs=0.02)
 
 
-@pytest.mark.slow
 def test_the_wheel_zooms_without_limit_at_the_pointer(person):
     person.press("as-disk")
     box = person.find("section")
@@ -354,7 +354,6 @@ def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
     person.wait(lambda: len(person.orbits()) == count + 1)
 
 
-@pytest.mark.slow
 def test_the_keyboard_does_everything(person):
     from selenium.webdriver.common.keys import Keys
 
@@ -504,7 +503,6 @@ def test_the_jump_curve_has_python_s_length(person):
     person.wait(lambda: "continuous" in person.text("jump-note"))
 
 
-@pytest.mark.slow
 def test_the_ball_in_time_steps_from_impact_to_impact(person):
     person.choose("preset", "fig4")
     person.wait(lambda: "impact 0" in person.text("moment"))
@@ -521,7 +519,6 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
     assert person.text("play") == "Play"
 
 
-@pytest.mark.slow
 def test_every_preset_draws_and_has_one_sentence(person):
     names = person.browser.run("return Object.keys(PRESETS)")
     assert {f"fig{n}" for n in range(2, 9)} < set(names)
@@ -536,7 +533,6 @@ def test_every_preset_draws_and_has_one_sentence(person):
     assert len(set(seen)) == len(names)
 
 
-@pytest.mark.slow
 def test_the_address_holds_the_whole_state(person):
     person.choose("preset", "fig5")
     person.settled()
@@ -615,7 +611,6 @@ def scene(person, kind):
     return name, text
 
 
-@pytest.mark.slow
 def test_five_pictures_are_drawn_by_the_pipeline_with_the_same_points(person, tmp_path):
     texts, points = {}, {}
     person.press("as-disk")
