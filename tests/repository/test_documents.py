@@ -18,7 +18,7 @@ DOCUMENTS = sorted(
 LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept")
 LONG_PARTS = ("prove --impacts", "prove --search", "prove --pictures", "variant exact", "--slurm")
 # Folders of the repository; results and .venv are left out.
-FOLDERS = (".github", "src", "tests", "docs", "workflow", "profiles", "requirements")
+FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")
 FILES = [
     str(file.relative_to(ROOT))
