@@ -67,6 +67,7 @@ class Families(Scene):
         lines = families["line"].values.tolist()
         kinds = families["event_kind"].values.tolist()
         counts = {kind: kinds.count(kind) for kind in sorted(set(kinds))}
+        words = {"resonance": "p/q"}
         chosen = (families["event_family"].values == 0) & (families["event_order"].values > 2)
         names = "event_energy" if block["parameter"] == "energy" else "event_k"
         rows = zip(
@@ -78,6 +79,9 @@ class Families(Scene):
         resonances = sorted((value, f"{p}/{q} at {value:.12g}") for p, q, value in rows)
         return {
             "families": f"{len(lines)}, {lines.count('none')} of them without symmetry",
-            "events": ", ".join(f"{count} {kind}" for kind, count in counts.items()) or "none",
-            "fixed point": ", ".join(text for _, text in resonances) or "no resonance",
+            "events": ", ".join(
+                f"{count} {words.get(kind, kind)}" for kind, count in counts.items()
+            )
+            or "none",
+            "fixed point": ", ".join(text for _, text in resonances) or "none",
         }
