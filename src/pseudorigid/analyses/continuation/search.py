@@ -35,6 +35,8 @@ class Search:
         }
         self.families: list[Family] = []
         self.starts: list[tuple[int, int, float, float]] = []  # of each symmetric family
+        self._level = math.nan
+        self._held: dict[int, list[float]] = {}
 
     def resume(self, starts: list[tuple[int, int, float, float]]) -> None:
         """Follow the families again of which an earlier search kept the starts."""
@@ -56,14 +58,24 @@ class Search:
 
     def holders(self, period: int, line: int, point: Point) -> list[int]:
         """Return the numbers of the families that hold a solution."""
-        found = []
-        for family in self.families:
-            if (family.period, family.line) == (period, line):
-                for crossing in self.crossings(family, point.p):
-                    places = positions(family.system, crossing)
-                    if min(abs(q - point.q) for q in places) < SAME:
-                        found.append(family.number)
-        return found
+        return [
+            family.number
+            for family in self.families
+            if (family.period, family.line) == (period, line)
+            and any(abs(q - point.q) < SAME for q in self._held_at(family, point.p))
+        ]
+
+    def _held_at(self, family: Family, p: float) -> list[float]:
+        """Return the parameters q of a family's points on its line at a parameter.
+
+        Those at the last parameter that was asked for are kept.
+        """
+        if p != self._level:
+            self._level, self._held = p, {}
+        if family.number not in self._held:
+            points = self.crossings(family, p)
+            self._held[family.number] = [q for z in points for q in positions(family.system, z)]
+        return self._held[family.number]
 
     def add(self, period: int, line: int, point: Point) -> bool:
         """Follow the family of a solution unless a known family holds it; return if it is new."""
