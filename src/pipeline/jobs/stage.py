@@ -9,10 +9,12 @@ import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 
-from ..config.schema.stages import RESUMED
 from ..records import artifacts
 from ..records.build_spec import BuildSpec
 from ..records.stage_call import compute_stage
+
+# Stages that report their progress and keep finished parts, so that a killed run goes on.
+RESUMED = {"families"}
 
 
 def _as_text(start: Any) -> Any:
@@ -42,7 +44,6 @@ def _compute_exactly(
 
 def _resumable(spec: BuildSpec) -> dict[str, Any]:
     """Return the arguments by which a long stage reports its progress and keeps its work."""
-
     reported = 0.0
 
     def progress(share: float, text: str) -> None:

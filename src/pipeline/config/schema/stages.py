@@ -73,9 +73,6 @@ STAGES = {
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 
-# Stages that report their progress and keep their work while it lasts.
-RESUMED = {"families"}
-
 
 def upstream(stages: Iterable[str]) -> list[str]:
     """Return these stages and those whose datasets they take, each after its inputs."""
