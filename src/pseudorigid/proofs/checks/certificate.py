@@ -79,7 +79,10 @@ class Certificate:
 
     def whole(self, name: str) -> int:
         """Return a whole number."""
-        return self._take(name, int)
+        value = self._take(name, int)
+        if isinstance(value, bool):
+            raise NotProvedError(f"the certificate's {name} is missing or of another form")
+        return value
 
     def whole_numbers(self, name: str) -> list[int]:
         """Return a list of whole numbers, which may be empty."""

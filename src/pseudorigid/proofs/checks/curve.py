@@ -33,7 +33,7 @@ BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
 CELL_BITS = 80
 NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
 MOST_CELLS, MOST_MODES = 4096, 4096
-_FINER = 8  # cells of the circle over which the twist's mean is taken, for each column
+_FINER = 4  # points of the circle over which the twist's mean is taken, for each column
 _SHRUNK = Fraction(1, 1000)  # relative distance of the polygon from the curve
 _DEPTH = 14  # of the subdivision of the disc inside
 _LAYERS = 8  # of the first pieces of the disc, from the centre outwards
@@ -260,7 +260,7 @@ def _theorem(error: arb, b: Bounds, gamma: arb, period: int, d: arb) -> tuple[di
 
 def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Plan) -> Bounds:
     """Compute the constants of the theorem over cells of the strips."""
-    tangent, normal, first, second, image = [], [], [], [], []
+    tangent, normal, first, second, image, lengths, areas = ([] for _ in range(7))
     for curve, centre in zip(curves, centres, strict=True):
         known = _first_roots(surface, curve, plan.columns)
         for row in range(plan.all_rows):
@@ -281,13 +281,30 @@ def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Pla
                 if not area > 0:
                     raise NotProvedError("K - c and K' may be parallel in the strip")
                 tangent.append(_most(map(_size, slopes)))
-                normal.append(_most(map(_size, away)) / area)
+                lengths.append(_most(map(_size, away)))
+                areas.append(area)
+                normal.append(lengths[-1] / area)
     sizes = [_most(row) for row in (tangent, normal, first, second, image)]
     twist = 2 * sizes[2] * sizes[1] ** 2
-    torsion = abs(_torsion(surface, curves, centres, omega, _FINER * plan.columns)).lower()
+    count = _FINER * plan.columns
+    ratio = (-2 * arb.pi() * plan.strip * count).exp()
+    change = _change_of_twist(sizes, _most(lengths), _least(areas))
+    torsion = abs(_torsion(surface, curves, centres, omega, count))
+    torsion = (torsion - 2 * twist * ratio / (1 - ratio) - change).lower()
     if not torsion > 0:
         raise NotProvedError("the twist's mean along the curve may be zero")
     return Bounds(sizes[0], sizes[1], twist, torsion, *sizes[2:])
+
+
+def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
+    """Bound the difference of T between K and the curves near it.
+
+    `length` bounds |K - c| from above and `area` |det(K - c, K')| from below, for all of them.
+    """
+    tangent, normal, first, second, _ = sizes
+    of_area = 2 * (NEAR * tangent + length * NEAR_SLOPE)
+    of_normal = (NEAR + normal * of_area) / area
+    return 2 * normal * (second * NEAR * normal + 2 * first * of_normal)
 
 
 def _first_roots(surface: Surface, curve: Curve, columns: int) -> list[acb]:
@@ -328,42 +345,40 @@ def _row_of_cells(
         yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root.value
 
 
-def _torsion(surface: Surface, curves: list, centres: list, omega: arb, columns: int) -> arb:
-    """Enclose the mean of T = det(DP N, N_+) over the real circles, for all curves near K."""
+def _torsion(surface: Surface, curves: list, centres: list, omega: arb, count: int) -> arb:
+    """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points."""
     total = arb(0)
     for i, curve in enumerate(curves):
         last = i + 1 == len(curves)
         after = tuple(rotated(row, omega) for row in curves[0]) if last else curves[i + 1]
-        here = _normals(curve, centres[i], columns)
-        there = _normals(after, centres[0] if last else centres[i + 1], columns)
-        boxes = _real_cells(curve, columns)
-        for box, n, m in zip(boxes, here, there, strict=True):
-            rows, _ = surface.jacobian(*box)
+        here = _normals(curve, centres[i], count)
+        there = _normals(after, centres[0] if last else centres[i + 1], count)
+        points = zip(*(real_values(row, count) for row in curve), strict=True)
+        for point, n, m in zip(points, here, there, strict=True):
+            rows, _ = surface.jacobian(*point)
             pushed = [row[0] * n[0] + row[1] * n[1] for row in rows]
             total += pushed[0] * m[1] - pushed[1] * m[0]
-    return total / (columns * len(curves))
+    return total / (count * len(curves))
 
 
-def _normals(curve: Curve, centre: list[arb], columns: int) -> list[tuple[arb, arb]]:
-    """Enclose N = -(K - c)/det(K - c, K') over the cells of the real circle."""
-    boxes = _real_cells(curve, columns)
-    slopes = [Cells(derivative(row), columns) for row in curve]
+def _normals(curve: Curve, centre: list[arb], count: int) -> list[tuple[arb, arb]]:
+    """Enclose N = -(K - c)/det(K - c, K') at equidistant real points."""
+    points = zip(*(real_values(row, count) for row in curve), strict=True)
+    slopes = zip(*(real_values(derivative(row), count) for row in curve), strict=True)
     out = []
-    for j, box in enumerate(boxes):
-        away = [a - b for a, b in zip(box, centre, strict=True)]
-        dx, dy = (_inflated(row[j], NEAR_SLOPE) for row in slopes)
-        area = away[0] * dy - away[1] * dx
-        if not area < 0:
-            raise NotProvedError("the curve may not turn clockwise around the centre everywhere")
-        out.append((-away[0] / area, -away[1] / area))
+    for point, (dx, dy) in zip(points, slopes, strict=True):
+        x, y = (a - b for a, b in zip(point, centre, strict=True))
+        area = x * dy - y * dx
+        out.append((-x / area, -y / area))
     return out
 
 
 def _check_winding(curve: Curve, centre: list[arb], columns: int) -> None:
     """Check that every curve near K turns around the centre once, clockwise.
 
-    det(K - c, K') < 0 is checked by `_normals`. Here K - c stays, over each cell, within a right
-    angle of its value at the cell's middle, so that arguments from middle to middle are principal.
+    det(K - c, K') is not zero (`_bounds`), so that the curve turns one way. K - c stays, over each
+    cell, within a right angle of its values at the middles of this cell and the one before, so that
+    arguments from middle to middle are principal.
     """
     boxes = _real_cells(curve, columns)
     middles = list(zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True))
@@ -500,6 +515,13 @@ def _most(sizes) -> arb:
             raise NotProvedError("a bound over the strip is not finite")
         most = most.max(size)
     return most
+
+
+def _least(sizes: list[arb]) -> arb:
+    least = sizes[0]
+    for size in sizes[1:]:
+        least = least.min(size)
+    return least
 
 
 def _hull(balls: list[arb]) -> arb:

@@ -17,6 +17,7 @@ _PLANS = {
 }
 _CURVES = {  # the partial quotients, and the strips
     "curve-fixed-point": ((5, 1, 3), curve_search.Strips("0.025", "0.004", 256, 6, 6, 380)),
+    "curve-fixed-point-low": ((9,), curve_search.Strips("0.025", "0.004", 512, 10, 6, 440)),
 }
 _ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
 _SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached

@@ -1,0 +1,280 @@
+"""Invariant curves: what their checkers prove, and the certificates that they refuse."""
+
+import dataclasses
+import re
+from fractions import Fraction
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from certificates import numbers
+from flint import acb, arb, ctx
+
+from pseudorigid import Ball, orbit
+from pseudorigid.dynamics.variables import chart, states_of
+from pseudorigid.proofs import THEOREMS, Surface
+from pseudorigid.proofs.checks import circle, curve
+from pseudorigid.proofs.checks.certificate import NotProvedError
+from pseudorigid.proofs.enclosure import complex_impact
+from pseudorigid.proofs.search import curve as search
+
+CURVES = [name for name, theorem in THEOREMS.items() if theorem.checker is curve.check]
+NAME = "curve-fixed-point"
+BALL = Ball(k=0.2, g=0.04)
+
+
+@pytest.fixture(scope="module")
+def findings():
+    """The finding of each theorem about a curve."""
+    return {name: THEOREMS[name].prove(THEOREMS[name].text()) for name in CURVES}
+
+
+def refused(text, name=NAME):
+    """The reason why a certificate is not taken as a proof."""
+    result = THEOREMS[name].check(text)
+    assert result.verdict == "not proved"
+    assert "\n" not in result.reason
+    return result.reason
+
+
+def with_line(text, field, value):
+    """The certificate with another value of a field of one line."""
+    assert re.search(rf"^{field} = ", text, re.MULTILINE)
+    return re.sub(rf"^{field} = .*$", f"{field} = {value}", text, flags=re.MULTILINE)
+
+
+def with_coefficients(text, rows):
+    """The certificate with other Fourier coefficients."""
+    lines = "".join(f"  [{', '.join(row)}],\n" for row in rows)
+    pattern = re.compile(r"^coefficients = \[\n.*?^\]", re.DOTALL | re.MULTILINE)
+    return pattern.sub(lambda _: f"coefficients = [\n{lines}]", text)
+
+
+def polygon_area(points):
+    """The area inside a polygon."""
+    x, y = np.array(points).T
+    return 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_a_curve_is_proved_and_its_polygon_has_nearly_its_area(name, findings):
+    finding, bounds = findings[name], THEOREMS[name].bounds
+    inside = polygon_area(finding.parts["polygons"][0])
+    area = float(finding.digits["area"])
+    assert 0.99 * area < inside < area
+    k, g, energy = 0.2, 0.04, float(bounds["surface"].energy)
+    section = pi * (2 * energy + g * g / k) * sqrt((1 + k) / k)
+    assert float(finding.digits["share"]) == pytest.approx(area / section, rel=1e-12)
+    assert len(finding.parts["polygons"]) == bounds["period"]
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_orbits_next_to_a_curve_have_its_rotation_number(name, findings):
+    """An independent computation in doubles, at the point of the curve with t = 0."""
+    finding, bounds = findings[name], THEOREMS[name].bounds
+    with ctx.workprec(200):
+        start = float(sum((arb(2 * c.real) for c in finding.parts["curve"][0][1:]), arb(0))
+                      + finding.parts["curve"][0][0].real)  # fmt: skip
+    points = [[float(a) for a in z] for z in finding.parts["orbit"].points]
+    turns = search.turns(bounds["surface"], start, points, 20_000)
+    assert turns == pytest.approx(float(finding.digits["rotation number"]), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(name, findings):
+    finding, bounds = findings[name], THEOREMS[name].bounds
+    surface, period = bounds["surface"], bounds["period"]
+    centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])
+    polygon = np.array(finding.parts["polygons"][0])
+    around = np.unwrap(np.angle((polygon - centre) @ [1, 1j]))[::-1]
+    distance = np.abs((polygon - centre) @ [1, 1j])[::-1]
+    start = polygon[0] - centre  # on y = 0 up to rounding
+    for factor, inside in ((0.99, True), (1.01, False)):
+        x = float(centre[0] + factor * start[0])
+        with ctx.workprec(64):
+            state = (x, *(float(a) for a in surface.velocities(arb(x), arb(0))))
+        z = chart(0.2, *states_of(orbit(BALL, state, 5_000 * period)))[:, period - 1 :: period]
+        w = (z.T - centre) @ [1, 1j]
+        limit = np.interp(np.angle(w), around, distance, period=2 * pi)
+        assert bool(np.all(np.abs(w) < limit)) is inside
+        assert bool(np.all(np.abs(w) > limit)) is not inside
+
+
+@pytest.mark.parametrize(("quotients", "repeating", "reason"), [
+    ("[5, 1, 3]", "[]", "rational"),
+    ("[5, 1, 3]", "[2]", "do not end in ones"),
+    ("[]", "[1]", "not whole and positive"),
+    ("[5, 0, 3]", "[1]", "not whole and positive"),
+    ("[5, -1, 3]", "[1]", "not whole and positive"),
+    ("[5, 1, 3.5]", "[1]", "no list of whole numbers"),
+    ("[5, 1, 3, 1, 1, 1, 1000000]", "[1]", ""),
+    ("[5, 1, 30]", "[1]", "not in the statement's interval"),
+])  # fmt: skip
+def test_rational_rotation_numbers_and_large_partial_quotients_are_refused(
+    quotients, repeating, reason
+):
+    text = with_line(THEOREMS[NAME].text(), "quotients", quotients)
+    assert reason in refused(with_line(text, "repeating", repeating))
+
+
+def test_a_large_partial_quotient_far_behind_is_refused_too():
+    """It changes the number by less than the error, but not gamma."""
+    quotients = [5, 1, 3, *[1] * 120, 10**12]
+    text = with_line(THEOREMS[NAME].text(), "quotients", str(quotients))
+    assert "not proved to converge" in refused(text)
+
+
+@pytest.mark.parametrize(("index", "column"), [(0, 0), (1, 0), (1, 1), (20, 1), (60, 0)])
+def test_a_coefficient_that_differs_in_its_25th_digit_is_refused(index, column):
+    text = THEOREMS[NAME].text()
+    rows = numbers(text, "coefficients")
+    value = Fraction(rows[index][column])
+    digits = abs(Fraction(f"{float(value):.0e}"))
+    rows[index][column] = f'"{value + digits / 10**24}"'
+    assert "error is not proved" in refused(with_coefficients(text, rows))
+
+
+def test_dropped_and_swapped_coefficients_are_refused():
+    text = THEOREMS[NAME].text()
+    rows = numbers(text, "coefficients")
+    for other in (
+        rows[:100],  # too few modes
+        rows[:30] + rows[31:],  # one is dropped
+        [*rows[:7], rows[8], rows[7], *rows[9:]],  # two are swapped
+        [[b, a] if i == 40 else [a, b] for i, (a, b) in enumerate(rows)],
+        [[a, b.removeprefix("-") if i == 3 else b] for i, (a, b) in enumerate(rows)],
+    ):
+        reason = refused(with_coefficients(text, other))
+        assert "error is not proved" in reason or "strip" in reason
+    assert "sin(0)" in refused(with_coefficients(text, [[rows[0][0], "1e-30"], *rows[1:]]))
+    assert "coefficients, not 3" in refused(with_coefficients(text, rows[:2]))
+
+
+def test_the_curve_run_through_twice_is_refused():
+    """K(2t) with omega/2 = [0; 11, 1, 1, 1, ...]-like passes all but the count of its turns."""
+    theorem = THEOREMS[NAME]
+    rows = numbers(theorem.text(), "coefficients")
+    with ctx.workprec(120):
+        single = tuple(
+            [acb(arb(row[r]) / 2) if r == 0 else acb(0, -arb(row[r]) / 2) for row in rows[:80]]
+            for r in (0, 1)
+        )
+        single[0][0] *= 2
+        double = tuple([c for a in waves for c in (a, acb(0))] for waves in single)
+        centre = [arb(a) for a in numbers(theorem.text(), "points")[0]]
+        curve._check_winding(single, centre, 256)
+        with pytest.raises(NotProvedError, match="turns -2"):
+            curve._check_winding(double, centre, 512)
+    # as a certificate: omega/2 has other partial quotients, which do not end in ones
+    twice = [row for pair in ((a, ["0.0", "0.0"]) for a in rows) for row in pair]
+    text = with_line(with_coefficients(theorem.text(), twice), "quotients", "[11, 1, 1, 3]")
+    weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"rotation": None})
+    assert weaker.check(text).reason
+
+
+def test_a_curve_that_turns_the_other_way_is_refused():
+    text = THEOREMS[NAME].text()
+    rows = [[a, b[1:] if b.startswith("-") else f"-{b}"] for a, b in numbers(text, "coefficients")]
+    assert refused(with_coefficients(text, rows))
+
+
+@pytest.mark.parametrize(("field", "value", "reason"), [
+    ("share", "0.118", "not proved to enclose"),
+    ("share", "0.116", "stated as 0.116"),
+    ("error", "1e-30", "not stated to be below"),
+    ("error", "1e-60", "error is not proved"),
+    ("error", "0", "not stated to be below"),
+    ("error", "-1e-37", "not stated to be below"),
+    ("strip", "0.02", "too narrow"),
+    ("strip", "0.08", "strip"),
+    ("strip", "2", "out of range"),
+    ("loss", "0.0005", "converge"),
+    ("loss", "0.005", "too narrow"),
+    ("loss", "0", "out of range"),
+    ("columns", "16", ""),
+    ("columns", "0", "out of range"),
+    ("columns", "100000", "out of range"),
+    ("rows", "0", "out of range"),
+    ("more_rows", "0", "out of range"),
+    ("more_rows", "1", "error is not proved"),
+    ("more_rows", "true", "another form"),
+    ("rows", "6.0", "another form"),
+    ("radius", "1e-3", "as stated"),
+    ("energy", '"1/101"', "the certificate is of"),
+    ("k", '"1/4"', "the certificate is of"),
+    ("g", '"1/24"', "the certificate is of"),
+])  # fmt: skip
+def test_another_number_in_a_field_is_refused(field, value, reason):
+    assert reason in refused(with_line(THEOREMS[NAME].text(), field, value))
+
+
+@pytest.mark.parametrize("change", [{"energy": "101/10000"}, {"k": "201/1000"}, {"g": "41/1000"}])
+def test_the_curve_of_another_energy_or_ball_is_refused(change):
+    """A certificate and a statement that agree on another energy or ball, with this curve."""
+    theorem = THEOREMS[NAME]
+    surface = theorem.bounds["surface"]
+    other = {"k": surface.k, "g": surface.g, "energy": surface.energy} | change
+    text = theorem.text()
+    for field, value in change.items():
+        text = with_line(text, field, f'"{value}"')
+    bounds = theorem.bounds | {"surface": Surface(**other), "window": None}
+    assert dataclasses.replace(theorem, bounds=bounds).check(text).reason
+
+
+@pytest.mark.parametrize(("bound", "value"), [
+    ("share", Fraction("0.1175")), ("rotation", (Fraction("0.17291"), Fraction("0.173"))),
+    ("error", Fraction("1e-38")), ("radius", Fraction("5e-3")), ("period", 2),
+])  # fmt: skip
+def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
+    theorem = THEOREMS[NAME]
+    stronger = dataclasses.replace(theorem, bounds=theorem.bounds | {bound: value})
+    assert stronger.check().verdict == "not proved"
+
+
+def test_certificates_of_other_curves_are_refused():
+    for name in CURVES:
+        for other in set(CURVES) - {name}:
+            assert refused(THEOREMS[other].text(), name)
+
+
+def test_complex_flights_continue_real_ones():
+    """Along a path from a real point to a complex one and back the flight time is the same."""
+    surface = Surface("1/5", "1/25", "1/100")
+    with ctx.workprec(100):
+        x, y = arb("0.1"), arb("0.05")
+        tau = acb(surface.impact(x, y).tau)
+        first = tau
+        for step in [*range(8), *range(7, -1, -1)]:
+            box = acb(x, arb(step * 0.003, 0.002)), acb(y, arb(0, 0.002))
+            root = complex_impact.unique_root(complex_impact.Flights.of(surface, *box), first)
+            point = acb(x, arb(step * 0.003)), acb(y)
+            first = complex_impact.point_root(complex_impact.gap_at(surface, *point), root)
+        assert first.overlaps(tau)
+        image = complex_impact.impact(surface, acb(x), acb(y), tau)
+        for a, b in zip(image, surface.impact(x, y), strict=False):
+            assert a.overlaps(acb(b))
+
+
+def test_noble_numbers_are_diophantine():
+    with ctx.workprec(100):
+        for quotients in ([5, 1, 3], [9], [1, 4, 1, 3], [1]):
+            omega, gamma = circle.noble(quotients)
+            for q in range(1, 400):
+                value = q * omega
+                nearest = round(float(value))
+                assert abs(value - nearest) * q > gamma
+
+
+def test_cells_enclose_a_polynomial():
+    rng = np.random.default_rng(1)
+    with ctx.workprec(80):
+        waves = [acb(float(a), float(b)) for a, b in rng.normal(size=(6, 2))]
+        waves[0] = acb(waves[0].real)
+        cells = circle.Cells(waves, 50, arb("0.01"), arb("0.005"))
+        for j in (0, 7, 49):
+            for shift in (-0.5, 0.0, 0.49):
+                t = acb((j + 0.5 + shift) / 50, 0.01 + 0.0099 * shift)
+                value = waves[0]
+                for q, c in enumerate(waves[1:], 1):
+                    value += c * (2 * q * t).exp_pi_i() + c.conjugate() * (-2 * q * t).exp_pi_i()
+                assert cells[j].contains(value)
