@@ -38,6 +38,7 @@ _MODULES = {
     "classify_orbits": "sweep.quantities",
     "turnstile_flux": "sweep.quantities",
     "prove_orbit": "proofs.theorems.requests",
+    "prove_curve": "proofs.theorems.requests",
 }
 
 __all__ = list(_MODULES)

@@ -13,6 +13,7 @@ _MODULES = {
     "THEOREMS": "theorems.statements",
     "search_certificate": "theorems.statements",
     "prove_orbit": "theorems.requests",
+    "prove_curve": "theorems.requests",
     "prove_horseshoe": "theorems.requests",
     "true_orbit": "true_orbits.orbit",
     "true_scene_orbits": "true_orbits.scene",

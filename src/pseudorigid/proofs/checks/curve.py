@@ -428,7 +428,8 @@ def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]
         rest = abs(side[0]) * abs(cells[1].rest) + abs(side[1]) * abs(cells[0].rest)
         rest += (abs(side[0]) + abs(side[1])) * NEAR
         height = evaluate([acb(c) for c in line], cells[0].box).real
-        if not (height > rest and _turn(centre, left[j], a) < 0 and _turn(centre, b, right[k]) < 0):
+        turns = (_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[k])))
+        if not (height > rest and all(turn < 0 for turn in turns)):
             raise NotProvedError("the polygon is not proved to lie inside the curve")
     return corners
 

@@ -5,7 +5,7 @@ midpoints: `checks.curve` proves the result.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,6 +14,7 @@ from flint import acb, arb, ctx
 
 from ...dynamics.orbits import orbit
 from ...dynamics.variables import chart, states_of
+from ..checks.certificate import Finding, NotProvedError
 from ..checks.circle import noble
 from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet
@@ -27,8 +28,10 @@ BITS = 320
 _IMPACTS = 40_000  # of the orbit whose averages start Newton's method
 _SCAN = 120  # starts between the centre and the rim
 _NOISE = 1e-11  # Fourier coefficients from the orbit below this are rounding errors
-_DECIMALS = 41  # of the coefficient with weight 1
+_SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
 _STEPS = 6
+_CLOSE = 5e-4  # of a noble number to the wanted rotation number
+_DIGITS_OF_ERROR = 18.5  # that the error has, besides those of the loss to the eighth power
 
 
 class NoCurveError(ValueError):
@@ -83,6 +86,64 @@ def propose(
         return text_of(surface, centres, quotients, strips, radius, share, error, x, y)
 
 
+def search(
+    surface: Surface,
+    points: Sequence,
+    quotients: Sequence[int],
+    prove: Callable[[str], Finding],
+) -> tuple[str, Finding]:
+    """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
+
+    The strips follow from the decay of the coefficients of an orbit in doubles. Raises
+    NoCurveError, or the checker's NotProvedError if the last sizes fail.
+    """
+    points = from_symmetric_point(points)
+    with ctx.workprec(BITS):
+        omega = float(noble(quotients)[0])
+    start = start_on_curve(surface, points, omega)
+    xs, ys = coefficients_of_orbit(surface, start, len(points), omega)
+    decay = -math.log(_NOISE / abs(xs[1])) / len(xs)
+    area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
+    with ctx.workprec(64):
+        k, g, energy = (float(a) for a in surface.constants())
+    section = math.pi * (2.0 * energy + g * g / k) * math.sqrt((1.0 + k) / k)
+    share = f"{0.9999 * area / section:.3g}"
+    for part, cells, room in ((0.4, 6, 0.6), (0.3, 9, 0.5)):
+        strip = part * decay / (2.0 * math.pi)
+        loss = strip / 6.2
+        digits = math.ceil(_DIGITS_OF_ERROR - 8.0 * math.log10(loss))
+        modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
+        columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
+        rows = math.ceil(columns * strip)
+        strips = Strips(f"{strip:.4g}", f"{loss:.3g}", columns, rows, math.ceil(0.6 * rows), modes)
+        text = propose(
+            surface, points, quotients, strips,
+            radius="1e-6", share=share, error=f"1e-{digits}",
+        )  # fmt: skip
+        try:
+            return text, prove(text)
+        except NotProvedError as error:
+            reason = error
+    raise reason
+
+
+def quotients_near(value: float) -> list[int]:
+    """Return partial quotients for which the number of `checks.circle.noble` is close to a value.
+
+    They are the first ones of the value's continued fraction.
+    """
+    golden, rest, quotients = 0.5 * (1.0 + math.sqrt(5.0)), value, []
+    while True:
+        rest = 1.0 / rest
+        quotients.append(int(rest))
+        noble_value = golden
+        for a in reversed(quotients):
+            noble_value = a + 1.0 / noble_value
+        rest -= int(rest)
+        if abs(1.0 / noble_value - value) < _CLOSE or rest < _CLOSE:
+            return quotients
+
+
 def from_symmetric_point(points: Sequence) -> list[list[float]]:
     """Return an orbit's points from the one with y = 0 and the greatest x on.
 
@@ -98,6 +159,11 @@ def from_symmetric_point(points: Sequence) -> list[list[float]]:
 
 def text_of(surface, centres, quotients, strips, radius, share, error, x, y) -> str:
     """Format a certificate; the curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t)."""
+    digits = _SPARE_DIGITS - math.log10(float(error))
+    weights = [
+        math.ceil(digits + 2.0 * math.pi * q * float(strips.strip) / math.log(10.0))
+        for q in range(len(x))
+    ]
     lines = [
         header("invariant curve", surface),
         f"radius = {radius}\n",
@@ -109,17 +175,16 @@ def text_of(surface, centres, quotients, strips, radius, share, error, x, y) -> 
         "# x_q and y_q: the curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n",
         "coefficients = [\n",
         *(
-            f"  [{_fixed(a, q, strips)}, {_fixed(b, q, strips)}],\n"
-            for q, (a, b) in enumerate(zip(x, y, strict=True))
+            f"  [{_fixed(a, weight)}, {_fixed(b, weight)}],\n"
+            for weight, a, b in zip(weights, x, y, strict=True)
         ),
         "]\n",
     ]
     return "".join(lines)
 
 
-def _fixed(value: arb, q: int, strips: Strips) -> str:
-    """Format coefficient q with the decimals that its weight in the strip needs."""
-    decimals = _DECIMALS + math.ceil(2.0 * math.pi * q * float(strips.strip) / math.log(10.0))
+def _fixed(value: arb, decimals: int) -> str:
+    """Format a number with this many decimals."""
     scaled = round(Fraction(decimal(value * arb(10) ** decimals, 90)))
     return f"{scaled}e-{decimals}" if scaled else "0.0"
 

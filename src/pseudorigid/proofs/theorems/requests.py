@@ -1,4 +1,4 @@
-"""Proofs on request: of any symmetric orbit, and of a horseshoe on any hyperbolic one."""
+"""Proofs on request: of symmetric orbits, horseshoes on these, and invariant curves."""
 
 from fractions import Fraction
 from typing import Any
@@ -7,11 +7,13 @@ import numpy as np
 import xarray as xr
 
 from ...dynamics.ball import Ball
+from ...dynamics.inputs import number
 from ...dynamics.variables import chart, states_of
-from ..checks import horseshoe, periodic
+from ..checks import curve, horseshoe, periodic
 from ..checks.certificate import Finding, NotProvedError
 from ..enclosure.surface import Exact, Surface
 from ..search import approximate_orbits
+from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search
 from .statements import Theorem
@@ -110,6 +112,67 @@ def prove_horseshoe(
         sign = 1 if side == "outer" else -1
         text = horseshoe_search.search(surface, points, sign, theorem.prove)
         return text, theorem.prove(text)
+    except (NotProvedError, ValueError, ArithmeticError) as error:
+        raise ValueError(f"{name} cannot be proved: {error}") from None
+
+
+def prove_curve(
+    ball: Ball | Surface, energy: Exact | float, rotation_number: float
+) -> tuple[str, Finding]:
+    """Prove an invariant curve around the elliptic fixed point, which no orbit ever crosses.
+
+    Parameters
+    ----------
+    ball : Ball or Surface
+        The doubles k and g of a Ball are taken as exact; of a Surface only its exact k and g count.
+    energy : int, Fraction, Decimal, str or float
+        Total energy. It is exact, also the double that a float is.
+    rotation_number : float
+        Clockwise turns per impact, between 0 and 1. The curve has a number within 5e-4 of it whose
+        continued fraction ends in ones: its partial quotients are the first ones of this number's.
+
+    Returns
+    -------
+    str, checks.certificate.Finding
+        The certificate, and the result of its checker. `digits` has the enclosures "rotation
+        number", "area" and "share", that of the section inside. `parts` has "polygons", the
+        vertices (x, y) of a polygon between the fixed point and the curve; no orbit that starts
+        inside it ever leaves the curve's inside.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+
+    References
+    ----------
+    de la Llave, Gonzalez, Jorba and Villanueva, KAM theory without action-angle variables,
+    Nonlinearity 18 (2005).
+
+    Examples
+    --------
+    >>> from pseudorigid.dynamics.ball import Ball
+    >>> prove_curve(Ball(k=0.2, g=0.04), 0.01, 1.5)
+    Traceback (most recent call last):
+    ...
+    ValueError: rotation_number = 1.5 is not allowed: one number between 0 and 1
+    """
+    rotation = number(
+        "rotation_number", rotation_number, "one number between 0 and 1", lambda v: 0.0 < v < 1.0
+    )
+    energy = Fraction(energy) if isinstance(energy, float) else energy
+    k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
+    surface = Surface(k, g, energy)
+    name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
+    bounds = {
+        "surface": surface, "period": 1, "radius": Fraction(0), "window": None, "rotation": None,
+        "share": Fraction(0), "error": Fraction(1),
+    }  # fmt: skip
+    theorem = Theorem(name, name, curve.check, bounds)
+    quotients = curve_search.quotients_near(rotation)
+    try:
+        points = approximate_orbits.points(surface, 1, "elliptic")
+        return curve_search.search(surface, points, quotients, theorem.prove)
     except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{name} cannot be proved: {error}") from None
 

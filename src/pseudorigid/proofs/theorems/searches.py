@@ -15,9 +15,11 @@ _PLANS = {
     "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
     "horseshoe-inner": horseshoe_search.Plan(side=-1, steps=177, size=1e-10, room=1.12),
 }
-_CURVES = {  # the partial quotients, and the strips
-    "curve-fixed-point": ((5, 1, 3), curve_search.Strips("0.025", "0.004", 256, 6, 6, 380)),
-    "curve-fixed-point-low": ((9,), curve_search.Strips("0.025", "0.004", 512, 10, 6, 440)),
+_CURVES = {  # the partial quotients, the error, and the strips
+    "curve-fixed-point": ((5, 1, 3), "1e-37", ("0.025", "0.004", 256, 6, 6, 380)),
+    "curve-fixed-point-outer": ((5, 1, 6), "1e-39", ("0.0125", "0.002", 512, 6, 4, 940)),
+    "curve-fixed-point-low": ((9,), "1e-37", ("0.025", "0.004", 512, 10, 6, 440)),
+    "curve-six": ((1, 4, 1, 3), "5e-45", ("0.02", "0.0033", 128, 5, 5, 540)),
 }
 _ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
 _SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
@@ -51,8 +53,10 @@ def _horseshoe(theorem) -> str:
 
 def _curve(theorem) -> str:
     surface, points = _near(theorem, "elliptic")
-    bounds = {name: str(float(theorem.bounds[name])) for name in ("radius", "share", "error")}
-    return curve_search.propose(surface, points, *_CURVES[theorem.name], **bounds)
+    quotients, error, strips = _CURVES[theorem.name]
+    bounds = {name: str(float(theorem.bounds[name])) for name in ("radius", "share")}
+    strips = curve_search.Strips(*strips)
+    return curve_search.propose(surface, points, quotients, strips, error=error, **bounds)
 
 
 def _jump(theorem) -> str:

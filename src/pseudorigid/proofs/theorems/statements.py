@@ -245,6 +245,8 @@ _THEOREMS = (
     _invariant_curves("twist-ten", _ORBITS["ten-elliptic"]),
     _invariant_curves("twist-twelve", _ORBITS["twelve-elliptic"]),
     _curve("curve-fixed-point", _ORBITS["fixed-point"], ("0.1729", "0.173"), "0.117"),
+    _curve("curve-fixed-point-outer", _ORBITS["fixed-point"], ("0.1703", "0.1704"), "0.15"),
+    _curve("curve-six", _ORBITS["six-elliptic"], ("0.827", "0.8271"), "0.0011"),
     _curve("curve-fixed-point-low", _ORBITS["fixed-point-low"], ("0.1039", "0.104"), "0.327"),
     Theorem(
         "twist-zero",
