@@ -189,7 +189,7 @@ def _curve(name: str, orbit: dict, rotation: tuple[str, str], share: str) -> The
     power, point, discs = ("P", "the elliptic fixed point", "the disc inside")
     if period > 1:
         power, point = f"P^{period}", f"a point of the elliptic orbit of period {period}"
-        discs = f"the disc inside and its {period - 1} images, which are disjoint"
+        discs = "the disc inside and its images, which are disjoint"
     low, high = rotation
     statement = (
         f"at E = {orbit['surface'].energy} there is an analytic curve, invariant under {power}, "
