@@ -52,7 +52,7 @@ def tree(tmp_path_factory):
     return tree
 
 
-def served(tree, *arguments):
+def printed_words(tree, *arguments):
     """Run MAIN, and return the words that it prints."""
     result = tree.python("main.py", *arguments)
     assert (result.returncode, result.stderr) == (0, "")
@@ -61,7 +61,8 @@ def served(tree, *arguments):
 
 def test_many_jobs_at_once_end_as_they_should(tree):
     assert (
-        served(tree, "8", "txt", "step", "good", "bad", "bug", "killed") == ["0", "1", "1", "1"] * 8
+        printed_words(tree, "8", "txt", "step", "good", "bad", "bug", "killed")
+        == ["0", "1", "1", "1"] * 8
     )
     assert (tree.path / "count").read_text() == "x" * 8
     folder = tree.path / "results/paper"
@@ -79,7 +80,9 @@ def test_many_jobs_at_once_end_as_they_should(tree):
     [("png", "drawing", (1, 0, 0)), ("nc", "orbits", (1, 1, 0)), ("nc", "block 3", (1, 1, 1))],
 )
 def test_compiled_modules_are_loaded_only_for_results_that_need_them(tree, suffix, step, loaded):
-    assert served(tree, "1", suffix, step, "modules")[:3] == [str(bool(each)) for each in loaded]
+    assert printed_words(tree, "1", suffix, step, "modules")[:3] == [
+        str(bool(each)) for each in loaded
+    ]
 
 
 def test_jobs_start_as_usual_without_a_server(monkeypatch):

@@ -317,8 +317,8 @@ class ImpactMap:
         share, g = self.share.middle(), self.g.middle()
 
         def gap(t):
-            bent = share * (t - sin(t))
-            return g * t * t / 2 - s * (t - bent) + bent * y + x * (1 - cos(t))
+            curvature = share * (t - sin(t))
+            return g * t * t / 2 - s * (t - curvature) + curvature * y + x * (1 - cos(t))
 
         step, low = 0.02, s / (g + abs(x) + share * abs(y + s))
         while gap(low + step) < 0 and low < 30:

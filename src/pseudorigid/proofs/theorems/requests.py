@@ -160,9 +160,9 @@ def prove_curve(
     rotation = number(
         "rotation_number", rotation_number, "one number between 0 and 1", lambda v: 0.0 < v < 1.0
     )
-    energy = Fraction(energy) if isinstance(energy, float) else energy
+    exact_energy = Fraction(energy)
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
-    surface = Surface(k, g, energy)
+    surface = Surface(k, g, exact_energy)
     name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
     bounds = {
         "surface": surface, "period": 1, "radius": Fraction(0), "window": None, "rotation": None,
