@@ -70,6 +70,9 @@ STAGES = {
         follows=False,
     ),
     "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",), follows=False),
+    "curves": Stage(
+        f"{_PROOFS}.theorems.curve_scene", "scene_curves", ("rotation_numbers",), follows=False
+    ),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 

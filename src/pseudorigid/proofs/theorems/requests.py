@@ -11,7 +11,7 @@ from ...dynamics.inputs import number
 from ...dynamics.variables import chart, states_of
 from ..checks import curve, horseshoe, periodic
 from ..checks.certificate import Finding, NotProvedError
-from ..enclosure.surface import Exact, Surface
+from ..enclosure.surface import Exact, Surface, exact
 from ..search import approximate_orbits
 from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
@@ -160,7 +160,7 @@ def prove_curve(
     rotation = number(
         "rotation_number", rotation_number, "one number between 0 and 1", lambda v: 0.0 < v < 1.0
     )
-    exact_energy = Fraction(energy)
+    exact_energy = exact("energy", Fraction(energy) if isinstance(energy, float) else energy)
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
     surface = Surface(k, g, exact_energy)
     name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"

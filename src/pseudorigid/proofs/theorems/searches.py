@@ -17,7 +17,7 @@ _PLANS = {
 }
 _CURVES = {  # the partial quotients, the error, and the strips
     "curve-fixed-point": ((5, 1, 3), "1e-37", ("0.025", "0.004", 256, 6, 6, 380)),
-    "curve-fixed-point-outer": ((5, 1, 6), "1e-39", ("0.0125", "0.002", 512, 6, 4, 940)),
+    "curve-fixed-point-outer": ((5, 1, 6), "1e-38", ("0.0125", "0.002", 512, 6, 4, 1020)),
     "curve-fixed-point-low": ((9,), "1e-37", ("0.025", "0.004", 512, 10, 6, 440)),
     "curve-six": ((1, 4, 1, 3), "5e-45", ("0.02", "0.0033", 128, 5, 5, 540)),
 }
