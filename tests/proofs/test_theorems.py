@@ -9,6 +9,7 @@ from certificates import numbers
 from flint import arb, ctx
 from independent_solver import exact_map
 from project import ROOT
+from slowly import slowly
 
 from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
@@ -21,6 +22,8 @@ from pseudorigid.proofs.search.twist import estimate
 BALL = Ball(k=0.2, g=0.04)
 ORBITS = [n for n in THEOREMS if re.match("fixed-|six-|ten-|twelve-", n)]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+CURVES = [n for n in THEOREMS if n.startswith("curve-")]  # a search takes ten seconds and more
+QUICK = [n for n in THEOREMS if n not in CURVES]
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +47,7 @@ def test_every_theorem_is_proved_with_positive_margins_in_a_line(results):
     assert THEOREMS["fixed-point"].check("nonsense").line().endswith("; not proved")
 
 
-@pytest.mark.parametrize("name", THEOREMS)
+@pytest.mark.parametrize("name", [*QUICK, *slowly(*CURVES)])
 def test_a_new_search_gives_a_certificate_that_holds(name):
     text = search_certificate(name)
     assert THEOREMS[name].check(text).verdict == "proved"

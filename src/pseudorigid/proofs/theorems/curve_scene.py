@@ -46,7 +46,7 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> scene_curves(Ball(k=0.2, g=0.04), 0.01, [0.17295]).sizes["curve"]
+    >>> scene_curves(Ball(k=0.2, g=0.04), 0.01, [0.17295]).sizes["curve"]  # doctest: +SKIP
     2
     """
     surface = Surface(*(str(value) for value in (ball.k, ball.g, energy)))
