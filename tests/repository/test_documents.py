@@ -15,8 +15,9 @@ DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
 # Commands that take minutes, or packages of their own: of these only --help is run.
-LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept")
+LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept", "article")
 LONG_PARTS = ("prove --impacts", "prove --search", "prove --pictures", "variant exact", "--slurm")
+LONG_PARTS += ("--with-packages",)
 # Folders of the repository; results and .venv are left out.
 FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")

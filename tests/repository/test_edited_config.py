@@ -22,6 +22,7 @@ def edited(document):
     for part in ("claims", "proofs"):
         scenes |= {f"my_{name}": block for name, block in document[part].items()}
     scenes["my_twist"]["energies"] = [0.001, 0.01, 0.03]  # which every variant's ball can have
+    scenes["my_families"]["span"] = [-0.001, 0.02]
     assert {block["picture"] for block in scenes.values()} == set(KINDS)
     document["variants"]["lower-energy"]["energy"] = 0.0097
     document["variants"]["mine"] = {"energy": 0.0099}

@@ -175,8 +175,9 @@ def _actions(
     """Yield the run of the workflow, and for each record what was done and what controlled it."""
     results = {}
     for path, step, record in records:
-        made = by_hash.get(record["output"]["sha256"])
-        inputs = [by_hash[digest] for digest in record["inputs"].values() if digest in by_hash]
+        made = by_hash.get(str(record["output"]["sha256"]))
+        digests = [str(digest) for digest in record["inputs"].values()]
+        inputs = [by_hash[digest] for digest in digests if digest in by_hash]
         if made:
             results[path] = made
         yield {
@@ -215,12 +216,20 @@ def _actions(
 
 
 def _records(archived: Mapping[str, bytes]) -> list[tuple[str, str, Entity]]:
-    """Return path, step and content of each record in the archive."""
+    """Return path, step and content of each record in the archive that says what it is about."""
     records = []
     for path, data in archived.items():
         if "/provenance/" in path and data:
             record = json.loads(data)
-            records.append((path, _step(record["output"]["file"]), record))
+            output, inputs, packages = (record[n] for n in ("output", "inputs", "environment"))
+            named = isinstance(output, dict) and isinstance(output.get("file"), str)
+            if (
+                named
+                and "sha256" in output
+                and isinstance(inputs, dict)
+                and isinstance(packages, dict)
+            ):
+                records.append((path, _step(output["file"]), record))
     return records
 
 

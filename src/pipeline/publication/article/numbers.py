@@ -11,6 +11,7 @@ from pseudorigid.dynamics.paper import EXPONENT
 from pseudorigid.proofs.theorems.statements import THEOREMS
 
 from ...checks import manifest, published_sets
+from ...checks.checksums import ChecksumError
 from ...checks.claims import ledger
 from ...checks.report.captions import caption_of
 from ...checks.report.page import PAPER_NUMBERS
@@ -25,11 +26,17 @@ Table = dict[str, Any]
 
 
 def numbers_of(root: Path, checked: Table) -> str:
-    """Return the JSON text for a tree whose results are current and as committed."""
+    """Return the JSON text for a tree whose results are current and as committed.
+
+    Raises ValueError, which names the file, if a manifest is missing or broken.
+    """
     facts = metadata.citation()
     verdicts = ledger.read_json(read_text(root / paths.LEDGER_DATA))
     sets = published_sets.committed_sets(checked)
-    committed = {each.folder: manifest.read(root, each.folder) for each in sets}
+    try:
+        committed = {each.folder: manifest.read(root, each.folder) for each in sets}
+    except ChecksumError as error:
+        raise ValueError(str(error)) from None
     figures = {
         scene: _figure(each.folder, each.command, scene, entry, committed[each.folder]["data"])
         for each in sets
