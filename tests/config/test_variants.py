@@ -66,11 +66,18 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
 
 def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     document = shipped()
-    document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
+    document["scenes"] = {
+        name: document["claims"][name] for name in ("rotation", "jumps", "families")
+    }
+    against_k = {"parameter": "k", "span": [0.1, 0.3], "step": 0.01}
+    document["scenes"]["against_k"] = document["scenes"]["families"] | against_k
     document |= {"variants": {"v": {"scale": 2}}, "claims": {}}
     scenes = config.check(document)["variants"]["v"]
     assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
     assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
+    families = scenes["families"]
+    assert (families["span"], families["step"]) == ([-0.0156, 0.2396], 0.002)
+    assert (scenes["against_k"]["span"], scenes["against_k"]["step"]) == ([0.1, 0.3], 0.01)
 
 
 @pytest.mark.parametrize(

@@ -91,7 +91,10 @@ def _scaled(block: YamlMapping, scale: float) -> YamlMapping:
     """Express a complete block in another unit of length."""
     ball = block["ball"] | {"g": _times(block["ball"]["g"], scale)}
     block = block | {"ball": ball}
-    for name in {"energy", "energies", "marks"} & block.keys():
+    energies = {"energy", "energies", "marks"}
+    if block.get("parameter") == "energy":  # what families are followed against
+        energies |= {"span", "step"}
+    for name in energies & block.keys():
         block[name] = _times(block[name], scale, scale)
     if isinstance(block.get("starts"), list):  # fractions of the section stay
         starts = block["starts"]
