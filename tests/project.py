@@ -165,7 +165,7 @@ def fresh_tree(path, document=None):
 
 def small(document):
     """Reduce a config to the paper's scenes with as little work as shows that they work."""
-    document |= {part: {} for part in ("variants", "sweeps", "claims", "proofs")}
+    document |= {part: {} for part in ("variants", "sweeps", "claims", "families", "proofs")}
     for block in document["scenes"].values():
         if isinstance(block.get("impacts"), list):
             block["impacts"] = [30 for _ in block["impacts"]]

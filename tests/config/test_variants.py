@@ -18,7 +18,7 @@ def with_variants(**variants):
 
 def test_the_paper_comes_first_and_variants_are_complete():
     variants = with_variants(thin={"ball": {"k": 0.3}})
-    assert list(variants) == ["paper", "claims", "proofs", "thin"]
+    assert list(variants) == ["paper", "claims", "families", "proofs", "thin"]
     assert variants["thin"]["fig2"]["ball"] == {"k": 0.3, "g": 0.04}
     assert variants["thin"].keys() == variants["paper"].keys() == BASE["scenes"].keys()
 
@@ -66,16 +66,15 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
 
 def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     document = shipped()
-    document["scenes"] = {
-        name: document["claims"][name] for name in ("rotation", "jumps", "families")
-    }
+    document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
+    document["scenes"]["energy"] = document["families"]["energy"]
     against_k = {"parameter": "k", "span": [0.1, 0.3], "step": 0.01}
-    document["scenes"]["against_k"] = document["scenes"]["families"] | against_k
-    document |= {"variants": {"v": {"scale": 2}}, "claims": {}}
+    document["scenes"]["against_k"] = document["scenes"]["energy"] | against_k
+    document |= {"variants": {"v": {"scale": 2}}, "claims": {}, "families": {}}
     scenes = config.check(document)["variants"]["v"]
     assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
     assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
-    families = scenes["families"]
+    families = scenes["energy"]
     assert (families["span"], families["step"]) == ([-0.0156, 0.2396], 0.002)
     assert (scenes["against_k"]["span"], scenes["against_k"]["step"]) == ([0.1, 0.3], 0.01)
 
@@ -86,7 +85,7 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
         ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
         ("-n", {"energy": 0.002}, ["variants: '-n'", "not begin with -"]),
         ("", {"energy": 0.002}, ["variants: ''"]),
-        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, claims, proofs"]),
+        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, claims, families"]),
         ("study", {"energy": 0.002}, ["variants: 'study'"]),
         ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
         ("v", {}, ["variants.v: {}"]),

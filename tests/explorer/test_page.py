@@ -522,8 +522,7 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
 def test_every_preset_draws_and_has_one_sentence(person):
     names = person.browser.run("return Object.keys(PRESETS)")
     assert {f"fig{n}" for n in range(2, 9)} < set(names)
-    # Families of periodic orbits are no picture of the section.
-    assert set(shipped()["claims"]) - {"families"} <= set(names)
+    assert set(shipped()["claims"]) <= set(names)
     seen = []
     for name in names:
         person.choose("preset", name)

@@ -15,7 +15,7 @@ DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
 # Commands that take minutes, or packages of their own: of these only --help is run.
-LONG = ("test", "study", "benchmark", "claims", "atlas", "sweep", "accept", "article")
+LONG = ("test", "study", "benchmark", "claims", "families", "atlas", "sweep", "accept", "article")
 LONG_PARTS = ("prove --impacts", "prove --search", "prove --pictures", "variant exact", "--slurm")
 LONG_PARTS += ("--with-packages",)
 # Folders of the repository; results and .venv are left out.

@@ -19,10 +19,10 @@ def edited(document):
     scenes["fig2"]["energy"] = 0.0095
     scenes["fig4"]["ball"] = {"k": 0.21, "g": 0.04}
     scenes |= {name: block | {"formats": ["png"]} for name, block in SCENES.items()}
-    for part in ("claims", "proofs"):
+    for part in ("claims", "families", "proofs"):
         scenes |= {f"my_{name}": block for name, block in document[part].items()}
     scenes["my_twist"]["energies"] = [0.001, 0.01, 0.03]  # which every variant's ball can have
-    scenes["my_families"]["span"] = [-0.001, 0.02]
+    scenes["my_energy"]["span"] = [-0.001, 0.02]
     assert {block["picture"] for block in scenes.values()} == set(KINDS)
     document["variants"]["lower-energy"]["energy"] = 0.0097
     document["variants"]["mine"] = {"energy": 0.0099}

@@ -1,7 +1,7 @@
 """The sets of published files that must keep their bytes, and what each is made from.
 
-They are the figures of the paper, the pictures of claims and proofs, the study's charts whose data
-are the same on every machine, and the atlas.
+They are the figures of the paper, the pictures of claims, families and proofs, the study's charts
+whose data are the same on every machine, and the atlas.
 """
 
 from pathlib import Path
@@ -43,6 +43,7 @@ class PublishedSet(NamedTuple):
 _COMMANDS = {
     PAPER: "./reproduce",
     "claims": "./reproduce claims",
+    "families": "./reproduce families",
     "proofs": "./reproduce prove --pictures",
 }
 
@@ -54,7 +55,7 @@ def committed_sets(checked: dict[str, Any]) -> list[PublishedSet]:
 
 
 def _figures(checked: dict[str, Any], variant: str) -> PublishedSet:
-    """Return the figures of the paper, or the pictures of the claims or the proofs."""
+    """Return the figures of the paper, or the pictures of claims, families or proofs."""
     variants, folder = checked["variants"], paths.PUBLISHED[variant]
     scenes, artifact_paths = variants[variant], paths.artifact_paths(variants)
     figures = paths.figures(variants, variant).items()

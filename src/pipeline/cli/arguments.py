@@ -98,6 +98,10 @@ COMMANDS = {
         ),
         details=" Makes missing results first, including the sweeps.",
     ),
+    "families": SnakemakeCommand(
+        "follow periodic orbits from birth to end: more_figures/families/",
+        details=" Takes minutes; a killed search continues.",
+    ),
     "prove": Command(
         "check the theorems from their certificates",
         _names("theorem", "theorems; without a name, all"),

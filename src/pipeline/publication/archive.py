@@ -88,7 +88,7 @@ def write(
 def refuse_unpublished(root: Path, checked: YamlMapping) -> None:
     """Raise ArchiveError for a result that is not current, or a file that is not the committed one.
 
-    Figures and data of claims, proofs, study and atlas may be missing.
+    Figures and data of claims, families, proofs, study and atlas may be missing.
     """
     for findings in verify.verify(root, checked):
         published_set = findings.published_set

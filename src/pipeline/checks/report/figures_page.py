@@ -20,6 +20,7 @@ from .captions import caption_of
 HEADINGS = (
     "The paper's figures",
     "Statements of the paper",
+    "Families of periodic orbits",
     "Theorems",
     "Accuracy and speed of methods",
     "The atlas",

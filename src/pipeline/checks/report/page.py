@@ -105,7 +105,7 @@ class _Page:
         return pictures
 
     def on_request(self) -> list[tuple[str, list[Picture]]]:
-        """Return the command and the pictures of claims, proofs, study and atlas."""
+        """Return the command and the pictures of claims, families, proofs, study and atlas."""
         sets = []
         for findings in self.sets[1:]:
             published_set = findings.published_set

@@ -5,6 +5,7 @@ PAPER = "paper"
 PUBLISHED = {
     PAPER: "paper_figures",
     "claims": "more_figures/claims",
+    "families": "more_figures/families",
     "proofs": "more_figures/proofs",
 }
 # All sets by their folders in results/.

@@ -13,9 +13,9 @@ from .words import ConfigError, refusal
 
 # Commands of ./reproduce. A scene of the same name could not be asked for.
 COMMANDS = (
-    *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "prove", "report"),
-    *("explore", "article", "archive", "verify", "accept", "clean", "benchmark", "test", "help"),
-    "all",
+    *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "families", "prove"),
+    *("report", "explore", "article", "archive", "verify", "accept", "clean", "benchmark"),
+    *("test", "help", "all"),
 )
 _Scenes = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 
@@ -28,6 +28,7 @@ class Document(Block):
     variants: Annotated[dict[Name, Any], allowed("a mapping from names to variants")] = {}
     sweeps: Annotated[dict[Name, Any], allowed("a mapping from names to sweeps")] = {}
     claims: _Scenes = {}
+    families: _Scenes = {}
     proofs: _Scenes = {}
     prove: Prove = {"impacts": 20_000}  # type: ignore[assignment]
 
