@@ -385,12 +385,15 @@ def test_a_bad_folder_of_wheels_is_reported(with_either):
         assert set_up.run(*words)[0] == 2
     (needed,) = set_up.wheels.glob("needed*")
     whole = needed.read_bytes()
-    for content in (whole[:-9] + b"corrupted", None):
-        needed.write_bytes(content) if content else needed.unlink()
+    needed.write_bytes(whole[:-9] + b"corrupted")
+    damaged = f"reproduce: {needed} is damaged: its hash is not in requirements/"
+    absent = "reproduce: could not install the packages"
+    for expected in (damaged, absent):
         status, output = set_up.run()
         assert status == 1
-        assert output.splitlines()[-1].startswith("reproduce: could not install the packages")
+        assert output.splitlines()[-1].startswith(expected)
         assert not (set_up.venv / "stamp").exists()
+        needed.unlink(missing_ok=True)
     needed.write_bytes(whole)
     environment = {"PSEUDORIGID_WHEELS": ""}
     output = set_up.run(f"--offline={set_up.wheels.name}", "fig3", **environment)

@@ -42,8 +42,8 @@ def numbers_of(root: Path, checked: Table) -> str:
         for each in sets
         for scene, entry in committed[each.folder]["scenes"].items()
     }
-    for scene, block in checked["variants"][PAPER].items():
-        figures[scene] |= {"rows": _rows(root, checked, scene), "settings": block}
+    for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
+        figures[scene] |= {"rows": _rows(root, checked, scene), "settings": entry["config"]}
     return json.dumps(
         {
             "title": metadata.OWN["article"],
