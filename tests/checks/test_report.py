@@ -121,6 +121,23 @@ def test_the_page_needs_no_network_and_its_links_have_targets(text):
     assert outline.all("html") == [{"lang": "en"}]
 
 
+def test_article_and_archives_are_linked_or_the_page_says_how_to_make_them(
+    reported, text, tmp_path
+):
+    for command in ("article", "archive"):
+        assert f"not made yet; run <code>./reproduce {command}</code>" in text
+    tree = reported.copy(tmp_path / "copy")
+    results = tree.path / "results"
+    files = [results / "article.pdf", results / "archive" / "pseudorigid-python3.13-x86_64.tar"]
+    (results / "archive").mkdir()
+    for file in files:
+        file.write_bytes(b"")
+    html = rendered(tree)
+    links = {f"../{file.relative_to(results)}" for file in files} | {"../explorer.html", "#claims"}
+    assert links <= {a["href"] for a in Outline(html).all("a")}
+    assert "not made yet" not in html
+
+
 def test_each_figure_has_its_caption_and_numbers(reported, text):
     scenes = config.load(reported.config)["scenes"]
     for scene, block in scenes.items():

@@ -28,7 +28,11 @@ from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
 from .captions import caption_of
 
-_OTHERS = ("article.pdf", "archive/pseudorigid.tar")  # in results/, linked where they exist
+# What other commands write into results/: name, pattern of its files, command.
+_OTHERS = (
+    ("Article", "article.pdf", "./reproduce article"),
+    ("Archive", "archive/pseudorigid*.tar", "./reproduce archive"),
+)
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -68,9 +72,18 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
         claims=page.claims(),
         corrected=(FALSE, CORRECTED),
         results=list(page.provenance()),
-        others=[file for file in _OTHERS if (root / "results" / file).is_file()],
+        others=list(_others(root / "results")),
         identifiers=swhid.identifiers(root),
     )
+
+
+def _others(results: Path) -> Iterator[tuple[str, str, str]]:
+    """Yield name, file and command of what other commands write; the file is empty if absent."""
+    for name, pattern, command in _OTHERS:
+        files = sorted(results.glob(pattern))
+        yield from ((f"{name} ({f.name})", f"{f.relative_to(results)}", command) for f in files)
+        if not files:
+            yield name, "", command
 
 
 class _Page:
