@@ -26,13 +26,14 @@ from flint import arb, ctx
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, Surface
-from pseudorigid.proofs.checks import horseshoe, jump, periodic
+from pseudorigid.proofs.checks import ellipticity, horseshoe, jump, periodic
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.enclosure.surface import ball_of
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search import horseshoe as horseshoe_search
 from pseudorigid.proofs.search import jump as jump_search
+from pseudorigid.proofs.search.ellipticity import propose as propose_ellipticity
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
 TWISTS = [n for n in THEOREMS if n.startswith("twist-") and n != "twist-zero"]
@@ -106,11 +107,16 @@ def stated(name, field):
       for shift in (Fraction("1e-13"), -Fraction("1e-13"))),
     *(("twist-zero", "width", width, "wid") for width in ("1e-12", "0", "-1e-13", "nan", "inf")),
     ("twist-zero", "radius", "1e-3", "as stated"),
+    *(("fixed-point-elliptic", "bands", bands, reason)
+      for bands, reason in ((0, "bands"), (1, "each band"), (-4, "bands"), (10**9, "bands"))),
+    ("fixed-point-elliptic", "trace_above", "-1/2", "not -0.46"),
+    ("fixed-point-elliptic", "trace_above", "-0.45", "not proved to be above"),
     ("jump-set", "radius", "1e-27", "not at most"),
     *(("jump-set", "speed", speed, "") for speed in ("0.2", "-0.2", "nan")),
 ])  # fmt: skip
 def test_another_number_in_a_field_is_refused(name, field, value, reason):
-    assert reason in refused(name, with_field(THEOREMS[name].text(), field, f'"{value}"'))
+    value = value if isinstance(value, int) else f'"{value}"'
+    assert reason in refused(name, with_field(THEOREMS[name].text(), field, value))
 
 
 def test_boxes_of_another_orbit_or_of_none_are_refused():
@@ -160,6 +166,23 @@ def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are
         periodic.check_only_fixed_point(text, k, g, energy)
 
 
+def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_another_theta():
+    ball, trace = (Fraction(1, 5), Fraction(1, 25)), Fraction("-0.46")
+    for energy in (Fraction(1, 20), Fraction(61, 1000)):
+        text = propose_ellipticity(*ball, energy, Fraction("-0.5"))
+        assert ellipticity.check(text, *ball, energy, Fraction("-0.5"))
+        assert f"up to {energy}" in refused("fixed-point-elliptic", text)
+    text = THEOREMS["fixed-point-elliptic"].text()
+    wide = with_field(text, "theta", "[2.30, 2.31]")
+    assert "1e-30" in refused("fixed-point-elliptic", wide)
+    other = with_field(text, "theta", '["5.450263", "5.450263000000000000000000000000000001"]')
+    assert "between 0 and pi" in refused("fixed-point-elliptic", other)
+    # At k = 1 and this energy the fixed point has long been inverse hyperbolic.
+    text = propose_ellipticity(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
+    with pytest.raises(NotProvedError, match="not proved to be above"):
+        ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
+
+
 # ---- certificates that are consistent and prove less than the statement
 
 
@@ -204,6 +227,8 @@ STRONGER = [
       for name in HORSESHOES),
     *((name, "entropy", lambda entropy: entropy * Fraction(102, 100)) for name in HORSESHOES),
     ("one-fixed-point", "energy", lambda energy: energy * Fraction(101, 100)),
+    ("fixed-point-elliptic", "energy", lambda energy: energy * Fraction(101, 100)),
+    ("fixed-point-elliptic", "trace", lambda trace: trace * Fraction(99, 100)),
     ("diffeomorphism", "energy", lambda energy: energy * Fraction(101, 100)),
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
     ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),

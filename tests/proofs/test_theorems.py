@@ -12,15 +12,17 @@ from project import ROOT
 from slowly import slowly
 
 from pseudorigid import Ball, orbit, symmetric_orbits
+from pseudorigid.dynamics.fixed_point import half_time
 from pseudorigid.dynamics.variables import chart, states_of
-from pseudorigid.proofs import THEOREMS, search_certificate
-from pseudorigid.proofs.checks import jump
+from pseudorigid.proofs import THEOREMS, Surface, search_certificate
+from pseudorigid.proofs.checks import ellipticity, jump
+from pseudorigid.proofs.checks.ellipticity import energy_at, trace_at
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search.periodic import polished
 from pseudorigid.proofs.search.twist import estimate
 
 BALL = Ball(k=0.2, g=0.04)
-ORBITS = [n for n in THEOREMS if re.match("fixed-|six-|ten-|twelve-", n)]
+ORBITS = [n for n in THEOREMS if re.match("fixed-point(-low)?$|six-|ten-|twelve-", n)]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]  # a search takes ten seconds and more
 QUICK = [n for n in THEOREMS if n not in CURVES]
@@ -93,6 +95,30 @@ def test_traces_by_differences_of_60_digits(name, results):
         trace += return_map(x, y + h)[1] - return_map(x, y - h)[1]
         stated = arb(middle(results[name].digits["trace"]))
         assert abs(trace / (2 * h) - stated) < arb("1e-26")
+
+
+@pytest.mark.parametrize("energy", ["-39/10000", "1/1000", "1/100", "3/100", "599/10000"])
+def test_the_closed_form_of_the_trace_is_that_of_the_enclosed_map(energy):
+    surface = Surface("1/5", "1/25", energy)
+    with ctx.workprec(200):
+        k, g, e = surface.constants()
+        theta = arb(half_time(0.2, float(e / g**2)))
+        for _ in range(5):  # secants
+            step = arb("1e-30")
+            slope = (energy_at(k, g, theta + step) - energy_at(k, g, theta)).mid() / step
+            theta = (theta - (energy_at(k, g, theta) - e).mid() / slope).mid()
+        point = (g / k * theta * theta.cot()).mid(), arb(0)
+        rows, image = surface.jacobian(*point)
+        assert abs(image.x - point[0]) < arb("1e-40")
+        assert abs(rows[0][0] + rows[1][1] - trace_at(k, theta)) < arb("1e-25")
+
+
+def test_the_trace_falls_as_steeply_as_differences_say():
+    with ctx.workprec(200):
+        k, step = arb(1) / 5, arb(2) ** -60
+        for theta in (arb("1.6"), arb("2.0"), arb("2.3")):
+            slope = (trace_at(k, theta + step) - trace_at(k, theta - step)) / (2 * step)
+            assert abs(slope - ellipticity._slope(k, theta)) < arb("1e-30")
 
 
 def frequency(energy, fixed, frame, q):

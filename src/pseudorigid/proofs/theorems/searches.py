@@ -2,10 +2,11 @@
 
 from fractions import Fraction
 
-from ..checks import curve, horseshoe, jump, periodic, twist
+from ..checks import curve, ellipticity, horseshoe, jump, periodic, twist
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
 from ..search import curve as curve_search
+from ..search import ellipticity as ellipticity_search
 from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
 from ..search import periodic as orbit_search
@@ -66,6 +67,7 @@ def _jump(theorem) -> str:
 SEARCHES = {
     periodic.check: _orbit,
     periodic.check_only_fixed_point: lambda it: orbit_search.propose_only_fixed_point(**it.bounds),
+    ellipticity.check: lambda it: ellipticity_search.propose(**it.bounds),
     twist.check: _twist,
     twist.check_zero: _zero,
     horseshoe.check: _horseshoe,

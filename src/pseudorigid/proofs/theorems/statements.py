@@ -13,7 +13,7 @@ from importlib import resources
 import pseudorigid
 
 from ...dynamics import paper
-from ..checks import curve, horseshoe, jump, periodic, twist
+from ..checks import curve, ellipticity, horseshoe, jump, periodic, twist
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
@@ -228,6 +228,7 @@ _JUMPS = {
     "jump": Fraction("0.27"),
 }  # fmt: skip
 _THRESHOLD = G * G * (1 + K / 2)
+_TRACE = Fraction("-0.46")  # below the fixed point's at the highest energy
 _THEOREMS = (
     *(_existence(name, orbit) for name, orbit in _ORBITS.items()),
     Theorem(
@@ -236,6 +237,14 @@ _THEOREMS = (
         "one fixed point",
         periodic.check_only_fixed_point,
         {"k": K, "g": G, "energy": K / 2 - G},
+    ),
+    Theorem(
+        "fixed-point-elliptic",
+        "at each energy above the least, -g^2/(2k), and up to k/2 - g, eq. (31), the fixed point "
+        "is elliptic; as E rises its trace falls strictly, to a value above "
+        f"{float(_TRACE):g}, and its rotation number rises strictly from its limit zero",
+        ellipticity.check,
+        {"k": K, "g": G, "energy": K / 2 - G, "trace": _TRACE},
     ),
     _horseshoe("outer", "0.326", "0.327", "0.0185"),
     _horseshoe("inner", "0.187", "0.188", "0.0083"),

@@ -1,0 +1,94 @@
+"""The fixed point's trace over all energies, by its closed form; docs/proofs.md has the argument.
+
+With theta = half the time of flight, p = 1/theta - cot(theta) and q = 2 theta - sin(2 theta),
+
+    E = (g^2/2k) ((1+k) theta^2 + (theta p)^2 - 1),
+    trace/2 = (1 + k cos(2 theta))/(1+k) - k p q/(1+k)^2.
+"""
+
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import arb, ctx
+
+from ..enclosure.surface import ball_of
+from .certificate import Certificate, Finding, NotProvedError, lowest
+from .periodic import BITS, CLOSE
+
+_MOST_BANDS = 10_000
+
+
+def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction) -> Finding:
+    """Prove that the fixed point is elliptic at all energies from -g^2/(2k) up to a given one.
+
+    The trace falls strictly as the energy rises, from 2, which it does not reach, and is above
+    `trace` at the given energy. On theta <= pi/2 every term of its derivative is negative; from
+    there to the end the derivative is enclosed over bands.
+    """
+    with ctx.workprec(BITS):
+        certificate = Certificate(text, "elliptic fixed point")
+        certificate.check_ball(k, g)
+        highest = certificate.number("energy_up_to")
+        if highest != energy:
+            raise NotProvedError(f"the certificate is of energies up to {highest}, not {energy}")
+        stated = certificate.number("trace_above")
+        if not trace <= stated:
+            raise NotProvedError(f"the trace is above {float(stated):g}, not {float(trace):g}")
+        low, high = certificate.row("theta", 2)
+        if not 0 < high - low <= CLOSE:
+            raise NotProvedError("theta is not enclosed to 1e-30")
+        inertia, gravity = ball_of(k), ball_of(g)
+        ends = [ball_of(end) for end in (low, high)]
+        if not (ends[0] > 0 and ends[1] < arb.pi()):
+            raise NotProvedError("theta is not proved to lie between 0 and pi")
+        below, above = (energy_at(inertia, gravity, end) for end in ends)
+        if not below < ball_of(highest) < above:
+            raise NotProvedError("theta is not the one of the highest energy")
+        theta = ends[0].union(ends[1])
+        last = trace_at(inertia, theta)
+        room = last - ball_of(stated)
+        if not (room > 0 and last > -2):
+            raise NotProvedError(f"the trace is not proved to be above {float(stated):g}")
+        slope = _steepness(inertia, theta.upper(), certificate.whole("bands"))
+        turns = (last / 2).acos() / (2 * arb.pi())
+        digits = {"energies up to": ball_of(highest), "trace": last, "rotation number": turns}
+        margins = {"slope": slope, "trace": lowest(room), "elliptic": lowest(last + 2)}
+        return Finding(digits, margins)
+
+
+def energy_at(k: arb, g: arb, theta: arb) -> arb:
+    """Enclose the energy at a theta, which rises with it."""
+    bend = 1 - theta * theta.cot()
+    return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
+
+
+def trace_at(k: arb, theta: arb) -> arb:
+    """Enclose the trace at a theta."""
+    sine, cosine = (2 * theta).sin_cos()
+    shear = (1 / theta - theta.cot()) * (2 * theta - sine)
+    return 2 * ((1 + k * cosine) / (1 + k) - k * shear / (1 + k) ** 2)
+
+
+def _steepness(k: arb, end: arb, bands: int) -> float:
+    """Prove that the trace falls from pi/2 to a theta, and bound its slope's modulus below."""
+    if not 1 <= bands <= _MOST_BANDS:
+        raise NotProvedError(f"{bands} bands are not from 1 to {_MOST_BANDS}")
+    start = (arb.pi() / 2).lower()
+    width = (end - start).upper() / bands
+    if not width > 0:
+        raise NotProvedError("theta does not reach pi/2, where the bands begin")
+    edges = [start + band * width for band in range(bands + 1)]
+    slopes = [_slope(k, low.union(high)) for low, high in pairwise(edges)]
+    if not all(slope < 0 for slope in slopes):
+        raise NotProvedError("the trace is not proved to fall on each band of theta")
+    return min(lowest(-slope) for slope in slopes)
+
+
+def _slope(k: arb, theta: arb) -> arb:
+    """Enclose the trace's derivative by theta."""
+    sine, cosine = theta.sin_cos()
+    double, _ = (2 * theta).sin_cos()
+    lift, spread = 1 / theta - cosine / sine, 2 * theta - double
+    growth = 1 / (sine * sine) - 1 / (theta * theta)
+    shear = growth * spread + lift * 4 * sine * sine
+    return -2 * k / (1 + k) * (2 * double + shear / (1 + k))
