@@ -17,7 +17,7 @@ from .. import config
 from ..config.schema.fields import YamlMapping
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from . import compact, data, kernel
+from . import data, kernel
 
 COPY = "docs/explorer.html"
 WEB = Path(__file__).with_name("web")
@@ -39,9 +39,10 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
         The kernel has a construct that is not translated.
     """
     kernel_script = kernel_scripts()
-    worker_script = _scripts(WORKER)
-    app_script = _scripts(APP)
-    style = compact.style(script("style.css"))
+    worker_script, app_script = (
+        _minified("application/javascript", part) for part in (WORKER, APP)
+    )
+    style = _minified("text/css", ("style.css",))
     policy = "; ".join(
         [
             "default-src 'none'",
@@ -53,31 +54,27 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
             "form-action 'none'",
         ]
     )
+    stored = _json(data.collect(checked, root))
     parts = {
+        "POLICY": f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         "STYLE": f"<style>{style}</style>",
-        "DATA": f'<script type="application/json" id="data">{_json(data.collect(checked, root))}'
-        "</script>",
+        "DATA": f'<script type="application/json" id="data">{stored}</script>',
         "SCRIPT": f'<script id="kernel">{kernel_script}</script>\n'
         f'<script type="text/plain" id="worker">{worker_script}</script>\n'
         f"<script>{app_script}</script>",
     }
-    page = compact.markup(script("index.html"))
-    page = page.replace(
-        '<meta charset="utf-8">',
-        f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
-        1,
-    )
+    page = _minified("text/html", ("index.html",))
     for name, text in parts.items():
         before, mark, after = page.partition(f"<!--{name}-->")
         if not mark:
             raise ValueError(f"web/index.html has no mark <!--{name}-->")
-        page = before + text + after
+        page = f"{before}\n{text}\n{after}"
     return page
 
 
 def kernel_scripts() -> str:
-    """Return the script that computes, in the page and in its worker."""
-    return f"{kernel.javascript()}\n{_scripts(BOTH)}"
+    """Return the script that computes, in the page and in its worker, as people may read it."""
+    return "\n".join([kernel.javascript(), *map(script, BOTH)])
 
 
 def _write_copy() -> None:
@@ -90,9 +87,13 @@ def script(name: str) -> str:
     return (WEB / name).read_text(encoding="utf-8")
 
 
-def _scripts(names: tuple[str, ...]) -> str:
-    """Return scripts of `web/` as one, without comments."""
-    return "".join(compact.script(script(name)) for name in names)
+def _minified(kind: str, names: tuple[str, ...]) -> str:
+    """Return files of `web/` as one of a media type, without what nobody reads in the page."""
+    import minify  # starts threads, which no process that forks should have
+
+    minify.config({"html-keep-comments": True})  # marks, where parts are put in
+    text: str = minify.string(kind, "".join(map(script, names)))
+    return text
 
 
 def _source(text: str) -> str:

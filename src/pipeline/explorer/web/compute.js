@@ -14,13 +14,9 @@ class Computer {
     this.waiting = new Map();
     this.worker = new Worker(this.source);
     this.worker.onmessage = ({ data }) => {
-      const { id, result, error, progress } = data;
+      const { id, result, error } = data;
       const request = this.waiting.get(id);
       if (!request) return;
-      if (progress !== undefined) {
-        request.progress?.(progress);
-        return;
-      }
       this.waiting.delete(id);
       if (error) request.reject(new Error(error));
       else request.resolve(result);
@@ -28,11 +24,11 @@ class Computer {
   }
 
   /** Ask for a job; the promise holds its result. */
-  ask(job, args, progress) {
+  ask(job, args) {
     Computer.count = (Computer.count ?? 0) + 1;
     const id = Computer.count;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, progress });
+      this.waiting.set(id, { resolve, reject });
       this.worker.postMessage({ id, job, ...args });
     });
   }

@@ -31,6 +31,7 @@ class Controls {
     for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
     element("period").append(option("all", "1 to 12"));
     element("period").value = "6";
+    for (const field of document.querySelectorAll("input")) field.autocomplete = "off";
     element("version").textContent = this.page.data.version;
     this.option = option;
   }
@@ -96,8 +97,8 @@ class Controls {
     const first =
       mine.facts.verdict === "regular"
         ? "This orbit is regular: it stays on closed curves, an island."
-        : "This orbit is chaotic: it wanders over the sea, and its exponent stays above zero.";
-    let next = "Drag along the dashed line to shoot a fan of orbits, and use the wheel, or pinch, to zoom.";
+        : "This orbit is chaotic: it wanders over the sea.";
+    let next = "Drag along the dashed line for a fan of orbits; zoom by wheel or pinch.";
     if (!this.seen.chaotic) next = "Now start one in the grey sea.";
     else if (!this.seen.regular) next = "Now start one inside the closed curves.";
     this.hint(`${first} ${next}`);
@@ -143,7 +144,14 @@ class Controls {
   }
 
   markChosen() {
-    for (const { radio, index } of this.rows ?? []) radio.checked = index === this.state.chosen;
+    const list = element("orbits");
+    for (const { radio, index } of this.rows ?? []) {
+      radio.checked = index === this.state.chosen;
+      if (!radio.checked) continue;
+      const { offsetTop, offsetHeight } = radio.parentElement;
+      const top = offsetTop - list.offsetTop;
+      list.scrollTop = Math.min(top, Math.max(list.scrollTop, top + offsetHeight - list.clientHeight));
+    }
     this.sceneKinds();
   }
 

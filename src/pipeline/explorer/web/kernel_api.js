@@ -302,11 +302,10 @@ globalThis.pseudorigid = (() => {
 
   // Compute the orbits of a figure, and compare their SHA-256 with those of the committed dataset.
   //
-  // `figure` is an entry of the page's data `check`. `progress(impacts)`, if given, is called after
-  // each orbit with the number of impacts so far. Returns the number of impacts and the first
+  // `figure` is an entry of the page's data `check`. Returns the number of impacts and the first
   // difference, null if there is none: its variable, orbit and impact, both counted from 1, of the
   // first value of the first block of values that differs.
-  function checkFigure(figure, progress = () => {}) {
+  function checkFigure(figure) {
     const total = figure.impacts.reduce((sum, impacts) => sum + impacts, 0);
     const joined = emptyOrbit(total);
     let done = 0;
@@ -315,7 +314,6 @@ globalThis.pseudorigid = (() => {
       const orbit = history(figure.k, figure.g, ...state, figure.impacts[i]);
       for (const name in joined) joined[name].set(orbit[name], done);
       done += figure.impacts[i];
-      progress(done);
     });
     let first = total, variable = null;
     for (const name in joined) {

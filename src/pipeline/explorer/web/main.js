@@ -100,7 +100,7 @@ class Explorer {
   startOrbits(places, impacts = this.state.impacts, back = this.state.back) {
     const room = MOST_ORBITS - this.orbits.length;
     if (room <= 0) {
-      this.controls.hint(`There are ${MOST_ORBITS} orbits: remove some, or clear all.`);
+      this.controls.hint(`There are ${MOST_ORBITS} orbits: remove some, or clear them.`);
       return;
     }
     for (const [p, q] of places.slice(0, room)) {

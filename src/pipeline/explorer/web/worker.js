@@ -1,7 +1,7 @@
 "use strict";
 /*
  * The worker's side of the conversation with compute.js. Each message {id, job, ...} is answered by
- * {id, result} or {id, error}; long jobs also send {id, progress}.
+ * {id, result} or {id, error}.
  */
 const followers = new Map();
 
@@ -43,8 +43,8 @@ const jobs = {
   },
 
   /** Compare the orbits of a figure with the committed dataset. */
-  check({ figure }, progress) {
-    return pseudorigid.checkFigure(figure, progress);
+  check({ figure }) {
+    return pseudorigid.checkFigure(figure);
   },
 };
 
@@ -58,7 +58,7 @@ function buffersOf(value, found = []) {
 self.onmessage = ({ data }) => {
   const { id, job } = data;
   try {
-    const result = jobs[job](data, (progress) => self.postMessage({ id, progress }));
+    const result = jobs[job](data);
     self.postMessage({ id, result }, buffersOf(result));
   } catch (error) {
     self.postMessage({ id, error: error.message });
