@@ -14,7 +14,7 @@ from pipeline.checks.claims import VERDICTS, chaos, ledger, schema
 from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from pipeline.cli.commands import claims as claim_verdicts
 from pipeline.cli.session import UsageError
-from pipeline.config import ConfigError
+from pipeline.config import ConfigError, paths
 from pipeline.records.sources import ROOT
 from pseudorigid import Ball
 
@@ -42,7 +42,7 @@ def test_verdicts_without_and_with_all_proofs(datasets, proofs):
 
 
 def test_all_theorems_of_invariant_curves_are_used():
-    curves = {name for name in schema.THEOREMS if name.startswith("twist-")} - {"twist-zero"}
+    curves = {name for name in paths.THEOREMS if name.startswith("twist-")} - {"twist-zero"}
     assert set(claims.CLAIMS[52].theorems) == set(claims.CLAIMS[70].theorems) == curves
 
 

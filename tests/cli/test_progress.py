@@ -30,6 +30,7 @@ def test_a_result_has_the_name_of_its_scene_and_step():
     assert names["results/thin/figures/fig4.png"] == ("thin/fig4", "drawing png")
     assert names["results/claims/last_curve_last_curve.nc"] == ("last_curve", "last_curve")
     assert names["results/claims/derivations.nc"] == ("claims", "derivations")
+    assert names["results/claims/theorem_six-elliptic.nc"] == ("six-elliptic", "theorem")
     assert names["results/sweep/plane_0012.nc"] == ("plane", "block 12")
     assert names["results/sweep/plane.nc"] == ("plane", "data")
     assert names["results/study/work.nc"] == ("work", "data")

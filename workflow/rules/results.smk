@@ -14,6 +14,7 @@ SECONDS = {
     "results/claims/spread_spread.nc": 55,
     "results/claims/rotation_rotation.nc": 10,
     "results/claims/flux_flux.nc": 6,
+    "results/claims/theorem_curve-six.nc": 12,
     "results/claims/derivations.nc": 3,
     "results/study/verdicts.nc": 190,
     "results/study/needs.nc": 90,
@@ -38,6 +39,7 @@ RULES = {
     "sweep_join": ("results/sweep/{scene}.nc", SWEEPS),
     "atlas_draw": ("results/sweep/figures/{scene}.{extension}", SWEEPS),
     "derivations": ("results/claims/{scene}.nc", ["derivations"]),
+    "theorem": (paths.theorem("{scene}"), paths.THEOREMS),
 }
 for name in STAGES:
     scenes = [scene for scene, block in ALL.items() if name in paths.stages(block)]

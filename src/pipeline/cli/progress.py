@@ -13,6 +13,7 @@ from ..records.record import RecordError, read_record, record_path
 from ..records.sources import ROOT
 
 NOT_YET = "not made yet"
+_MOST_CAUSES = 4  # in a line: the blocks of a sweep may differ each in another way
 Row = tuple[str, str, str]  # scene, file, state
 IDENTICAL, DIFFERS, NEW = "identical", "differs", "not committed"
 _LISTED = {IDENTICAL: "identical to the committed one", DIFFERS: "not the committed one"}
@@ -43,7 +44,9 @@ def why(freshness: Freshness, paths: list[str]) -> str:
     causes = dict.fromkeys(_cause(freshness, path) for path in own)
     if len(causes) > 1:
         causes.pop(NOT_YET, None)
-    return "; ".join(causes) or str(freshness.reason(paths[0]))
+    shown = list(causes)[:_MOST_CAUSES]
+    more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
+    return "; ".join(shown + more) or str(freshness.reason(paths[0]))
 
 
 def _changes(before: dict[str, Any], after: dict[str, Any]) -> str:

@@ -82,11 +82,18 @@ def of_all(checked: YamlMapping) -> dict[str, BuildSpec]:
     """Specify each result that a checked config can make; inputs come first."""
     variants = checked["variants"]
     specs = of_variants(variants) | of_study(variants) | of_sweeps(checked["sweeps"])
-    if "fig2" in checked["scenes"]:  # computer algebra on the paper's formulas, at its ball
-        block = {"ball": checked["ball"], "energy": checked["scenes"]["fig2"]["energy"]}
-        path, module = paths.DERIVATIONS, "pseudorigid.proofs.derivations"
-        given = module, "derivations"
-        specs[path] = _spec(path, "claims", "derivations", block, "stage", (), given, [module])
+    return specs | (_of_claims(checked) if "fig2" in checked["scenes"] else {})
+
+
+def _of_claims(checked: YamlMapping) -> dict[str, BuildSpec]:
+    """Specify what claims need beside scenes: computer algebra and the verdicts on theorems."""
+    block = {"ball": checked["ball"], "energy": checked["scenes"]["fig2"]["energy"]}
+    path, module = paths.DERIVATIONS, "pseudorigid.proofs.derivations"
+    given = module, "derivations"
+    specs = {path: _spec(path, "claims", "derivations", block, "stage", (), given, [module])}
+    for name in paths.THEOREMS:
+        path = paths.theorem(name)
+        specs[path] = _spec(path, name, "theorem", {"theorem": name}, "theorem")
     return specs
 
 

@@ -1,6 +1,7 @@
 """Stages of each scene, and paths of data and figures relative to the project's root."""
 
 import json
+from importlib import resources
 from pathlib import PurePath
 
 from pseudorigid.sweep import grid
@@ -18,6 +19,8 @@ LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 EXPLORER = "results/explorer.html"
 DERIVATIONS = "results/claims/derivations.nc"
+CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
+THEOREMS = sorted(file.name.removesuffix(".toml") for file in CERTIFICATES.iterdir())
 
 Variants = dict[str, dict[str, YamlMapping]]  # variant -> scene -> complete block
 
@@ -53,6 +56,11 @@ def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
                 path = first_paths.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
                 dataset_paths[variant, scene, stage] = path
     return dataset_paths
+
+
+def theorem(name: str) -> str:
+    """Return the path of the verdict on a theorem."""
+    return f"results/claims/theorem_{name}.nc"
 
 
 def drawn(scene: str, extension: str, variant: str = PAPER) -> str:

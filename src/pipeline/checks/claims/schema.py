@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from importlib import resources
 from typing import Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
@@ -12,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from pseudorigid.proofs.derivations import FORMULAS
 
-from ...config import ConfigError
+from ...config import ConfigError, paths
 from ...config.schema.fields import Block
 from ...config.schema.stages import STAGES
 from ...config.validation.mistakes import mistakes
@@ -21,8 +20,6 @@ from ...config.validation.words import meant
 _Words = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
 VERDICT_WORDS = get_args(_Words)
 FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS = VERDICT_WORDS
-_CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
-THEOREMS = sorted(file.name.removesuffix(".toml") for file in _CERTIFICATES.iterdir())
 
 _EXPECTED = Field(description=f"one of {', '.join(VERDICT_WORDS)}")
 VerdictWord = Annotated[_Words, _EXPECTED]
@@ -193,7 +190,7 @@ def _mistakes_of(row: Row, key: str, checks: Mapping[str, Callable[..., Outcome]
     stages = [name.rpartition("/")[2] for name in row.data if not name.startswith("atlas/")]
     named = {
         "data": (stages, (*STAGES, "derivations")),
-        "theorems": (row.theorems, THEOREMS),
+        "theorems": (row.theorems, paths.THEOREMS),
         "formulas": (row.formulas, [name for names in FORMULAS.values() for name in names]),
         "check": ([row.check] * bool(row.check), [*checks]),
     }

@@ -31,7 +31,7 @@ def run(args: Arguments) -> int:
         return 0
     with locked():
         files = figures.of_scenes(checked, "claims")
-        data = dataset_paths(checked).values()
+        data = [*dataset_paths(checked).values(), *map(paths.theorem, claims.required_theorems())]
         status = figures.make(checked, "claims", files, args.options, data)
         if status or running.is_dry_run(args.options):
             return status
@@ -71,17 +71,14 @@ def _load(
     return datasets
 
 
-def _proofs(names: Iterable[str]) -> dict[str, str]:
-    """Check theorems now: theorem -> its verdict."""
-    from pseudorigid.proofs import THEOREMS
-
-    return {name: THEOREMS[name].check().verdict for name in names}
-
-
 def write(checked: dict[str, Any]) -> list[Verdict]:
     """Judge all claims, and write CLAIMS.json and then CLAIMS.md if they differ."""
     datasets = _load(checked, claims.required_datasets(), {})
-    data = ledger.to_json(claims.judge_claims(datasets, _proofs(claims.required_theorems())))
+    proofs = {
+        name: artifacts.load(ROOT / paths.theorem(name)).attrs["verdict"]
+        for name in claims.required_theorems()
+    }
+    data = ledger.to_json(claims.judge_claims(datasets, proofs))
     verdicts = ledger.read_json(data)
     for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: ledger.render(verdicts)}.items():
         path = ROOT / name
@@ -110,9 +107,12 @@ def check(checked: dict[str, Any], number: int, given: str) -> str:
         raise CommandLineError(f"claim {number} rests on {', '.join(claim.data)}, not on {name}")
     if wrong := soundness.dataset_error(name.rpartition("/")[2], dataset):
         return f"{number}  {UNDECIDED}: {file} is no {name} of its ball and energy: {wrong}"
+    from pseudorigid.proofs import THEOREMS
+
     datasets = _load(checked, claim.data, {name: dataset})
+    proofs = {theorem: THEOREMS[theorem].check().verdict for theorem in claim.theorems}
     try:
-        verdict = claim.judge(datasets, _proofs(claim.theorems))
+        verdict = claim.judge(datasets, proofs)
     except (KeyError, IndexError, ValueError) as error:  # soundness checks only a sample
         return f"{number}  {UNDECIDED}: {file} cannot be read as {name}: {error.args[0]}"
     return f"{number}  {verdict.verdict}; {verdict.value}; {verdict.error}; {verdict.evidence}"
