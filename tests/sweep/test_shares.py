@@ -71,8 +71,20 @@ def test_nothing_is_a_cause_for_lying_near():
     by_family[:, -1] = share[:, 0] if number != held.sizes["family"] - 1 else 0.0
     held["event_energy"].values[held["event_family"].values == held.sizes["family"] - 1] = 9.0
     held["end_energy"].values[-1] = 9.0
-    table = causes(held, "energy", values, (total, total - 0.01, total + 0.01), by_family, 0.0005)
+    bounds = total, total - 0.01, total + 0.01
+    table = causes(held, "energy", values, bounds, by_family, [], 0.0005)
     assert list(table["cause_event"][1]) == ["unexplained"]
+    assert table["slope_change"][1] == pytest.approx([-0.21, 0.21])
+    assert table["slope_part"][1][:, 0] == pytest.approx([20 / 21, 20 / 21])
+    # Orbits beyond a resonance count only if they vanish at the extremum and were half of the fall.
+    for beyond, cause in (
+        ([0.15, 0.0, 0.0], "orbits beyond 1/5 vanish"),
+        ([0.08, 0.0, 0.0], "unexplained"),
+        ([0.15, 0.01, 0.0], "unexplained"),
+    ):
+        zones = [("1/5", np.array(beyond))]
+        table = causes(held, "energy", values, bounds, by_family, zones, 0.0005)
+        assert list(table["cause_event"][1]) == [cause]
     by_family[:, number], by_family[:, -1] = share[:, 0], share[:, 1]
-    table = causes(held, "energy", values, (total, total - 0.01, total + 0.01), by_family, 0.0005)
+    table = causes(held, "energy", values, bounds, by_family, [], 0.0005)
     assert table["cause_family"][1] == [number]

@@ -3,11 +3,14 @@
 A regular orbit belongs to the chain of an elliptic orbit of period n if its points under P^n go
 around exactly one of the n points. Of several such orbits the one with the longest period counts,
 since chains lie inside others. Orbits that go around the fixed point alone belong to the main
-island or to a chain around it whose period is longer than those of the families.
+island or to a chain around it whose period is longer than those of the families. A resonance p/q
+divides the main island into the orbits beyond it, whose winding number lies on the other side of
+p/q than the fixed point's rotation number, and the rest.
 """
 
 import math
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -26,6 +29,7 @@ _WIDEST = 2.8  # radians: the largest angle without a point, as seen from a poin
 _NEWTON_STEPS = 12
 _CLOSED = 1e-9  # |P^n z - z|, in section radii, of a point that Newton's method has found
 _HALF = 0.5  # share of a change for which a chain must account
+_LARGEST = 3  # chains named for each slope
 
 
 @jit
@@ -125,9 +129,11 @@ def shares(
     -------
     xarray.Dataset
         On `value`: energy, k, regular, regular_low and regular_high, and outside, the share that
-        goes around no elliptic orbit of the families; share on (value, family). On `extremum`: the
-        minima and maxima of the share, and on (extremum, side) which chain changes most from there
-        to the nearest value that differs, and its nearest event; see `causes`.
+        goes around no elliptic orbit of the families; share on (value, family); beyond on (value,
+        resonance), the part of the main island beyond a resonance of the fixed point. On
+        `extremum`: the minima and maxima of the share, and on (extremum, side) which chain changes
+        most from there to the nearest value that differs, and its nearest event. On `slope`, the
+        line between neighbouring extrema or to its ends: the chains that change most; see `causes`.
 
     Examples
     --------
@@ -140,7 +146,8 @@ def shares(
     """
     square = Fraction(str(ball.g)) ** 2
     unit, low, high = (Fraction(str(value)) for value in (step, *span))
-    rows, counts = [], []
+    rows, counts, beyond = [], [], []
+    resonances = _resonances(families)
     for i in range(-int(-low // unit), int(high // unit) + 1):
         value = unit * i
         level = value if parameter == "energy" else Fraction(str(energy))
@@ -153,6 +160,10 @@ def shares(
         regular = [a[verdicts.regular] for a in states]
         owners = _owners(this, float(level), families, parameter, regular)
         counts.append(np.bincount(owners[owners >= 0], minlength=families.sizes["family"]))
+        island = (owners >= 0) & (families["period"].values[owners] == 1)
+        winding = verdicts.winding[verdicts.regular][island]
+        ratios = [turns / order for turns, order in resonances]
+        beyond.append([np.sum((winding - ratio) * (turn - ratio) < 0.0) for ratio in ratios])
         bounds = (
             wilson(int(verdicts.strict.sum()), starts)[0],
             wilson(int(verdicts.lenient.sum()), starts)[1],
@@ -175,7 +186,14 @@ def shares(
     }
     table["share"] = ("value", "family"), share, "share in the chain of a family"
     values = columns[0] if parameter == "energy" else columns[1]
-    table |= causes(families, parameter, values, columns[2:5], share, step)
+    parts = np.array(beyond).reshape(len(rows), len(resonances)) / starts
+    table |= {
+        "resonance_turns": ("resonance", [turns for turns, _ in resonances], "p of p/q"),
+        "resonance_order": ("resonance", [order for _, order in resonances], "q of p/q"),
+        "beyond": (("value", "resonance"), parts, "share in the main island beyond p/q"),
+    }
+    zones = [(f"{p}/{q}", parts[:, i]) for i, (p, q) in enumerate(resonances)]
+    table |= causes(families, parameter, values, columns[2:5], share, zones, step)
     return xr.Dataset(described(table), attrs={"starts": starts, "impacts": impacts})
 
 
@@ -232,38 +250,66 @@ def extrema(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[
     return sorted(found)
 
 
-def causes(families, parameter, values, regular, share, step) -> dict:
-    """Return variables on `extremum` and (extremum, side) from the shares (value, family).
+def _resonances(families: xr.Dataset) -> list[tuple[int, int]]:
+    """Return (p, q) of the resonances p/q that the fixed point passes, by the ratio."""
+    fixed = families["period"].values[families["event_family"].values] == 1
+    chosen = np.flatnonzero(fixed & (families["event_kind"].values == "resonance")).tolist()
+    names = "event_turns", "event_order"
+    pairs = {tuple(int(families[name].values[i]) for name in names) for i in chosen}
+    return sorted(pairs, key=lambda pair: pair[0] / pair[1])
 
-    `regular` holds the regular share and the ends of its interval. On each side the chain counts
-    whose share changes most, in the direction of the regular share, from the extremum to the
-    nearest value that differs by more than the intervals. Its nearest event is the cause of the
-    extremum only if the chain accounts for at least half of the change and the event lies within
-    one step of the extremum.
+
+def causes(families, parameter, values, regular, share, zones, step) -> dict:
+    """Return variables on `extremum`, (extremum, side) and `slope` from the shares (value, family).
+
+    `regular` holds the regular share and the ends of its interval; `zones` are pairs of p/q and the
+    share of the main island beyond it. A change is that from an extremum to the nearest value that
+    differs by more than the intervals, or to the neighbouring extremum. An event is the cause of
+    an extremum only if its chain, the one that changes most, accounts for at least half of such a
+    change and the event lies within one step of the extremum. The orbits beyond p/q are the cause
+    if their vanishing, within a step, accounts for at least half of a change.
     """
-    rows, sides_of = [], []
-    for i, *sides in extrema(*regular):
+    rows, sides_of, slopes = [], [], []
+    found = extrema(*regular)
+    turning = [0, *(i for i, *_ in found), len(values) - 1]
+
+    def parts(i: int, j: int, column: np.ndarray) -> Any:
+        change = regular[0][j] - regular[0][i]
+        return (column[j] - column[i]) / (change if change != 0.0 else math.inf)
+
+    for n, (i, *sides) in enumerate(found, 1):
         cause: tuple = (0.0, -1, "unexplained", math.nan)
-        found = []
-        for j in sides:
-            parts = (share[j] - share[i]) / (regular[0][j] - regular[0][i])
-            number = int(np.argmax(parts))
-            part = float(parts[number])
+        beside = []
+        for j in (*sides, turning[n - 1], turning[n + 1]):
+            changed = parts(i, j, share)
+            number = int(np.argmax(changed))
+            part = float(changed[number])
             events = _events_of(families, parameter, number)
             event, at = min(
                 events, key=lambda item: abs(item[1] - values[i]), default=("", math.nan)
             )
-            found.append((values[j], number, part, event, at))
-            if part >= _HALF and abs(at - values[i]) <= step * (1.0 + 1e-9):
-                cause = max(cause, (part, number, event, at), key=lambda row: row[0])
+            beside.append((values[j], number, part, event, at))
+            near = [(part, number, event, at)]
+            for name, zone in zones:
+                vanishes = f"orbits beyond {name} vanish"
+                for k in (m for m in (i - 1, i + 1) if zone[i] == 0.0 and zone[m] > 0.0):
+                    middle = 0.5 * (values[i] + values[k])
+                    near.append((float(parts(i, j, zone)), -1, vanishes, middle))
+            for row in near:
+                if row[0] >= _HALF and abs(row[3] - values[i]) <= step * (1.0 + 1e-9):
+                    cause = max(cause, row, key=lambda row: row[0])
         kind = "minimum" if regular[0][sides[0]] > regular[0][i] else "maximum"
         rows.append((values[i], kind, *cause[1:]))
-        sides_of.append(found)
+        sides_of.append(beside[:2])
+    for i, j in pairwise(turning) if found else ():
+        changed = parts(i, j, share)
+        most = np.argsort(-np.abs(changed), kind="stable")[:_LARGEST].tolist()
+        slopes.append((values[i], values[j], regular[0][j] - regular[0][i], most, changed[most]))
     names = {
         "extremum_at": "energy, or k, of an extremum of the regular share",
         "extremum_kind": "minimum or maximum",
-        "cause_family": "family whose event is the cause, -1 if the extremum is unexplained",
-        "cause_event": "that event, or unexplained",
+        "cause_family": "family whose event is the cause, -1 if there is none",
+        "cause_event": "that event, or orbits of the main island that vanish, or unexplained",
         "cause_at": "energy, or k, of that event",
     }
     columns = list(zip(*rows, strict=True)) if rows else [()] * len(names)
@@ -282,6 +328,21 @@ def causes(families, parameter, values, regular, share, step) -> dict:
         table[name] = ("extremum", "side"), [[r[index] for r in pair] for pair in sides_of], text
         if not sides_of:
             table[name] = ("extremum", "side"), np.empty((0, 2)), text
+    names = {
+        "slope_from": "energy, or k, at which the line between neighbouring extrema begins",
+        "slope_to": "energy, or k, at which it ends",
+        "slope_change": "change of the regular share along it",
+    }
+    for index, (name, text) in enumerate(names.items()):
+        table[name] = "slope", [row[index] for row in slopes], text
+    size = len(slopes), min(_LARGEST, share.shape[1])
+    names = {
+        "slope_family": "families whose chains change most along it",
+        "slope_part": "their changes over the change of the regular share",
+    }
+    for index, (name, text) in enumerate(names.items(), 3):
+        column = np.array([row[index] for row in slopes]).reshape(size)
+        table[name] = ("slope", "largest"), column, text
     return table
 
 

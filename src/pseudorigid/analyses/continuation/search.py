@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 
@@ -20,6 +21,7 @@ _BESIDE = 1e-6, 1e-5, 1e-4, 1e-3
 _OFFSETS = np.cumprod(np.append(1e-5, np.full(399, 1.0204)))
 _NEAR_RIM, _NEAR_TIME = 1e-5, 1e-2  # of a grazing orbit from its partner, in p and total time
 _NEAR_EVENT = 1e-3  # largest distance, in p and in q, from a collapsed end to the parent's event
+_AT_REST = 0.999  # |q| on both lines, above which the ball is all but at rest on the floor
 _ASIDE = 3e-3  # distance from a pitchfork, in section radii, at which its branch is entered
 
 
@@ -110,45 +112,78 @@ class Search:
             yield done
 
     def switch(self) -> int:
-        """Add the families that branch off at resonances and doublings; return how many are new."""
-        new, number = 0, 0
+        """Add the families that branch off or go on beyond a grazing; return how many are new."""
+        before, number = len(self.families), 0
         while number < len(self.families):
             family = self.families[number]
             number += 1
             for event in family.events:
                 short = family.period * event.order <= self.longest
                 if event.kind in ("resonance", "doubling") and short:
-                    new += sum(self.add(*child) for child in self.children(family, event))
-        return new
+                    for child in self.children(family, event):
+                        self.add(*child)
+            for end in family.ends:
+                if end.kind in ("rim", "touch") and end.point is not None:
+                    self._go_on(family, end)
+        return len(self.families) - before
 
     def children(self, family: Family, event: Event) -> list[tuple[int, int, Point]]:
         """Return (period, line, point) of the orbits next to an event, on both sides of it."""
         found = []
-        period = family.period * event.order
-        width = self.parameter.high - self.parameter.low
-        for p in (event.point.p + sign * part * width for part in _BESIDE for sign in (-1.0, 1.0)):
-            if not self.parameter.low < p < self.parameter.high:
-                continue
+        for p in self._levels_beside(event.point.p):
             near = solve_at(family.system, (event.point.q, p), 0.05)
             if near is None:  # past a fold of the parent
                 near = event.point
-            k, rho = self.parameter.k_and_rho(p)
             for line, q in symmetric_points(family.system, near):
-                if line not in lines(period):
-                    continue
-                system = self.systems[period, line]
-                for side in (_OFFSETS, -_OFFSETS):
-                    grid = q + side
-                    grid = grid[(grid > -1.0) & (grid < 1.0)]
-                    values = np.empty((grid.size, period + 1))
-                    scan(line, k, rho, grid, period, values)
-                    column = values[:, period]
-                    (cell,) = np.nonzero(column[:-1] * column[1:] <= 0.0)
-                    for i in cell.tolist():
-                        low, high = sorted((grid[i], grid[i + 1]))
-                        point = root_between(system, p, low, high)
-                        if point is not None and system.is_prime(point):
-                            found.append((period, line, point))
+                found += self._beside(family.period * event.order, line, q, p)
+        return found
+
+    def _go_on(self, family: Family, end: End) -> None:
+        """Add the families that go on where an impact of this one grazes, unless one is known."""
+        if any(self._meet(family, end, *other) for other in self._grazing_ends()):
+            return
+        longer = end.kind == "touch"
+        rounds = range(1, self.longest // family.period + 1) if longer else (1,)
+        periods = [
+            n
+            for r in rounds
+            for less in range(1, 2 * r + 1)
+            for n in ((r * family.period + less,) if longer else (family.period - less,))
+            if 1 <= n <= self.longest
+        ]
+        for line, q in symmetric_points(family.system, end.point):
+            # At rest on the floor an orbit passes from one line to the other.
+            sides = (FIX_R, FIX_RP) if abs(q) > _AT_REST else (line,)
+            for p in self._levels_beside(end.p):
+                for period, side in product(dict.fromkeys(periods), sides):
+                    for child in self._beside(period, side, q, p):
+                        self.add(*child)
+
+    def _levels_beside(self, p: float) -> list[float]:
+        """Return parameters on both sides of one, within the range."""
+        low, high = self.parameter.low, self.parameter.high
+        beside = (p + sign * part * (high - low) for part in _BESIDE for sign in (-1.0, 1.0))
+        return [value for value in beside if low < value < high]
+
+    def _beside(self, period: int, line: int, q: float, p: float) -> list[tuple[int, int, Point]]:
+        """Return (period, line, point) of the orbits on both sides of a point of a line."""
+        found: list[tuple[int, int, Point]] = []
+        if line not in lines(period):
+            return found
+        system = self.systems[period, line]
+        k, rho = self.parameter.k_and_rho(p)
+        for side in (_OFFSETS, -_OFFSETS):
+            grid = q + side
+            grid = grid[(grid > -1.0) & (grid < 1.0)]
+            values = np.empty((grid.size, period + 1))
+            scan(line, k, rho, grid, period, values)
+            column = values[:, period]
+            (cell,) = np.nonzero(column[:-1] * column[1:] <= 0.0)
+            for i in cell.tolist():
+                low, high = sorted((grid[i], grid[i + 1]))
+                point = root_between(system, p, low, high)
+                if point is not None and system.is_prime(point):
+                    found.append((period, line, point))
         return found
 
     def break_symmetry(self) -> None:
@@ -263,27 +298,40 @@ class Search:
             end.turns, end.order = event.turns, event.order
             end.p, end.q = event.point.p, q
 
-    def _partner(self, family: Family, end: End) -> None:
-        """Find the family whose flight touches the floor where an impact of this one grazes.
+    def _grazing_ends(self) -> Iterator[tuple[Family, End]]:
+        """Yield the ends at which an impact grazes."""
+        for family in self.families:
+            yield from ((family, end) for end in family.ends if end.kind in ("rim", "touch"))
 
-        Without its grazing impacts the orbit is one of the other family, traversed once or, where
-        it grazes only in some of its rounds, several times.
+    @staticmethod
+    def _meet(first: Family, end: End, second: Family, other: End) -> int:
+        """Return in how many rounds of the shorter of two orbits they meet, 0 if they do not.
+
+        One of them touches the floor in a flight where an impact of the other one grazes. Without
+        its grazing impacts the longer orbit is the shorter one, traversed once or, where it grazes
+        only in some of its rounds, several times.
         """
-        for other in self.families:
-            rounds = max(1, family.period // other.period)
-            grazing_impacts = family.period - rounds * other.period
-            if not 1 <= grazing_impacts <= 2 * rounds:
-                continue
-            for touch in other.ends:
-                if touch.kind != "touch":
-                    continue
-                away = abs(touch.p - end.p) / end.p
-                time = family.system.time(end.point) - rounds * other.system.time(touch.point)
-                if away < _NEAR_RIM and abs(time) < _NEAR_TIME:
-                    end.family, end.p = other.number, touch.p
-                    if rounds == 1 and (family.line < 0) == (other.line < 0):
-                        touch.family = family.number
-                    return
+        if (end.kind, other.kind) == ("touch", "rim"):
+            first, end, second, other = second, other, first, end
+        if (end.kind, other.kind) != ("rim", "touch"):
+            return 0
+        rounds = max(1, first.period // second.period)
+        grazing_impacts = first.period - rounds * second.period
+        if not 1 <= grazing_impacts <= 2 * rounds:
+            return 0
+        time = first.system.time(end.point) - rounds * second.system.time(other.point)
+        away = abs(other.p - end.p) / end.p
+        return rounds if away < _NEAR_RIM and abs(time) < _NEAR_TIME else 0
+
+    def _partner(self, family: Family, end: End) -> None:
+        """Find the family whose flight touches the floor where an impact of this one grazes."""
+        for other, touch in self._grazing_ends():
+            rounds = self._meet(family, end, other, touch)
+            if rounds:
+                end.family, end.p = other.number, touch.p
+                if rounds == 1 and (family.line < 0) == (other.line < 0):
+                    touch.family = family.number
+                return
 
 
 def positions(system: Orbits, point: Point) -> list[float]:
