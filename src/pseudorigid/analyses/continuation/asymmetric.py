@@ -11,16 +11,17 @@ import numpy as np
 
 from ...kernel.arithmetic import quadrant
 from ...kernel.compiled import jit
-from ...kernel.flight import first_impact
+from ...kernel.flight import first_impact, gap
 from ...kernel.impact import flight_derivatives, impact_coefficients, rebound
 from .curve import Place, Point
-from .half_orbit import ENERGY, LONGEST_PERIOD
+from .half_orbit import ENERGY, LONGEST_PERIOD, maximum, nearby_root
 
 # Entries of the result of `evaluate_orbit`: the derivatives of (X, Y) after the period by X, Y and
 # the parameter; from POINTS on the points (X, Y), from FLIGHTS on the times of flight.
 DX, DY, DP, TOTAL, SLOWEST, POINTS = 0, 2, 4, 6, 7, 8
 FLIGHTS = POINTS + 2 * (LONGEST_PERIOD + 1)
 ROOM = FLIGHTS + LONGEST_PERIOD
+NO_GUESS = np.empty(0)
 
 # Contact speed, in units where g = 1, below which an orbit is not followed: derivatives grow like
 # its reciprocal.
@@ -28,8 +29,12 @@ _LEAST_SPEED = 1e-5
 
 
 @jit
-def evaluate_orbit(period, parameter, k, rho, at_x, at_y, out):
-    """Write an orbit of `period` impacts from (X, Y) and its derivatives to out (ROOM,)."""
+def evaluate_orbit(period, parameter, k, rho, at_x, at_y, guess, out):
+    """Write an orbit of `period` impacts from (X, Y) and its derivatives to out (ROOM,).
+
+    If `guess` is not empty, it has approximate times of flight, from whose neighbourhood the times
+    are taken, whether an earlier impact ends the flight or not.
+    """
     coefficients = impact_coefficients(k)
     energy = 0.5 * (rho - 1.0) * (rho + 1.0) / k
     rho_p, k_p = (1.0, 0.0) if parameter == ENERGY else (energy / rho, 1.0)
@@ -59,7 +64,11 @@ def evaluate_orbit(period, parameter, k, rho, at_x, at_y, out):
     out[POINTS], out[POINTS + 1] = at_x, at_y
     for i in range(period):
         b, c, s = rebound(v, w, k, coefficients)
-        tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
+        if guess.size > 0:
+            tau = nearby_root(guess[i], x, b, c, s, 0.0)
+            _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+        else:
+            tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
         sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
         more = 2.0 * s / ((1.0 + k) * (1.0 + k))
         x, v = p, b + tau
@@ -88,6 +97,40 @@ def evaluate_orbit(period, parameter, k, rho, at_x, at_y, out):
     out[TOTAL], out[SLOWEST] = total, slowest
 
 
+@jit
+def flight_heights(k, rho, at_x, at_y, times, near, out):
+    """Write the time and value of the gap's largest maximum in each flight to out (flights, 2).
+
+    `times` are the flights' times. Where near[i] is not NaN the maximum next to that time is taken;
+    rows without a maximum are NaN. The gap is negative where the flight misses the floor.
+    """
+    coefficients = impact_coefficients(k)
+    x, y = (1.0 + rho * at_x) / k, rho * math.sqrt((1.0 + k) / k) * at_y
+    s = rho * math.sqrt(1.0 + k) / k * math.sqrt(1.0 - at_x * at_x - at_y * at_y)
+    v, w = (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+    for i in range(times.size):
+        b, c, s = rebound(v, w, k, coefficients)
+        tau = times[i]
+        out[i, 0], out[i, 1] = math.nan, math.nan
+        if near[i] > 0.0:
+            t = maximum(near[i], x, b, c, s)
+            out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0]
+        else:
+            steps = int(tau / 0.02) + 8
+            before = 0.0
+            for j in range(1, steps + 1):
+                t = tau * j / steps
+                _, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
+                if before > 0.0 and df <= 0.0:
+                    peak = maximum(t - 0.5 * tau / steps, x, b, c, s)
+                    height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0]
+                    if 0.0 < peak < tau and not height <= out[i, 1]:
+                        out[i, 0], out[i, 1] = peak, height
+                before = df
+        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+        x, v, w = p, b + tau, max(rate, -(b + tau))
+
+
 class AsymmetricOrbits:
     """Orbits of one period without symmetry, as a `System` of `curve`."""
 
@@ -106,7 +149,8 @@ class AsymmetricOrbits:
             return None
         k, rho = self.parameter.k_and_rho(p)
         out = np.empty(ROOM)
-        evaluate_orbit(self.period, self.parameter.kind, k, rho, at_x, at_y, out)
+        kind = self.parameter.kind
+        evaluate_orbit(self.period, kind, k, rho, at_x, at_y, NO_GUESS, out)
         a, c, b, d, x_p, y_p = out[:6].tolist()
         points = out[POINTS : POINTS + 2 * self.period + 2].reshape(-1, 2)
         defect = tuple((points[-1] - points[0]).tolist())

@@ -66,11 +66,11 @@ class Curve(NamedTuple):
     reason: str
 
 
-def _dot(a: Place, b: Place) -> float:
+def dot(a: Place, b: Place) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
-def _cross(a: Place, b: Place) -> Place:
+def cross(a: Place, b: Place) -> Place:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
@@ -82,8 +82,8 @@ def _rows(system: System, point: Point) -> list[Place]:
 def tangent(system: System, point: Point) -> Place:
     """Return the unit tangent, in scaled coordinates, oriented by the equations."""
     rows = _rows(system, point)
-    vector = (-rows[0][1], rows[0][0]) if len(rows) == 1 else _cross(*rows)
-    size = math.sqrt(_dot(vector, vector))
+    vector = (-rows[0][1], rows[0][0]) if len(rows) == 1 else cross(*rows)
+    size = math.sqrt(dot(vector, vector))
     return tuple(x / size for x in vector) if 0.0 < size < math.inf else (math.nan,) * len(vector)
 
 
@@ -106,8 +106,8 @@ def _newton_step(rows: list[Place], defect: Place, along: Place) -> Place | None
         slope = b * along[0] - a * along[1]
         vectors: list[Place] = [(-along[1], along[0])]
     else:
-        vectors = [_cross(rows[1], along), _cross(along, rows[0])]
-        slope = _dot(rows[0], vectors[0])
+        vectors = [cross(rows[1], along), cross(along, rows[0])]
+        slope = dot(rows[0], vectors[0])
     if not 0.0 < abs(slope) < math.inf:
         return None
     return tuple(
@@ -149,7 +149,7 @@ def solve_at(system: System, place: Place, reach: float) -> Point | None:
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
     """Return whether a step stays on its curve."""
     before, between, after = (tangent(system, point) for point in (old, predicted, new))
-    if not (_dot(before, after) > _STRAIGHT and _dot(between, after) > _STRAIGHT):
+    if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
         return False
     if not distance(system, new.place, predicted.place) <= _CORRECTION * step:
         return False
@@ -206,7 +206,7 @@ def _chord(system: System, first: Point, last: Point) -> tuple[Place, float]:
     """Return the unit vector from one point to another, in scaled coordinates, and its length."""
     difference = [b - a for a, b in zip(first.place, last.place, strict=True)]
     vector = (*difference[:-1], difference[-1] / system.scale)
-    length = math.sqrt(_dot(vector, vector))
+    length = math.sqrt(dot(vector, vector))
     return tuple(x / length if length > 0.0 else 0.0 for x in vector), length
 
 
@@ -214,12 +214,12 @@ def part_of_chord(system: System, first: Point, last: Point, point: Point) -> fl
     """Return where a point lies along the chord between two points, 0 to 1."""
     along, length = _chord(system, first, last)
     across, away = _chord(system, first, point)
-    return _dot(along, across) * away / length if length > 0.0 else 0.0
+    return dot(along, across) * away / length if length > 0.0 else 0.0
 
 
 def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
     """Return whether the segment from `old` to `new` passes through `start` in its direction."""
-    if not _dot(tangent(system, start), tangent(system, new)) > _STRAIGHT:
+    if not dot(tangent(system, start), tangent(system, new)) > _STRAIGHT:
         return False
     part = part_of_chord(system, old, new, start)
     along, length = _chord(system, old, new)

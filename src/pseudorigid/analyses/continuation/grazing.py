@@ -4,8 +4,16 @@ import math
 
 import numpy as np
 
-from .asymmetric import SLOWEST, AsymmetricOrbits
-from .curve import Point
+from .asymmetric import (
+    FLIGHTS,
+    POINTS,
+    ROOM,
+    SLOWEST,
+    AsymmetricOrbits,
+    evaluate_orbit,
+    flight_heights,
+)
+from .curve import Place, Point, cross, dot
 from .families import End
 from .half_orbit import FIX_RP, H_P, LOWEST_SPEED, SIZE, H, evaluate, touches
 from .symmetric import Orbits
@@ -21,8 +29,10 @@ def grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
     rim, where the speed of an impact vanishes.
     """
     if isinstance(system, AsymmetricOrbits):
-        kind = "rim" if float(last.data[SLOWEST]) < 2.0 * _SLOW else "touch"
-        return End(kind, last.p, last.q, point=last)
+        if float(last.data[SLOWEST]) < 2.0 * _SLOW:
+            return End("rim", last.p, last.q, point=last)
+        touched = _asymmetric_touch(system, last)
+        return touched or End("unresolved", last.p, last.q, point=last)
     k, rho = system.parameter.k_and_rho(last.p)
     times = system.times(last)
     heights = np.empty((times.size, 2))
@@ -37,6 +47,58 @@ def grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
         return end
     kind = "rim" if speed < _SLOW else "unresolved"
     return End(kind, last.p, last.q, impact=flight, point=last)
+
+
+def _asymmetric_touch(system: AsymmetricOrbits, last: Point) -> End | None:
+    """Solve for the orbit without symmetry of which a flight touches the floor."""
+    period, kind = system.period, system.parameter.kind
+    times = last.data[FLIGHTS : FLIGHTS + period].copy()
+    near, heights, out = np.full(period, np.nan), np.empty((period, 2)), np.empty(ROOM)
+    place = last.place
+    k, rho = system.parameter.k_and_rho(last.p)
+    flight_heights(k, rho, *place[:2], times, near, heights)
+    if np.all(np.isnan(heights[:, 1])):
+        return None
+    flight = int(np.nanargmax(heights[:, 1]))
+    near[flight] = heights[flight, 0]
+
+    def values(place: Place) -> Place:
+        k, rho = system.parameter.k_and_rho(place[2])
+        evaluate_orbit(period, kind, k, rho, *place[:2], times, out)
+        found = out[FLIGHTS : FLIGHTS + period].copy()
+        flight_heights(k, rho, *place[:2], found, near, heights)
+        x, y = out[POINTS + 2 * period : POINTS + 2 * period + 2].tolist()
+        return x - place[0], y - place[1], float(heights[flight, 1])
+
+    least, best = math.inf, place
+    for _ in range(30):
+        at = values(place)
+        error = sum(map(abs, at))
+        if error < least:
+            least, best = error, place
+        elif least < 1e-12:
+            break
+        columns = []
+        for i in range(3):
+            step = 1e-7 * (place[2] if i == 2 else 1.0)
+            moved = values(tuple(z + step * (i == j) for j, z in enumerate(place)))
+            columns.append([(b - a) / step for a, b in zip(at, moved, strict=True)])
+        first, second, third = (tuple(row) for row in zip(*columns, strict=True))
+        vectors = cross(second, third), cross(third, first), cross(first, second)
+        determinant = dot(first, vectors[0])
+        if not 0.0 < abs(determinant) < math.inf:
+            return None
+        place = tuple(
+            z - sum(h * vector[i] for h, vector in zip(at, vectors, strict=True)) / determinant
+            for i, z in enumerate(place)
+        )
+        if not all(abs(a - b) < _FAR for a, b in zip(place, last.place, strict=True)):
+            return None
+    if not least < 1e-11:
+        return None
+    values(best)
+    point = last._replace(place=best, data=out.copy())
+    return End("touch", best[2], best[0], impact=flight, point=point)
 
 
 def _touch(system: Orbits, last: Point, times: np.ndarray, flight: int, at: float) -> End | None:

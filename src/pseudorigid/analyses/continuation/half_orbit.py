@@ -82,7 +82,7 @@ def _fall(a, depth):
 
 
 @jit
-def _nearby_root(t, x, b, c, s, depth):
+def nearby_root(t, x, b, c, s, depth):
     """Return the root of the gap, less `depth`, that Newton's method reaches from t."""
     for _ in range(50):
         f, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
@@ -165,7 +165,7 @@ def evaluate(line, period, parameter, k, rho, q, guess, out):
         xp, vp, wp = a_p, k * w_p + (w if parameter == INERTIA else 0.0), w_p
     else:
         depth = 0.5 * (rho * r) * (rho * r) / k
-        theta = _nearby_root(guess[0], a, 0.0, 0.0, 0.0, depth) if tracked else _fall(a, depth)
+        theta = nearby_root(guess[0], a, 0.0, 0.0, 0.0, depth) if tracked else _fall(a, depth)
         out[TIMES] = theta
         n_times = 1
         total = theta
@@ -189,7 +189,7 @@ def evaluate(line, period, parameter, k, rho, q, guess, out):
     for _ in range(half_length(line, period)):
         b, c, s = rebound(v, w, k, coefficients)
         if tracked:
-            tau = _nearby_root(guess[n_times], x, b, c, s, 0.0)
+            tau = nearby_root(guess[n_times], x, b, c, s, 0.0)
             _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
         else:
             tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
@@ -250,7 +250,7 @@ def evaluate(line, period, parameter, k, rho, q, guess, out):
 
 
 @jit
-def _maximum(t, x, b, c, s):
+def maximum(t, x, b, c, s):
     """Return the time near t at which the gap has a maximum, by Newton's method."""
     for _ in range(50):
         _, df, ddf, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
@@ -287,7 +287,7 @@ def touches(line, period, k, rho, q, times, near, out):
         if near[i] >= 0.0 or near[i] < 0.0:
             t = near[i]
             if t > 0.0:
-                t = _maximum(t, x, b, c, s)
+                t = maximum(t, x, b, c, s)
             out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0] - low
         else:
             steps = int(tau / 0.02) + 8
@@ -298,7 +298,7 @@ def touches(line, period, k, rho, q, times, near, out):
                 t = tau * j / steps
                 _, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
                 if before > 0.0 and df <= 0.0:
-                    peak = _maximum(t - 0.5 * tau / steps, x, b, c, s)
+                    peak = maximum(t - 0.5 * tau / steps, x, b, c, s)
                     if not 0.0 < peak < tau * (1.0 + 1e-9):
                         peak = t
                     height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0] - low
