@@ -14,11 +14,16 @@ from mpmath import mp, mpf
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses.continuation import search
+from pseudorigid.analyses.continuation.asymmetric import AsymmetricOrbits
 from pseudorigid.analyses.continuation.curve import Point, locate, solve_at, trace
+from pseudorigid.analyses.continuation.grazing import grazing
 from pseudorigid.analyses.continuation.half_orbit import ENERGY, FIX_R, INERTIA
 from pseudorigid.analyses.continuation.symmetric import Parameter
 from pseudorigid.analyses.families import families
 from pseudorigid.dynamics import periodic
+from pseudorigid.kernel.arithmetic import quadrant
+from pseudorigid.kernel.flight import gap
+from pseudorigid.kernel.impact_law import impact_coefficients, rebound
 
 PAPER = Ball(0.2, 0.04)
 
@@ -150,6 +155,20 @@ def test_every_end_has_a_name(six):
                 assert end.family >= 0
             if end.kind == "resonance":
                 assert family.period == end.order * six.families[end.family].period
+
+
+def test_families_go_on_where_an_impact_grazes():
+    """From a level below the grazing, the search finds the family that begins there."""
+    found = search.Search(Parameter(ENERGY, 0.2, rho(PAPER, 0.0115), rho(PAPER, 0.0135)), 6)
+    for _ in found.sweep([rho(PAPER, 0.0120)]):
+        pass
+    assert 5 not in {family.period for family in found.families}
+    found.switch()
+    found.link()
+    (five,) = (family for family in found.families if family.period == 5)
+    (end,) = (end for end in five.ends if end.kind == "touch")
+    assert energy_of(found, end.p) == pytest.approx(0.012520264234, abs=1e-12)
+    assert found.families[end.family].period == 6
 
 
 # --- 60 digits ----------------------------------------------------------------------------------
@@ -309,6 +328,31 @@ def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits(six
 
         exact = solved(on_fix_rp, (energy, a))[0]
         assert abs(energy / exact - 1) < mpf("1e-12")
+
+
+def test_a_touch_of_an_orbit_without_symmetry_is_solved_for():
+    """Next to the end of a family of period 9: one flight's gap has the maximum 0."""
+    energy, x, y = 0.04337870745, 0.4102763193, -0.1254932613
+    along = Parameter(ENERGY, PAPER.k, rho(PAPER, 0.03), rho(PAPER, 0.05))
+    radius = rho(PAPER, energy)
+    scale = PAPER.g * radius * math.sqrt((1.0 + PAPER.k) / PAPER.k)
+    place = (PAPER.k * x / PAPER.g - 1.0) / radius, y / scale, radius
+    system = AsymmetricOrbits(9, along)
+    end = grazing(system, system.point(place))
+    assert end.kind == "touch"
+    at_x, at_y, radius = end.point.place
+    energy = along.energy(radius) * PAPER.g**2
+    x = PAPER.g * (1.0 + radius * at_x) / PAPER.k
+    y = PAPER.g * radius * math.sqrt((1.0 + PAPER.k) / PAPER.k) * at_y
+    state = PAPER.state_xy(x, y, energy)
+    for _ in range(end.impact):
+        state = PAPER.impact(*state)[:3]
+    x, v, w = (value / PAPER.g for value in state)
+    b, c, s = rebound(v, w, PAPER.k, impact_coefficients(PAPER.k))
+    heights = [gap(t, x, b, c, s, 1.0, quadrant(t))[:2] for t in np.linspace(0.05, 9.0, 100_000)]
+    value, rate = np.array(heights).T
+    (tops,) = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0))
+    assert max(value[tops[0]], value[tops[0] + 1]) == pytest.approx(0.0, abs=1e-8)
 
 
 # --- a system in closed form ---------------------------------------------------------------------
