@@ -18,7 +18,7 @@ from pseudorigid.figures.axes.panel import Panel
 from pseudorigid.figures.canvas.render import render
 
 PAPER = {"k": 0.2, "g": 0.04}
-COSTLY = ("flux", "horseshoe", "tangle", "closeup")
+COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves")
 
 
 def checked(block):

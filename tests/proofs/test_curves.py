@@ -5,7 +5,6 @@ import re
 from fractions import Fraction
 from functools import cache
 from math import pi, sqrt
-from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ from certificates import numbers
 from flint import acb, arb, ctx
 from matplotlib.path import Path
 from slowly import slowly
+from small_curve import SMALL
 
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of
@@ -21,29 +21,17 @@ from pseudorigid.proofs.checks import circle, curve
 from pseudorigid.proofs.checks.certificate import NotProvedError
 from pseudorigid.proofs.enclosure import complex_impact
 from pseudorigid.proofs.search import curve as search
-from pseudorigid.proofs.theorems.statements import Theorem
 
+TEXT = SMALL.text()
 CURVES = [name for name, theorem in THEOREMS.items() if theorem.checker is curve.check]
 BALL = Ball(k=0.2, g=0.04)
-# A curve close to the fixed point needs few cells and modes: it is checked in half a second. Its
-# certificate is search.propose(surface, points, [5, 1, 1, 2, 20], search.Strips("0.06", "0.0098",
-# 64, 4, 3, 60), radius="1e-6", share="0.0069", error="1e-35").
-TEXT = FilePath(__file__).with_name("small_curve.toml").read_text(encoding="utf-8")
-SMALL = Theorem(
-    "small", "a small curve around the fixed point", curve.check,
-    THEOREMS["curve-fixed-point"].bounds | {
-        "radius": Fraction("1e-6"), "rotation": (Fraction("0.1786"), Fraction("0.1787")),
-        "share": Fraction("0.0069"), "error": Fraction("1e-35"),
-    },
-)  # fmt: skip
 
 
 @cache
 def bounds_and_finding(name):
     """The bounds of a theorem about a curve, and the finding of its checker."""
-    if name == "small":
-        return SMALL.bounds, SMALL.prove(TEXT)
-    return THEOREMS[name].bounds, THEOREMS[name].prove(THEOREMS[name].text())
+    theorem = SMALL if name == SMALL.name else THEOREMS[name]
+    return theorem.bounds, theorem.prove(theorem.text())
 
 
 def refused(text, theorem=SMALL):
@@ -79,7 +67,7 @@ def polygon_area(points):
 
 
 # The theorem "curve-fixed-point" is also checked by default, in test_theorems.py.
-PROVED = ["small", *slowly(*CURVES)]
+PROVED = [SMALL.name, *slowly(*CURVES)]
 
 
 @pytest.mark.parametrize("name", PROVED)
