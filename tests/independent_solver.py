@@ -76,7 +76,7 @@ def _solve(f, slope, low, high):
     """Find the root of f in [low, high], where f changes sign once, by bracketed Newton steps."""
     rising = f(high) > 0
     t = (low + high) / 2
-    for _ in range(4000):  # a flight of 1e-300 is a thousand halvings away
+    for step in range(4000):
         value = f(t)
         if value == 0:
             return t
@@ -86,12 +86,23 @@ def _solve(f, slope, low, high):
             low = t
         steep = slope(t)
         after = t - value / steep if steep != 0 else low
-        if not low < after < high:
-            after = (low + high) / 2
+        # Newton's method needs a thousand steps from 1 to a flight of 1e-300.
+        if not low < after < high or (high > 16 * low and step % 2):
+            after = _middle(low, high)
         if abs(after - t) <= abs(after) * mpf(10) ** -45:
             return after
         t = after
     raise AssertionError("Newton's method does not converge")
+
+
+def _middle(low, high):
+    """A number between two positive ones; if they are far apart, that of the mean logarithm.
+
+    Where low is 0 it falls towards 0 by ever larger factors.
+    """
+    if low == 0:
+        return high * min(high, mpf(1) / 16)
+    return mpmath.sqrt(low * high) if high > 16 * low else (low + high) / 2
 
 
 def _inflections(gap, until):
