@@ -156,7 +156,7 @@ def _transversality(surface: Surface, speed: arb) -> float:
     x, y = Jet.plane(1, *_mirrored(impact))
     s = surface.speed(x, y)
     gap = Gap(x, -(y + s) / (1 + k), s, g)
-    height = gap.derivatives(Jet.constant_of(x.algebra, impact.tau))[0]
+    height = gap.height(Jet.constant_of(x.algebra, impact.tau))
     if not height.constant.contains(0):
         raise NotProvedError("the flight does not touch the floor where it should")
     slope = max(lowest(abs(part)) for part in height.coefficients[1:])

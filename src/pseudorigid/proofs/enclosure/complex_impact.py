@@ -85,13 +85,13 @@ class Flights:
 
     def height(self, t: acb) -> acb:
         """Enclose f at one time for all points, by the mean value theorem in x and y."""
-        change = self.series.derivatives(Jet.constant_of(self.series.x.algebra, t))[0].coefficients
-        value = self.middle.derivatives(t)[0]
+        change = self.series.height(Jet.constant_of(self.series.x.algebra, t)).coefficients
+        value = self.middle.height(t)
         return value + change[1] * self.offsets[0] + change[2] * self.offsets[1]
 
     def newton(self, inside: acb) -> tuple[acb, acb]:
         """Return the Newton image m - f(m)/f'(U) of a set U, and f'(U)."""
-        middle, slope = inside.mid(), self.gap.derivatives(inside)[1]
+        middle, slope = inside.mid(), self.gap.slope(inside)
         if slope.contains(0):
             raise UndecidedError("the slope of the gap may vanish in the strip")
         return middle - self.height(middle) / slope, slope
@@ -122,7 +122,7 @@ def point_root(gap: Gap, root: Root) -> acb:
     value = root.value
     for _ in range(8):
         middle = value.mid()
-        image = middle - gap.derivatives(middle)[0] / gap.derivatives(value)[1]
+        image = middle - gap.height(middle) / gap.slope(value)
         narrow = _intersection(image, value)
         if not narrow.rad() < value.rad() * 0.5:
             return narrow
@@ -138,7 +138,7 @@ def impact(surface: Surface, x: acb | Jet, y: acb | Jet, root: acb) -> tuple:
     if isinstance(x, Jet):
         tau, order = Jet.constant_of(x.algebra, root), 0
         while order < x.algebra.order:  # as flight.first_root does
-            height, slope, *_ = gap.derivatives(tau)
+            height, slope = gap.height_and_slope(tau)
             height.coefficients[0] = acb(0)
             tau = tau - height / slope
             order = 2 * order + 1

@@ -40,11 +40,31 @@ class Gap:
     def derivatives(self, t: arb | Jet) -> tuple:
         """f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
-        x, c, gt = self.x, self.c, self.g * t
-        versine = 1 - cosine
-        height = t * (gt / 2 - self.s) + c * (sine - t) + x * versine
-        slope = gt - self.s - c * versine + x * sine
+        versine, x, c = 1 - cosine, self.x, self.c
+        height, slope = self._height(t, sine, versine), self._slope(t, sine, versine)
         return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
+
+    def height_and_slope(self, t: arb | Jet) -> tuple:
+        """f and f' at t."""
+        sine, cosine = t.sin_cos()
+        versine = 1 - cosine
+        return self._height(t, sine, versine), self._slope(t, sine, versine)
+
+    def height(self, t: arb | Jet) -> arb | Jet:
+        """f at t."""
+        sine, cosine = t.sin_cos()
+        return self._height(t, sine, 1 - cosine)
+
+    def slope(self, t: arb | Jet) -> arb | Jet:
+        """f' at t."""
+        sine, cosine = t.sin_cos()
+        return self._slope(t, sine, 1 - cosine)
+
+    def _height(self, t, sine, versine):
+        return t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
+
+    def _slope(self, t, sine, versine):
+        return self.g * t - self.s - self.c * versine + self.x * sine
 
     def rounded(self) -> "Gap":
         """The same flights in balls of the context's precision."""
@@ -107,13 +127,13 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
         with ctx.workprec(bits):
             at_level = gap.rounded()
             while True:
-                slope = at_level.derivatives(root)[1]
+                slope = at_level.slope(root)
                 if not slope > 0:
                     if bits < levels[0]:
                         break  # the next level has more bits to decide
                     raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
                 middle = root.mid()
-                height = at_level.derivatives(middle)[0]
+                height = at_level.height(middle)
                 narrow = (middle - height / slope).intersection(root)
                 better = narrow.rad() < root.rad() * 0.75
                 root = narrow
@@ -126,7 +146,7 @@ def _expand(gap: Gap, root: arb) -> Jet:
     """Expand the root in a series: Newton steps on jets, whose constant term solves f = 0."""
     time, order = Jet.constant_of(gap.x.algebra, root), 0
     while order < gap.x.algebra.order:
-        height, slope, *_ = gap.derivatives(time)
+        height, slope = gap.height_and_slope(time)
         height.coefficients[0] = arb(0)
         time = time - height / slope
         order = 2 * order + 1
@@ -147,7 +167,7 @@ def _march(gap: Gap, start: arb | None) -> tuple[arb, arb]:
             break
         if slope > 0:
             high = (t - 2 * height.lower() / slope.lower()).mid()
-            if gap.derivatives(t.union(high))[1] > 0 and gap.derivatives(high)[0] > 0:
+            if gap.slope(t.union(high)) > 0 and gap.height(high) > 0:
                 return t, high
         jerk = None if count < _PLAIN_STEPS else jerk.upper()
         step = _step(height, slope, curvature, curvature_bound, jerk_bound, jerk)
