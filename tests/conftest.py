@@ -62,11 +62,19 @@ def derived(pickled):
 
 
 @pytest.fixture(scope="session")
-def datasets(pickled, derived):
+def flowing(pickled):
+    """The dataset of the flux, whose areas take seconds to compute."""
+    import claim_data
+
+    return pickled("flux", claim_data.flux_of_the_paper)
+
+
+@pytest.fixture(scope="session")
+def datasets(pickled, derived, flowing):
     """All datasets that the checks of claims need, computed with little work."""
     import claim_data
 
-    return pickled("claims", lambda: claim_data.datasets(derived))
+    return pickled("claims", lambda: claim_data.datasets(derived, flowing))
 
 
 @pytest.fixture

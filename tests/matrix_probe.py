@@ -2,7 +2,6 @@
 
     python tests/matrix_probe.py            everything
     python tests/matrix_probe.py short      a short orbit, which plain Python can follow too
-    python tests/matrix_probe.py sincos     the table of sines, cosines and logarithms alone
     python tests/matrix_probe.py compiled   the library calls and fused operations of compiled code
 
 Arguments come from a generator that is the same everywhere, never from a library's functions.
@@ -131,10 +130,6 @@ def everything():
 def short():
     """Yield the hash of an orbit that plain Python can follow too."""
     yield "short", digest(table(400).encode(), chaotic_orbit(150).encode())
-
-
-def sincos():
-    yield "table", table(200_000)
 
 
 @jit

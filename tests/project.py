@@ -31,12 +31,15 @@ specs, published = build_specs.of_variants(variants), figures(variants, "paper")
 drawings = [published[path][1][-1] for path in sys.argv[1:] or published]
 print(*Freshness(ROOT, specs).outdated(build_specs.with_dependencies(specs, drawings)))
 """
+# The C library parses and writes a config ten times as fast.
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 
 def shipped():
     """A new document with the committed scenes."""
-    return yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+    return yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER)
 
 
 def run(*command, **how):
@@ -46,10 +49,13 @@ def run(*command, **how):
 
 
 class Tree:
-    """A copy of the project at `path`, sharing the running interpreter."""
+    """A copy of the project at `path`, sharing the running interpreter.
 
-    def __init__(self, path):
-        self.path = path
+    A `cold` one gets its machine code before its first process starts.
+    """
+
+    def __init__(self, path, cold=False):
+        self.path, self.cold = path, cold
 
     @property
     def config(self):
@@ -57,11 +63,12 @@ class Tree:
 
     def document(self):
         """Parse its config."""
-        return yaml.safe_load(self.config.read_text(encoding="utf-8"))
+        return yaml.load(self.config.read_text(encoding="utf-8"), _LOADER)
 
     def write(self, document):
         """Replace its config."""
-        self.config.write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
+        text = yaml.dump(document, Dumper=_DUMPER, sort_keys=False)
+        self.config.write_text(text, encoding="utf-8")
 
     def edit(self, scene, **fields):
         """Change fields of a scene in its config; None removes a field."""
@@ -72,6 +79,7 @@ class Tree:
 
     def warm(self):
         """Copy the machine code of modules that mean the same, and the hashes of meanings."""
+        self.cold = False
         here, there = Path(locator.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
         there.mkdir(exist_ok=True)
         for kept in here.glob("meanings-*.json"):
@@ -89,6 +97,8 @@ class Tree:
 
     def environment(self):
         """The environment in which ./reproduce runs its command."""
+        if self.cold:
+            self.warm()
         # ./reproduce lets Python write bytecode, which halves the time of each start.
         kept = {name: os.environ[name] for name in os.environ.keys() - {"PYTHONDONTWRITEBYTECODE"}}
         return kept | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
@@ -132,9 +142,7 @@ class Tree:
     def copy(self, path):
         """Copy it with its results."""
         shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)
-        tree = Tree(path)
-        tree.warm()
-        return tree
+        return Tree(path, cold=True)
 
 
 def fresh_tree(path, document=None):
@@ -150,7 +158,7 @@ def fresh_tree(path, document=None):
             shutil.copytree(source, path / part, ignore=NO_CACHES)
         else:
             shutil.copy2(source, path / part)
-    tree = Tree(path)
+    tree = Tree(path, cold=True)
     tree.write(document or small(shipped()))
     figures = path / "paper_figures"
     figures.mkdir()
@@ -159,7 +167,6 @@ def fresh_tree(path, document=None):
             file = figures / f"{scene}.{extension}"
             file.write_text("committed")
             os.utime(file, (4e9, 4e9))
-    tree.warm()
     return tree
 
 

@@ -10,10 +10,8 @@ from mpmath import mp, mpf
 
 from pseudorigid import Ball, symmetric_orbits, trace_manifold
 from pseudorigid.analyses import actions, polygon
-from pseudorigid.analyses.flux import flux
 
 BALL, ENERGY = Ball(0.2, 0.04), 0.01
-SEA = (0.55, 0.68)
 
 
 def test_flights_in_balls_agree_with_an_independent_solver():
@@ -40,11 +38,6 @@ def test_flights_in_balls_agree_with_an_independent_solver():
 
         expected = mp.quad(squares, mp.linspace(0, exact[3], 8))
         assert abs(mpf(action.mid().str(50, radius=False)) - expected) < mpf(10) ** -40
-
-
-@pytest.fixture(scope="module")
-def flowing():
-    return flux(BALL, ENERGY, 6, 3e-4, 700, SEA, 24, 6000)
 
 
 def test_areas_by_action_by_polygon_and_by_counting_agree(flowing):

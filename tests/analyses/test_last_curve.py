@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from independent_solver import periodic_point
+from slowly import slowly
 
 from pseudorigid import Ball
 from pseudorigid.analyses import last_curve
@@ -37,7 +38,7 @@ def test_residues_on_either_side_of_breakup(edge):
     )
 
 
-@pytest.mark.parametrize("noble, convergent", [(0, 0), (1, 1)])
+@pytest.mark.parametrize("noble, convergent", [(0, 0), *slowly((1, 1))])
 def test_a_residue_is_that_of_newtons_method_in_sixty_digits(edge, noble, convergent):
     orbit = edge.isel(noble=noble, convergent=convergent)
     period, turns = int(orbit["period"]), int(orbit["turns"])

@@ -175,6 +175,7 @@ def forge(tree, path, content=None):
         record.write_text(json.dumps(content))
 
 
+@pytest.mark.slow
 def test_a_forged_dataset_is_refused_until_it_is_recomputed(moved):
     forge(moved, DATA)
     checked = config.load(moved.config)
@@ -206,6 +207,7 @@ def test_a_forged_picture_is_refused(moved):
     assert f"{DRAWING}: {FORGED}: delete it: run ./reproduce" in verified(moved).findings
 
 
+@pytest.mark.slow
 def test_another_source_explains_other_data(moved):
     """New data can be accepted if the code that makes them changed."""
     module = moved.path / "src" / "pseudorigid" / "dynamics" / "motion.py"

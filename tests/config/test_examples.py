@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import yaml
 from legible import assert_text_is_whole_and_apart
+from slowly import slowly
 
 from pipeline.checks.report.captions import caption_of
 from pipeline.config import check
@@ -18,7 +19,7 @@ from pseudorigid.figures.axes.panel import Panel
 from pseudorigid.figures.canvas.render import render
 
 PAPER = {"k": 0.2, "g": 0.04}
-COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves")
+COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves", "families")
 
 
 def checked(block):
@@ -94,7 +95,7 @@ ELSEWHERE = [
                     "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
     ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2], "convergents": 8}),
     ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
-    ("spread", {"regular_impacts": 1_000_000}),
+    *slowly(("spread", {"regular_impacts": 1_000_000})),
     ("twist", {"ball": OTHER, "energies": [0.001, 0.004, 0.014], "marks": [0.001]}),
 ]  # fmt: skip
 

@@ -5,6 +5,7 @@ import time
 import browsers
 import pytest
 from project import SHIPPED
+from slowly import slowly
 
 from pipeline import config
 from pipeline.explorer import kernel, page
@@ -17,7 +18,7 @@ NOTE = "return document.getElementById('check-note').textContent"
 RESOURCES = "return performance.getEntriesByType('resource').map(entry => entry.name)"
 
 
-@pytest.fixture(scope="module", params=browsers.PROGRAMS)
+@pytest.fixture(scope="module", params=["chromium", *slowly("firefox")])
 def opened(request, tmp_path_factory):
     """A browser, with a function that opens the page from a file."""
     folder = tmp_path_factory.mktemp(request.param)

@@ -13,6 +13,7 @@ import sys
 import doubles
 import pytest
 from project import NO_CACHES, ROOT
+from slowly import slowly
 
 from pipeline.explorer import kernel
 from pipeline.explorer.translate import TranslationError, Translator
@@ -171,6 +172,7 @@ def canonical(values):
     return [struct.pack("<d", math.nan if math.isnan(v) else v).hex() for v in values]
 
 
+@pytest.mark.parametrize("browser", ["chromium", *slowly("firefox")], indirect=True)
 def test_every_construct_has_the_bits_of_the_compiled_one(browser, tmp_path):
     zoo = translator(tmp_path, ZOO)
     functions = [zoo.function("zoo", name) for name in TYPED.findall(ZOO)]

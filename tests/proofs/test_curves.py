@@ -66,7 +66,6 @@ def polygon_area(points):
     return 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
 
 
-# The theorem "curve-fixed-point" is also checked by default, in test_theorems.py.
 PROVED = [SMALL.name, *slowly(*CURVES)]
 
 

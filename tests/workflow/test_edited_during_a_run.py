@@ -1,5 +1,7 @@
 """Files that change during a run are not recorded as what made its results."""
 
+import pytest
+
 DRAWING = "results/paper/figures/fig3.png"
 AGAIN = "changed during the run; run ./reproduce again"
 STYLE = "src/pseudorigid/figures/canvas/style.py"
@@ -54,6 +56,7 @@ def test_what_was_drawn_before_an_edit_is_not_called_current(done):
     ]
 
 
+@pytest.mark.slow
 def test_a_job_of_plain_snakemake_fails_too(done):
     plant(done, "motion", append("src/pipeline/jobs/draw.py"))
     (done.path / DRAWING).unlink()

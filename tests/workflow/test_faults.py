@@ -120,7 +120,8 @@ def test_a_killed_run_leaves_whole_files_and_no_lock(done, everyone):
 
 
 @pytest.mark.parametrize(
-    "file", ["src/pipeline/config/__init__.py", "src/snakemake/__main__.py", "Snakefile"]
+    "file",
+    ["src/pipeline/config/__init__.py", "src/snakemake/__main__.py", *slowly("Snakefile")],
 )
 def test_interrupting_the_start_is_no_traceback(tree, file):
     reached = tree.path / "reached"

@@ -223,6 +223,7 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
     assert "fig3    periodic" not in tree.run("fig3").stdout  # it is not tried again
 
 
+@pytest.mark.slow
 def test_long_jobs_begin_first_and_only_two_parts_of_the_study_run_alone(tree):
     parts = [f"results/study/{part}.nc" for part in (*study.FIXED, *study.MEASURED)]
     output = tree.run(*parts, "-n", "--cores", "3", "--quiet", "host").stdout

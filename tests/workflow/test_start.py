@@ -360,6 +360,7 @@ def test_a_package_that_is_missing_is_installed_again_and_additions_stay(with_ei
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it(with_uv):
     with_uv.run()
     shutil.copy(ROOT / "src/pipeline/__main__.py", with_uv.tree / "src/pipeline")
@@ -401,6 +402,7 @@ def test_a_bad_folder_of_wheels_is_reported(with_either):
     assert set_up.run("--offline", "nowhere", "fig3") == nowhere  # where nothing is installed too
 
 
+@pytest.mark.slow
 def test_settings_choose_where_packages_come_from_and_nothing_else(with_either):
     set_up = with_either
     wheels = set_up.wheels.rename(set_up.folder / "wheels")
