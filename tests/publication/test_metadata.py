@@ -65,6 +65,7 @@ def test_what_is_given_reaches_every_file(monkeypatch):
         "doi": "10.1/x",
         "repository-code": "https://example.org/x",
     }
+    assert metadata.addresses(facts) == ["https://example.org/x", "https://doi.org/10.1/x"]
     monkeypatch.setattr(metadata, "citation", lambda: facts)
     pages = metadata.pages()
     for name, text in pages.items():

@@ -61,6 +61,12 @@ def name_of(author: Facts) -> str:
     return author.get("name") or f"{author['given-names']} {author['family-names']}"
 
 
+def addresses(facts: Facts) -> list[str]:
+    """Return the addresses of the repository and of the archived software, as far as given."""
+    forms = {"repository-code": "{}", "doi": "https://doi.org/{}"}
+    return [form.format(facts[key]) for key, form in forms.items() if key in facts]
+
+
 def _codemeta(facts: Facts) -> Facts:
     project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
     paper = original(facts)

@@ -13,11 +13,12 @@ NUMBERS = "results/article/numbers.json"
 
 def run(args: Arguments) -> int:
     """Set the article; results must be current, and figures the committed ones."""
+    with locked(), interruptible(), one_line("article: "):
+        archive.refuse_unpublished(ROOT, args.checked)  # before the download
     add_packages("article")
     from ...publication.article import numbers, typesetting
 
     with locked(), interruptible(), one_line("article: "):
-        archive.refuse_unpublished(ROOT, args.checked)
         write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.checked))
         pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
         write_whole(ROOT / PDF, pdf)

@@ -13,6 +13,7 @@ from pseudorigid.proofs.theorems.statements import THEOREMS
 from ...checks import manifest, published_sets
 from ...checks.checksums import ChecksumError
 from ...checks.claims import ledger
+from ...checks.claims.schema import VERDICT_WORDS
 from ...checks.report.captions import caption_of
 from ...checks.report.page import PAPER_NUMBERS
 from ...config import PAPER, PUBLISHED, paths
@@ -32,6 +33,7 @@ def numbers_of(root: Path, checked: Table) -> str:
     """
     facts = metadata.citation()
     verdicts = ledger.read_json(read_text(root / paths.LEDGER_DATA))
+    counts = Counter(row.verdict for row in verdicts)
     sets = published_sets.committed_sets(checked)
     try:
         committed = {each.folder: manifest.read(root, each.folder) for each in sets}
@@ -48,10 +50,11 @@ def numbers_of(root: Path, checked: Table) -> str:
         {
             "title": metadata.OWN["article"],
             "authors": [metadata.name_of(author) for author in facts["authors"]],
+            "addresses": metadata.addresses(facts),
             "keywords": facts["keywords"],
             "version": facts["version"],
             "claims": [asdict(row) for row in verdicts],
-            "counts": Counter(row.verdict for row in verdicts),
+            "counts": {word: counts[word] for word in VERDICT_WORDS},
             "statements": len(verdicts),
             "figures": figures,
             "printed": {"exponent": EXPONENT},
@@ -78,6 +81,7 @@ def _rows(root: Path, checked: Table, scene: str) -> Table:
 def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) -> Table:
     """Return what the article says of a committed picture."""
     caption = caption_of(scene, entry["config"])
+    title = caption.title[0].upper() + caption.title[1:]
     hashes = []
     for file in sorted(Path(path).name for path in entry["data"].values()):
         variables = data[file]["variables"]
@@ -86,7 +90,7 @@ def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) ->
         hashes.append(f"{file} {digest}")
     return {
         "name": caption.name,
-        "title": f"{caption.name}: {caption.title}",
+        "title": title if caption.name == scene else f"{caption.name}: {caption.title}",
         "shows": caption.shows,
         "see": caption.see,
         "file": f"{folder}/{_vector_or_raster(entry['figures'])}",
