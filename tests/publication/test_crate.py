@@ -3,7 +3,6 @@
 import json
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -65,13 +64,8 @@ def test_the_identifier_of_a_folder_is_that_of_its_git_tree(unpacked, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_crate_is_valid_and_mistakes_in_it_are_not(unpacked, tmp_path):
-    python = tmp_path / "venv" / "bin" / "python"
-    subprocess.run([sys.executable, "-m", "venv", tmp_path / "venv"], check=True)
-    requirements = ["--require-hashes", "-r", ROOT / "requirements" / "crate.txt"]
-    pip = [python, "-m", "pip", "install", "-q", "--only-binary=:all:", *requirements]
-    if subprocess.run(pip, check=False).returncode:
-        pytest.skip("the validator could not be installed")
+def test_the_crate_is_valid_and_mistakes_in_it_are_not(unpacked, tmp_path, environment_of):
+    python = environment_of("crate")
 
     def issues(folder):
         command = [python, SCRIPT, folder, "REQUIRED"]

@@ -28,6 +28,45 @@ def test_the_citation_fits_the_official_schema(tmp_path):
     assert subprocess.run([*command, tmp_path / metadata.CITATION], check=False).returncode != 0
 
 
+# What the validator's profile demands beyond CodeMeta: kinds that it lists itself, and what nobody
+# has given yet.
+NOT_GIVEN = {"applicationCategory", "codeRepository", "identifier", "schema:featureList"}
+
+
+MISTAKES = [
+    ("codemeta.json", '"keywords"', '"keywoords"', "profile.unknown-property"),
+    ("codemeta.json", '"SoftwareSourceCode"', '"Periodical"', "profile.invalid-type"),
+    ("codemeta.json", '"version": "', '"version": "9', "consistency.mismatch"),
+    (".zenodo.json", '"version": "', '"version": "9', "consistency.mismatch"),
+    (".zenodo.json", "BSD-3-Clause", "MIT", "consistency.mismatch"),
+    (".zenodo.json", '"keywords"', "keywords", "source.unreadable"),
+]
+
+
+@pytest.mark.slow
+def test_a_validator_accepts_the_files_and_finds_mistakes(environment_of, tmp_path):
+    validator = environment_of("metadata").with_name("rs-metadata")
+    whole = {name: (ROOT / name).read_text() for name in (metadata.CITATION, *metadata.pages())}
+
+    def found(texts):
+        for name, text in texts.items():
+            (tmp_path / name).write_text(text)
+        command = [validator, "validate", "--format", "json", tmp_path]
+        result = subprocess.run(command, check=False, capture_output=True, text=True)
+        return {
+            each["code"]
+            for each in json.loads(result.stdout)["diagnostics"]
+            if each["severity"] != "info"
+            and each["code"] != "recommendation.missing"
+            and each.get("property") not in NOT_GIVEN
+        }
+
+    assert found(whole) == set()
+    for name, old, new, code in MISTAKES:
+        assert old in whole[name]
+        assert found(whole | {name: whole[name].replace(old, new)}) >= {code}
+
+
 def test_each_published_figure_is_in_the_codecheck_manifest():
     listed = yaml.safe_load((ROOT / "codecheck.yml").read_text())["manifest"]
     published = {

@@ -79,9 +79,12 @@ def _codemeta(facts: Facts) -> Facts:
         "license": f"https://spdx.org/licenses/{facts['license']}",
         "keywords": facts["keywords"],
         "author": [_agent(author) for author in facts["authors"]],
-        "programmingLanguage": f"{OWN['language']} {project['requires-python']}",
+        "programmingLanguage": OWN["language"],
+        "runtimePlatform": f"{OWN['language']} {project['requires-python']}",
         "operatingSystem": OWN["systems"],
-        "softwareRequirements": project["dependencies"],
+        "softwareRequirements": [
+            {"@type": "SoftwareSourceCode", "name": package} for package in project["dependencies"]
+        ],
         "referencePublication": {
             "@type": "ScholarlyArticle",
             "name": paper["title"],
