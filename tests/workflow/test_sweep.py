@@ -159,9 +159,11 @@ def test_slurm_needs_sbatch(monkeypatch):
 @pytest.mark.slow
 def test_the_atlas_is_drawn_and_published(tree):
     line = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
-    tree.write(tree.document() | {"sweeps": {"small": SMALL, "one": line}})
+    chained = SMALL | {"k": [0.19, 0.21], "chains": [6]}
+    tree.write(tree.document() | {"sweeps": {"small": chained, "one": line}})
     tree.succeed("atlas", "-c", "1")
-    for name in ("small.png", "one.png", "one.svg"):  # vectors of a plane would be heavy
+    # Vectors of a plane would be heavy.
+    for name in ("small.png", "small_chains.png", "one.png", "one.svg"):
         drawn = (tree.path / "results/sweep/figures" / name).read_bytes()
         assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
         assert drawn.startswith((b"\x89PNG", b"<?xml"))

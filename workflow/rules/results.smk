@@ -6,6 +6,7 @@
 localrules:
     sweep_join,
     atlas_draw,
+    chains_draw,
 
 
 # Seconds on one core. The longest jobs begin first, so that none of them is left over at the end,
@@ -29,6 +30,7 @@ PRIORITIES = {
     if path in PLAN.specs
     for dependency in build_specs.with_dependencies(PLAN.specs, [path])
 }
+PLANES = [name for name, sweep in SWEEPS.items() if "chains" in sweep]
 # Rule -> (its result, its scenes)
 STUDY = "results/study/{scene}.nc"
 RULES = {
@@ -38,6 +40,8 @@ RULES = {
     "sweep_block": ("results/sweep/{scene}_{number}.nc", SWEEPS),
     "sweep_join": ("results/sweep/{scene}.nc", SWEEPS),
     "atlas_draw": ("results/sweep/figures/{scene}.{extension}", SWEEPS),
+    "chains": ("results/sweep/{scene}_chains.nc", PLANES),
+    "chains_draw": ("results/sweep/figures/{scene}_chains.png", PLANES),
     "derivations": ("results/claims/{scene}.nc", ["derivations"]),
     "theorem": (paths.theorem("{scene}"), paths.THEOREMS),
 }
@@ -62,6 +66,7 @@ for name, (result, scenes) in RULES.items():
             log_path(result),
         wildcard_constraints:
             scene=any_of(scenes),
+            number=r"\d+",
         priority: priority(result)
         conda:
             "../envs/python.yaml"

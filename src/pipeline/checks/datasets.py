@@ -15,6 +15,7 @@ import xarray as xr
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep import blocks
+from pseudorigid.sweep.chains import chains
 
 from ..config.schema.stages import STAGES
 from ..config.schema.study import FIXED, MEASURED
@@ -85,11 +86,13 @@ def _sweep_and_derivations() -> dict[str, File]:
     block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
     whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
     algebra, path = derivations(BALL, ENERGY), "results/sweep/SWEEP"
-    functions = blocks.join, blocks.compute, derivations
-    join, compute, derive = (artifacts.title_of(function) for function in functions)
+    functions = blocks.join, blocks.compute, chains, derivations
+    join, compute, follow, derive = (artifacts.title_of(function) for function in functions)
+    curves = chains({"k": [0.19, 0.21], "energy": [10.0, 11.0], "chains": [5]})
     return {
         "sweep": _saved(f"{path}.nc", whole, ball=False, title=join),
         "sweep, a block": _saved(f"{path}_0000.nc", block, ball=False, title=compute),
+        "sweep, chains": _saved("results/sweep/SWEEP_chains.nc", curves, ball=False, title=follow),
         "derivations": _saved(
             "results/claims/derivations.nc", algebra, stage="derivations", title=derive
         ),

@@ -99,18 +99,27 @@ def _study(checked: dict[str, Any]) -> PublishedSet:
 
 
 def _atlas(checked: dict[str, Any]) -> PublishedSet:
-    """Return the pictures of the sweeps."""
+    """Return the pictures of the sweeps. A picture of chains is a scene of its own."""
     sweeps = checked["sweeps"]
     pictures = [(n, path) for n in sweeps for path in paths.sweep_pictures(n, sweeps[n])]
+    config = {name: grid.whole(sweep) for name, sweep in sweeps.items()}
+    data = {name: {"sweep": paths.sweep_dataset(name)} for name in sweeps}
+    scenes = {Path(path).name: name for name, path in pictures}
+    for name, sweep in sweeps.items():
+        if "chains" in sweep:
+            file = Path(paths.chains_picture(name))
+            scenes[file.name] = file.stem
+            config[file.stem] = grid.whole(sweep) | {"chains": sweep["chains"]}
+            data[file.stem] = data[name] | {"chains": paths.chains_dataset(name)}
     return PublishedSet(
         noun="pictures",
         folder=paths.ATLAS,
         results="results/sweep",
         command="./reproduce atlas",
         drawn={Path(path).name: path for _, path in pictures},
-        scenes={Path(path).name: name for name, path in pictures},
-        config={name: grid.whole(sweep) for name, sweep in sweeps.items()},
-        data={name: {"sweep": paths.sweep_dataset(name)} for name in sweeps},
+        scenes=scenes,
+        config=config,
+        data=data,
         build_specs=build_specs.of_sweeps(sweeps),
         on_request=True,
     )

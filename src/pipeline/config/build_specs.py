@@ -120,7 +120,12 @@ def of_sweeps(sweeps: YamlMapping) -> dict[str, BuildSpec]:
         for i, path in enumerate(blocks):
             specs[path] = _spec(path, name, f"block {i}", grid.block(sweep, i), "sweep")
         specs[data] = _spec(data, name, "data", grid.whole(sweep), "sweep", blocks)
-        drawing = {key: value for key, value in sweep.items() if key != "block"}
+        drawing = {key: sweep[key] for key in sweep if key not in ("block", "chains")}
         for path in paths.sweep_pictures(name, sweep):
             specs[path] = _drawing(path, name, drawing, "atlas", [data])
+        if "chains" in sweep:
+            config = {key: sweep[key] for key in ("k", "energy", "chains")}
+            curves, path = paths.chains_dataset(name), paths.chains_picture(name)
+            specs[curves] = _spec(curves, name, "chains", config, "chains")
+            specs[path] = _drawing(path, name, config, "chains", [data, curves])
     return specs

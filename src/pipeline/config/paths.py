@@ -92,10 +92,24 @@ def sweep_dataset(name: str) -> str:
     return f"results/sweep/{name}.nc"
 
 
+def chains_dataset(name: str) -> str:
+    """Return the path of the curves of chains over a sweep's plane."""
+    return f"results/sweep/{name}_chains.nc"
+
+
+def chains_picture(name: str) -> str:
+    """Return the path where these curves are drawn, over the regular share."""
+    return f"results/sweep/figures/{name}_chains.png"
+
+
 def sweep_pictures(name: str, sweep: YamlMapping) -> list[str]:
-    """Return the paths where a sweep is drawn. A plane has too many cells for vector graphics."""
+    """Return the paths where a sweep is drawn, last its chains, if it has the field.
+
+    A plane has too many cells for vector graphics.
+    """
     formats = SHOWN if len(sweep["k"]) == 1 else SHOWN[:1]
-    return [f"results/sweep/figures/{name}.{extension}" for extension in formats]
+    pictures = [f"results/sweep/figures/{name}.{extension}" for extension in formats]
+    return [*pictures, chains_picture(name)] if "chains" in sweep else pictures
 
 
 def atlas_published(drawing_path: str) -> str:

@@ -50,7 +50,7 @@ def plane(sweep, data):
     )
     for bottom, title, values, most, table in panels:
         frame = (LEFT, bottom, LEFT + wide, bottom + high)
-        across = _energy_axis(sweep["energy"], r"$E/g^2$")
+        across = energy_axis(sweep["energy"], r"$E/g^2$")
         up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
         panel = Panel(sheet, frame, across, up, grid=False)
         raster.minor(panel)
@@ -213,7 +213,7 @@ def _stroke(sheet, x, y, dashed=False):
     sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
-def _energy_axis(values, name):
+def energy_axis(values, name):
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
     values = np.array(values)
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:

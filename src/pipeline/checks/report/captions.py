@@ -24,7 +24,8 @@ def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
     if "picture" in block:
         texts = CAPTIONS["kinds"].get(block["picture"])
     elif "k" in block:
-        texts = CAPTIONS["sweeps"]["line" if len(block["k"]) == 1 else "plane"]
+        kind = "chains" if "chains" in block else "line" if len(block["k"]) == 1 else "plane"
+        texts = CAPTIONS["sweeps"][kind]
     else:
         texts = CAPTIONS["charts"].get(name)
     texts = texts or {"title": "a picture without a caption", "shows": "", "see": ""}

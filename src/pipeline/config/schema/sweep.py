@@ -28,6 +28,12 @@ Values = Annotated[
 ]
 
 
+Orders = Annotated[
+    list[Annotated[int, whole(3, 12)]],
+    allowed("a list of whole numbers from 3 to 12, at least one", min_length=1),
+]
+
+
 class Sweep(Block):
     """a mapping with the keys k, energy, starts, impacts and block"""
 
@@ -45,6 +51,9 @@ class Sweep(Block):
     regular motion more precise."""
     impacts: int = whole(100, 10_000_000)
     """Largest number of impacts of an orbit. Longer orbits tell slow chaos from regular motion."""
+    chains: Orders = ABSENT
+    """Orders q, from 3 to 12, of the chains 1/q whose births and losses of stability are followed
+    over the plane and drawn in a picture of their own. Needs several k."""
     block: int = whole(1, 100_000)
     """Number of cells that one job computes. Choose it so that a job takes about a minute: an
     interrupted sweep resumes with the blocks that are missing. The data do not depend on it."""

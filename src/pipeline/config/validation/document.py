@@ -63,6 +63,10 @@ def check(document: object) -> YamlMapping:
         if re.fullmatch(r".+_\d{4}", str(name)) and name[:-5] in given["sweeps"]:
             words = f"a name that no block of the sweep {name[:-5]} has"
             lines.append(refusal(("sweeps",), name, words))
+    for name in [name for name, sweep in grids.items() if "chains" in sweep]:
+        if f"{name}_chains" in grids:
+            words = f"a name that no picture of the sweep {name} has"
+            lines.append(refusal(("sweeps",), f"{name}_chains", words))
     if lines:
         raise ConfigError(*dict.fromkeys(lines))
     parts = {"scenes": derived[PAPER], "variants": derived, "sweeps": grids}

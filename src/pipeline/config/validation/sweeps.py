@@ -52,6 +52,13 @@ def _cross_field_errors(sweep: YamlMapping) -> Iterator[CrossFieldError]:
             yield ("k",), each, f"numbers with 0 < k <= 1 (number {i + 1})"
             return
     yield from _energy_errors(energy[0], energy[-1], k, sweep.get("g"))
+    orders = sweep.get("chains", [])
+    if len(set(orders)) < len(orders):
+        yield ("chains",), orders, "whole numbers that differ"
+    if orders and len(k) == 1:
+        yield ("chains",), orders, "no chains in a sweep of one k"
+    if orders and not energy[0] > 0:
+        yield ("energy",), energy[0], "energies > 0 in a sweep with chains"
     cells = len(k) * len(energy)
     if cells > MOST_CELLS:
         sizes = f"{len(k)} times {len(energy)}"

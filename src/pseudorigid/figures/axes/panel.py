@@ -154,15 +154,15 @@ class Window(Panel):
 
     def line(self, x, y, **line_style):
         """Draw the part of a line inside the frame, broken where a coordinate is NaN."""
-        beyond = not self._within(x, y).all()
+        beyond = not self.within(x, y).all()
         super().line(x, y, clip=self.frame if beyond else None, **line_style)
 
     def dots(self, x, y, *arguments, **options):
         """Draw the marks that lie inside the frame."""
-        within = self._within(x, y)
+        within = self.within(x, y)
         super().dots(np.asarray(x)[within], np.asarray(y)[within], *arguments, **options)
 
-    def _within(self, x, y):
+    def within(self, x, y):
         """Return whether each point is within the limits; NaN counts as within."""
         fractions = self.across.fraction(x), self.up.fraction(y)
         return ~np.logical_or.reduce([(part < 0.0) | (part > 1.0) for part in fractions])

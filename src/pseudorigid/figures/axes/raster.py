@@ -12,6 +12,8 @@ from .panel import Axis, log10
 
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
+GREYS = "greys"
+_LIGHTEST, _DARKEST = 250, 130  # of GREYS
 _MINOR = 1.5  # points: the length of a minor tick
 _LONGEST = 7  # characters of a tick label that fit at the left of a chart
 
@@ -62,7 +64,13 @@ def _minor_ticks(axis):
 
 
 def palette(name):
-    """Return colours of a table of matplotlib, shape (64, 3): red, green and blue up to 255."""
+    """Return colours, shape (64, 3): red, green and blue up to 255.
+
+    `name` is that of a table of matplotlib, or GREYS, which leaves room for coloured lines.
+    """
+    if name == GREYS:
+        levels = _LIGHTEST + (_DARKEST - _LIGHTEST) * np.arange(_COLOURS) // (_COLOURS - 1)
+        return np.repeat(levels[:, None], 3, axis=1).astype(np.uint8)
     table = np.array(matplotlib.colormaps[name].colors)
     rows = table[(2 * np.arange(_COLOURS) + 1) * len(table) // (2 * _COLOURS)]
     return (rows * 255 + 0.5).astype(np.uint8)
