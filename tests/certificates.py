@@ -18,7 +18,7 @@ IMPOSSIBLE_NUMBERS = [
 FIELDS = {
     "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
     "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
-    "energy_up_to", "theta_below", "theta", "trace_above",
+    "energy_up_to", "theta_below", "theta", "trace_above", "zero", "resonance",
 }  # fmt: skip
 
 

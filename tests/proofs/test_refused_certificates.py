@@ -26,7 +26,7 @@ from flint import arb, ctx
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.proofs import THEOREMS, Surface
-from pseudorigid.proofs.checks import ellipticity, horseshoe, jump, periodic
+from pseudorigid.proofs.checks import ellipticity, horseshoe, jump, periodic, twist
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.enclosure.surface import ball_of
@@ -36,7 +36,7 @@ from pseudorigid.proofs.search import jump as jump_search
 from pseudorigid.proofs.search.ellipticity import propose as propose_ellipticity
 from pseudorigid.proofs.search.periodic import propose_only_fixed_point
 
-TWISTS = [n for n in THEOREMS if n.startswith("twist-") and n != "twist-zero"]
+TWISTS = [name for name, theorem in THEOREMS.items() if theorem.checker is twist.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 
@@ -233,6 +233,9 @@ STRONGER = [
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
     ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
     ("twist-zero", "width", lambda width: width / 2),
+    ("twist-one-zero", "energy", lambda energy: energy * Fraction(101, 100)),
+    *(("twist-one-zero", name, lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 5))
+      for name in ("zero", "resonance")),
 ]  # fmt: skip
 
 

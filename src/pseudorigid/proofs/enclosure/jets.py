@@ -20,7 +20,23 @@ class Algebra:
 @cache
 def algebra(variables: int, order: int) -> Algebra:
     """Return the Algebra of series in some variables up to a total degree (cached)."""
-    monomials = [p for p in product(range(order + 1), repeat=variables) if sum(p) <= order]
+    powers = product(range(order + 1), repeat=variables)
+    return _algebra(order, [p for p in powers if sum(p) <= order])
+
+
+@cache
+def algebra_with_parameter(variables: int, order: int, parameter_order: int) -> Algebra:
+    """Return the Algebra of series in some variables whose coefficients are series in a parameter.
+
+    The parameter is the last variable. The algebra's order is the largest total degree.
+    """
+    monomials = algebra(variables, order).monomials
+    powers = range(parameter_order + 1)
+    return _algebra(order + parameter_order, [(*p, n) for p in monomials for n in powers])
+
+
+def _algebra(order: int, monomials: list[tuple]) -> Algebra:
+    """Return the Algebra of these monomials, with products of others left out."""
     monomials.sort(key=lambda p: (sum(p), [-power for power in p]))
     index = {powers: i for i, powers in enumerate(monomials)}
     products = tuple(
@@ -46,9 +62,16 @@ class Jet:
     @classmethod
     def plane(cls, order: int, *values: arb | acb) -> list["Jet"]:
         """The two series value + variable, for values of the variables."""
-        jets = [cls.constant_of(algebra(2, order), value) for value in values]
-        for i, jet in enumerate(jets, 1):
-            jet.coefficients[i] = jet.coefficients[i] + 1
+        return cls.series(algebra(2, order), *values)
+
+    @classmethod
+    def series(cls, algebra: Algebra, *values: arb | acb) -> list["Jet"]:
+        """Return the series value + variable, for a value of each of the algebra's variables."""
+        jets = [cls.constant_of(algebra, value) for value in values]
+        for place, jet in enumerate(jets):
+            powers = tuple(int(place == i) for i in range(len(values)))
+            if powers in algebra.monomials:
+                jet.coefficients[algebra.monomials.index(powers)] += 1
         return jets
 
     @property
@@ -99,7 +122,7 @@ class Jet:
 
     def _inverse(self):
         value = self.constant
-        return self._compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
+        return self.compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
 
     def sqrt(self) -> "Jet":
         """The square root with positive constant term."""
@@ -107,7 +130,7 @@ class Jet:
         terms = [value.sqrt()]
         for n in range(self.algebra.order):
             terms.append(terms[-1] * (1 - 2 * n) / (value * 2 * (n + 1)))
-        return self._compose(terms)
+        return self.compose(terms)
 
     def sin_cos(self) -> tuple["Jet", "Jet"]:
         """Sine and cosine."""
@@ -118,7 +141,7 @@ class Jet:
             terms.append(cycle[n % 4] / factorial)
             factorial *= n + 1
         shifted = [n * a for n, a in enumerate(terms)][1:]  # cos = sin', term by term
-        return self._compose(terms[:-1]), self._compose(shifted)
+        return self.compose(terms[:-1]), self.compose(shifted)
 
     def at(self, *substitutes: "Jet") -> "Jet":
         """Substitute a complex jet of the same algebra for each variable."""
@@ -132,7 +155,7 @@ class Jet:
             total = total + prod(rest, start=first) * c
         return total
 
-    def _compose(self, terms):
+    def compose(self, terms):
         """The sum of terms[n] (self - constant)^n."""
         rest = Jet(self.algebra, [0 * self.constant, *self.coefficients[1:]])
         total = Jet.constant_of(self.algebra, terms[-1])

@@ -2,13 +2,14 @@
 
 from fractions import Fraction
 
-from ..checks import curve, ellipticity, horseshoe, jump, periodic, twist
+from ..checks import curve, ellipticity, horseshoe, jump, one_zero, periodic, twist
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
 from ..search import curve as curve_search
 from ..search import ellipticity as ellipticity_search
 from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
+from ..search import one_zero as one_zero_search
 from ..search import periodic as orbit_search
 from ..search import twist as twist_search
 
@@ -47,6 +48,10 @@ def _zero(theorem) -> str:
     return twist_search.propose_zero(*ball, *_ZERO, start, theorem.holds_for_any_radius)
 
 
+def _one_zero(theorem) -> str:
+    return one_zero_search.propose(*(theorem.bounds[name] for name in ("k", "g", "energy")))
+
+
 def _horseshoe(theorem) -> str:
     near = _near(theorem, "hyperbolic")
     return horseshoe_search.propose(*near, _PLANS[theorem.name], theorem.prove)
@@ -70,6 +75,7 @@ SEARCHES = {
     ellipticity.check: lambda it: ellipticity_search.propose(**it.bounds),
     twist.check: _twist,
     twist.check_zero: _zero,
+    one_zero.check: _one_zero,
     horseshoe.check: _horseshoe,
     curve.check: _curve,
     jump.check: _jump,

@@ -13,7 +13,7 @@ from importlib import resources
 import pseudorigid
 
 from ...dynamics import paper
-from ..checks import curve, ellipticity, horseshoe, jump, periodic, twist
+from ..checks import curve, ellipticity, horseshoe, jump, one_zero, periodic, twist
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
@@ -265,6 +265,23 @@ _THEOREMS = (
         "point",
         twist.check_zero,
         {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")},
+    ),
+    Theorem(
+        "twist-one-zero",
+        "at each energy above the least, -g^2/(2k), and up to k/2 - g, eq. (31), the fixed point "
+        "is elliptic, and its multiplier lambda, lambda^2 and lambda^3 are not unity; lambda^4 is "
+        "unity at one of these energies, the resonance below; the twist is positive below one "
+        "energy, the zero below, zero there, and negative above it; at all energies but these two, "
+        "closed invariant curves surround the fixed point in each of its neighbourhoods, and it is "
+        "stable for all time",
+        one_zero.check,
+        {
+            "k": K,
+            "g": G,
+            "energy": K / 2 - G,
+            "zero": (Fraction("0.0291977581389"), Fraction("0.0291977581390")),
+            "resonance": (Fraction("0.0373951"), Fraction("0.0373952")),
+        },
     ),
     Theorem(
         "jump-set",

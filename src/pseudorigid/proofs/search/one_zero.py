@@ -1,0 +1,65 @@
+"""Certificates of the bands over which the fixed point's twist has one zero."""
+
+from fractions import Fraction
+
+from flint import ctx
+
+from ..checks.certificate import NotProvedError
+from ..checks.one_zero import BITS, energy_at, over_band
+from ..enclosure.surface import ball_of
+
+_WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]
+_LAST = Fraction("2.4")  # theta beyond which no band is tried
+_DECIMALS = 22  # of theta at a zero
+
+
+def propose(k: Fraction, g: Fraction, energy: Fraction) -> str:
+    """Return a certificate of the bands of theta up to an energy.
+
+    Each band is the widest of a list over which the signs are decided. Raises ValueError where
+    there is none.
+    """
+    with ctx.workprec(BITS):
+        edges, zeros = [Fraction(0)], {}
+        while not energy_at(k, g, ball_of(edges[-1])) > ball_of(energy):
+            edges.append(edges[-1] + _widest(k, g, edges[-1]))
+        for place, name in ((1, "zero"), (0, "resonance")):
+            zeros[name] = _bisected(k, g, place, edges[1], edges[-1])
+    lines = [
+        'kind = "one zero of the twist"', f'k = "{k}"', f'g = "{g}"',
+        f'energy_up_to = "{energy}"',
+        *(f"{name} = [{', '.join(_decimal(a) for a in row)}]" for name, row in zeros.items()),
+        "edges = [", *(f"  [{float(edge):.3f}]," for edge in edges), "]",
+    ]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def _widest(k: Fraction, g: Fraction, low: Fraction) -> Fraction:
+    """Return the width of the widest band over which the signs are decided."""
+    for width in _WIDTHS:
+        if low + width > _LAST:
+            continue
+        try:
+            *pairs, _ = over_band(k, g, low, low + width)
+        except NotProvedError:
+            continue
+        if all(value > 0 or value < 0 or slope < 0 for value, slope in pairs):
+            return width
+    raise ValueError(f"no band from theta = {float(low):g} on has a sign")
+
+
+def _bisected(k: Fraction, g: Fraction, place: int, low: Fraction, high: Fraction) -> list:
+    """Return theta between which a function falls through zero, of `_DECIMALS` decimals."""
+    unit = 10**_DECIMALS
+    while high - low > Fraction(1, unit):
+        middle = Fraction(round((low + high) / 2 * unit), unit)
+        if over_band(k, g, middle, middle)[place][0] > 0:
+            low = middle
+        else:
+            high = middle
+    return [low, high]
+
+
+def _decimal(value: Fraction) -> str:
+    digits = f"{int(value * 10**_DECIMALS):0{_DECIMALS + 1}d}"
+    return f'"{digits[:-_DECIMALS]}.{digits[-_DECIMALS:]}"'
