@@ -7,6 +7,7 @@ import xarray as xr
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses.clusters import clusters
+from pseudorigid.analyses.control import control
 from pseudorigid.analyses.flux import flux
 from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.last_curve import last_curve
@@ -99,6 +100,10 @@ def datasets(derived, flowing):
         "clusters/clusters": made(
             clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,
+        ),
+        "control/control": made(
+            control, strengths=[0.01, 0.03], orbits=150, impacts=1600, period=6, starts=STARTS_2,
+            shown=0.03, drawn=300, resamples=40, seed=1,
         ),
         "jumps/jumps": made(jumps, energies=[0.0018], sides=200),
         "rotation/rotation": made(

@@ -14,12 +14,13 @@ from pseudorigid.analyses.clusters import clusters
 SMALL = """
 from content import content_hash
 from pseudorigid import Ball
-from pseudorigid.analyses import clusters, flux, jumps, last_curve, rotation, spread
+from pseudorigid.analyses import clusters, control, flux, jumps, last_curve, rotation, spread
 from pseudorigid.sweep import blocks
 ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
 for dataset in (
     spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),
     clusters.clusters(ball, 0.01, sea, 13, 400, [4.0, 6.0], 2, 20, 1),
+    control.control(ball, 0.01, [0.03], 20, 400, 6, [0.1], 0.03, 20, 20, 1),
     rotation.rotation(ball, 0.01, [0.026], 15, 600, (-0.8344, -0.8341), 600),
     jumps.jumps(ball, 0.01, [0.0018], 60),
     flux.flux(ball, 0.01, 6, 5e-3, 60, sea, 13, 300),
@@ -42,7 +43,7 @@ def hashes(**environment):
 @pytest.mark.slow
 def test_same_bits_on_another_machine(tmp_path):
     here = hashes()
-    assert len(set(here)) == 7
+    assert len(set(here)) == 8
     there = hashes(
         OMP_NUM_THREADS="1",
         NUMBA_CPU_NAME="generic",

@@ -26,8 +26,8 @@ ALGEBRA = {1, 8, 9, 10, 12, 15, 18, 47, 48, 53, 64, 68, 71}  # settled by comput
 PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
 EXPECTED = {
     FALSE: {14, 19, 33},
-    CORRECTED: {3, 4, 5, 6, 7, 11, 13, 17, 23, 34, 37, 40, 44, 59, 67},
-    UNDECIDED: {30, 50, 51, 52, 57, 58, 62, 63, 70},
+    CORRECTED: {3, 4, 5, 6, 7, 11, 13, 17, 23, 34, 37, 40, 44, 50, 59, 67},
+    UNDECIDED: {30, 51, 52, 57, 58, 62, 63, 70},
     PROVED: ALGEBRA,
 }
 
@@ -173,7 +173,7 @@ WRONG = {
     47: broken("one_form"),
     48: broken("area"),
     49: changed("rotation/rotation", **ONE_WAY),
-    50: broken("area"),
+    50: changed("control/control", class_low=np.zeros_like),
     53: broken("flights"),
     54: broken("softness"),
     55: changed("flux/flux", sea_inside=first_to(0.1)),
@@ -219,7 +219,7 @@ CASES = {
     (14, "smooth"): changed("jumps/jumps", length=np.zeros_like),
     (23, "no_gap"): WRONG[23],
     (28, "no_break_up"): WRONG[28],
-    (50, "unproved"): broken("area"),
+    (50, "mixed"): WRONG[50],
     (63, "smooth"): changed("jumps/jumps", length=np.zeros_like),
     **{(number, "unproved"): lambda datasets: {} for number in (30, 52, 63, 70)},
 }

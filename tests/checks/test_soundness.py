@@ -23,7 +23,8 @@ SOUND = {
     name.rpartition("/")[2]: name
     for name in ("derivations", "fig2/orbits", "fig4/periodic", "fig4/motion", "fig6/manifolds",
                  "fig7/lyapunov", "spread/spread", "clusters/clusters", "rotation/rotation",
-                 "jumps/jumps", "flux/flux", "last_curve/last_curve", "atlas/line", "atlas/plane")
+                 "jumps/jumps", "flux/flux", "last_curve/last_curve", "control/control",
+                 "atlas/line", "atlas/plane")
 }  # fmt: skip
 
 
@@ -72,6 +73,7 @@ def test_another_ball_or_energy_is_refused(datasets, stage, name):
 TENTH_LESS = {
     "derivations": ("value",),
     "clusters": ("correlation", "kinetic_energy", "strain_energy", "period_error"),
+    "control": ("class_share", "exponent", "defect", "island_trace", "a"),
     "flux": ("sea_out", "carried_out", "carried_in", "area", "lobe_polygon", "branch_x"),
     "jumps": ("length_error", "flight_x", "derivative_touched", "derivative_missed"),
     "last_curve": ("place", "orbit_exponent"),

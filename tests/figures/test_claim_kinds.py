@@ -16,6 +16,7 @@ CHANGES = {
     "jumps": ("y", lambda v: 0.9 * v),
     "flux": ("branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
     "last_curve": ("residue", lambda v: 3.0 * v),
+    "control": ("class_share", lambda v: 0.5 * v),
 }
 KINDS = list(CHANGES)
 

@@ -10,7 +10,6 @@ import pytest
 from pipeline import config
 from pipeline.publication import archive, crate
 from pipeline.records import swhid
-from pipeline.records.sources import ROOT
 
 SCRIPT = Path(__file__).with_name("validate_crate.py")
 

@@ -53,6 +53,7 @@ STAGES = {
             "flux": "period distance grid between orbits impacts",
             "last_curve": "nobles convergents between impacts drawn",
             "families": "parameter span period levels",
+            "control": "strengths orbits impacts period starts shown drawn resamples seed",
         }.items()
     },
     "shares": Stage(
