@@ -17,7 +17,7 @@ _MAPS = {
     "neither": ("neither", style.ORANGE, "^"),
     "damped": ("neither, damped", style.SKY, "v"),
 }
-_ROWS = 1020, 645, 270  # pixels: the bottoms of the charts' rows
+_ROWS = 1040, 655, 270  # pixels: the bottoms of the charts' rows
 _HIGH = 225  # pixels: the height of a chart
 _SIDE = 295  # pixels: the side of a portrait
 
@@ -44,7 +44,7 @@ def _portraits(sheet, control):
     shown = style.number(control.attrs["shown"])
     for i, name in enumerate(control["panel"].values.tolist()):
         left = 45 + (i % 3) * (_SIDE + 40)
-        bottom = sheet.high - 110 - (i // 3) * (_SIDE + 50) - _SIDE
+        bottom = sheet.high - 110 - (i // 3) * (_SIDE + 62) - _SIDE
         frame = left, bottom, left + _SIDE, bottom + _SIDE
         unit = Axis((-1.04, 1.04), ())
         panel = Window(sheet, frame, unit, unit)
