@@ -18,6 +18,7 @@ SWEEP = {
 # Blocks at their bounds: changes of the kinds' examples, or whole blocks.
 CLUSTERS = ("claims", "clusters", {"orbits": 100, "impacts": 100_000, "resamples": 100_000})
 FLUX = ("claims", "flux", {"distance": 1e-5, "grid": 3000, "orbits": 1000, "impacts": 10_000})
+CONTROL = ("claims", "control", {"orbits": 100_000, "resamples": 100, "impacts": 3_333_333})
 JUMPS = ("claims", "jumps", {"sides": 100_000})
 LAST_CURVE = (
     "claims", "last_curve",
@@ -50,6 +51,12 @@ def refusals(part, block):
         (CLUSTERS, {"impacts": 100_001}, "impacts: 100001", "here 100000"),
         (CLUSTERS, {"orbits": 101, "impacts": 100}, "resamples: 100000", "here 99009"),
         (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "ball.g: 1e-09", "at most 1000000"),
+        (CONTROL, {"shown": 0.02}, "shown: 0.02", "one of strengths: 0.01, 0.05"),
+        (CONTROL, {"strengths": [0.05, 0.01]}, "strengths: ", "a rising list"),
+        (CONTROL, {"strengths": [0.01, 0.6]}, "strengths[1]: 0.6", "to 0.5"),
+        (CONTROL, {"impacts": 3_333_334}, "impacts: 3333334", "at most 10000000"),
+        (CONTROL, {"drawn": 3_333_334}, "drawn: 3333334", "at most impacts = 3333333"),
+        (CONTROL, {"resamples": 101}, "resamples: 101", "here 100"),
         (FLUX, {"grid": 3001}, "grid: 3001", "to 3000"),
         (FLUX, {"period": 5}, "period: 5", "a multiple of 2"),
         (FLUX, {"orbits": 1001}, "impacts: 10000", "here 9990"),

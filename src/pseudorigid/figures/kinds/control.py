@@ -19,6 +19,7 @@ _MAPS = {
 }
 _ROWS = 1040, 655, 270  # pixels: the bottoms of the charts' rows
 _HIGH = 225  # pixels: the height of a chart
+_LONG = 5  # digits of numbers of impacts that fit beside one another
 _SIDE = 295  # pixels: the side of a portrait
 
 
@@ -74,6 +75,8 @@ def _charts(sheet, control):
     logs = log10(strength)
     low, high = float(logs.min()), float(logs.max())
     room = max(0.08 * (high - low), 0.15)
+    if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
+        low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
     ticks = range(int(np.ceil(low - 1e-9)), int(np.floor(high + 1e-9)) + 1)
     across = Axis((low - room, high + room), tuple(ticks), r"Strength $\epsilon$", True)
     blank = across.blank()
@@ -159,12 +162,15 @@ def _lengths(sheet, frame, control):
     """Draw the regular share against the number of impacts at the strength that is shown."""
     lengths = control["length"].values.astype(float)
     logs = log10(lengths)
+    texts = [style.number(int(n)) for n in lengths]
+    if len(texts[-1]) > _LONG:
+        texts[1:-1] = [""] * (len(texts) - 2)
     across = Axis(
         (float(logs[0]) - 0.1, float(logs[-1]) + 0.1),
         logs.tolist(),
         "Number of impacts",
         True,
-        [style.number(int(n)) for n in lengths],
+        texts,
     )
     at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
     kind = control.sel({"class": "regular"})
