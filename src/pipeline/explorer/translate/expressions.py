@@ -1,0 +1,440 @@
+"""Expressions of a function, which become JavaScript with the same operations."""
+
+import ast
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from itertools import count
+from typing import NoReturn, TypeGuard
+
+from .modules import RESERVED, Modules
+from .values import (
+    AND,
+    ATOM,
+    BOOL,
+    EQUAL,
+    FLOAT,
+    INT,
+    LESS,
+    LONG,
+    LONGS,
+    NONE,
+    OR,
+    PRODUCT,
+    SHIFT,
+    SUM,
+    TERNARY,
+    UNARY,
+    Function,
+    Scalar,
+    Shape,
+    Value,
+    filled,
+    kinds_of,
+    leaves_of,
+    literal,
+    long_literal,
+    phrase_of,
+    shape_of,
+    variables_of,
+)
+
+_WIDTH = 100  # of a line
+
+
+class ExpressionTranslator:
+    """Translate expressions of one function.
+
+    Calls with several results, and what may be evaluated once only, are written as statements
+    before the expression.
+    """
+
+    def __init__(
+        self, modules: Modules, module: str, function: Callable[[str, str], Function]
+    ) -> None:
+        self._all, self._module, self._translated = modules, module, function
+        self._source = modules.module(module)
+        self._shapes: dict[str, Shape] = {}
+        self._globals: set[str] = set()  # functions and constants that it uses
+        self._reset()
+
+    def _reset(self) -> None:
+        self._lines: list[str] = []
+        self._indent = 1
+        self._conditional = 0  # depth of expressions that may not be evaluated
+        self._temporaries = count(1)
+
+    def _callee(self, name: str) -> Function:
+        return self._translated(self._module, name)
+
+    def _is_function(self, name: str) -> bool:
+        return self._all.has_function(self._module, name)
+
+    def _refuse(self, node: ast.AST, construct: str) -> NoReturn:
+        self._all.refuse(self._source, node, construct)
+
+    def _safe(self, name: str) -> str:
+        return f"{name}_" if name in RESERVED else name
+
+    def _emit(self, line: str) -> None:
+        self._lines.append("  " * self._indent + line)
+
+    def _emit_joined(self, statements: list[str]) -> None:
+        """Write short statements, several on a line."""
+        for statement in statements:
+            line = self._lines[-1] if statement != statements[0] else ""
+            if line and len(line) + 1 + len(statement) <= _WIDTH:
+                self._lines[-1] += f" {statement}"
+            else:
+                self._emit(statement)
+
+    @contextmanager
+    def _deeper(self) -> Iterator[None]:
+        self._indent += 1
+        yield
+        self._indent -= 1
+
+    def _kept(self, scalar: Scalar) -> Scalar:
+        """Return a constant that holds a scalar."""
+        return self._all_kept([scalar])[0]
+
+    def _all_kept(self, scalars: list[Scalar]) -> list[Scalar]:
+        """Return constants that hold scalars."""
+        names = [f"$t{next(self._temporaries)}" for _ in scalars]
+        pairs = [f"{name} = {scalar.code}" for name, scalar in zip(names, scalars, strict=True)]
+        self._emit(f"const {', '.join(pairs)};")
+        return [Scalar(name, scalar.kind) for name, scalar in zip(names, scalars, strict=True)]
+
+    def _joined(self, node: ast.AST, one: Shape, other: Shape) -> Shape:
+        """Return the shape that holds values of both shapes."""
+        if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+            return [self._joined(node, a, b) for a, b in zip(one, other, strict=True)]
+        if isinstance(one, str) and isinstance(other, str):
+            if one == other:
+                return one
+            pair = {one, other}
+            if pair == {INT, FLOAT}:
+                return FLOAT
+            if pair == {INT, LONG}:
+                return LONG
+        self._refuse(node, f"a variable that is both {phrase_of(one)} and {phrase_of(other)}")
+
+    def _coerced(self, node: ast.AST, scalar: Scalar, kind: str) -> Scalar:
+        """Convert a scalar to a kind."""
+        if scalar.kind == kind or (scalar.kind, kind) == (INT, FLOAT):
+            return scalar
+        if (scalar.kind, kind) == (INT, LONG):
+            if scalar.code.isdigit():
+                return Scalar(long_literal(int(scalar.code)), LONG)
+            return Scalar(f"BigInt({scalar.code})", LONG)
+        if (scalar.kind, kind) == (LONG, FLOAT):
+            return Scalar(f"Number({scalar.code})", FLOAT)
+        self._refuse(node, f"{phrase_of(scalar.kind)} where {phrase_of(kind)} is needed")
+
+    # Expressions
+
+    @contextmanager
+    def _unevaluated(self) -> Iterator[None]:
+        """Mark expressions that may not be evaluated, or more than once."""
+        self._conditional += 1
+        yield
+        self._conditional -= 1
+
+    def _number(self, node: ast.expr, *kinds: str) -> Scalar:
+        """Translate an expression that is one number, of given kinds if there are any."""
+        value = self._value(node)
+        if not isinstance(value, Scalar) or value.kind not in (kinds or (INT, FLOAT, LONG)):
+            self._refuse(node, f"{phrase_of(shape_of(value))} here")
+        return value
+
+    def _condition(self, node: ast.expr) -> Scalar:
+        """Translate a condition: a comparison, or a 64-bit integer that is not 0."""
+        value = self._number(node, BOOL, LONG)
+        if value.kind == LONG:
+            return Scalar(f"{self._grouped(value, EQUAL + 1)} !== 0n", BOOL, EQUAL)
+        return value
+
+    @staticmethod
+    def _grouped(scalar: Scalar, precedence: int) -> str:
+        """Return the code of an operand, in parentheses where it binds less than `precedence`."""
+        return scalar.code if scalar.precedence >= precedence else f"({scalar.code})"
+
+    def _value(self, node: ast.expr) -> Value:
+        match node:
+            case ast.Constant(value=bool(truth)):
+                return Scalar(str(truth).lower(), BOOL)
+            case ast.Constant(value=int() | float() as number):
+                return Scalar(literal(number), INT if isinstance(number, int) else FLOAT)
+            case ast.Name(name):
+                return self._name(node, name)
+            case ast.Attribute(value=ast.Name("math"), attr="inf" | "nan" as name):
+                return Scalar({"inf": "Infinity", "nan": "NaN"}[name], FLOAT)
+            case ast.Tuple(elts=elements):
+                return self._tuple(elements)
+            case ast.BinOp(left=left, op=op, right=right):
+                return self._operation(node, left, op, right)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                value = self._number(operand)
+                if value.kind == INT and not isinstance(operand, ast.Constant):  # -0 is 0
+                    return Scalar(f"0 - {self._grouped(value, PRODUCT)}", INT, SUM)
+                code = f"-{self._grouped(value, UNARY + 1)}"
+                return Scalar(code, value.kind, UNARY)
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                condition = self._condition(operand)
+                return Scalar(f"!{self._grouped(condition, UNARY + 1)}", BOOL, UNARY)
+            case ast.BoolOp(op=op, values=values):
+                return self._logic(op, values)
+            case ast.Compare(left=left, ops=ops, comparators=others):
+                return self._comparison(node, left, ops, others)
+            case ast.IfExp(test=test, body=body, orelse=orelse):
+                return self._choice(node, test, body, orelse)
+            case ast.Subscript(value=ast.Name(name), slice=index):
+                return self._element(node, name, index)
+            case ast.Call():
+                return self._call(node)
+        self._refuse(node, type(node).__name__)
+
+    def _name(self, node: ast.expr, name: str) -> Value:
+        if name in self._shapes:
+            shape = self._shapes[name]
+            if shape == NONE:
+                return Scalar("null", NONE)
+            variables = [
+                Scalar(self._safe(leaf.code), leaf.kind)
+                for leaf in leaves_of(variables_of(name, shape))
+            ]
+            return filled(shape, iter(variables))
+        constant = self._all.constant(self._module, name, node)
+        self._globals.add(constant.code)
+        return constant
+
+    def _tuple(self, elements: list[ast.expr]) -> list[Value]:
+        values: list[Value] = []
+        for element in elements:
+            if isinstance(element, ast.Starred):
+                value = self._value(element.value)
+                if not isinstance(value, list):
+                    self._refuse(element, "a star before a number")
+                values += value
+            else:
+                values.append(self._value(element))
+        return values
+
+    def _operation(
+        self, node: ast.expr, left: ast.expr, op: ast.operator, right: ast.expr
+    ) -> Scalar:
+        if isinstance(op, ast.Pow):
+            if not (is_number(left) and is_number(right)):
+                self._refuse(node, "a power of anything but two numbers")
+            power = ast.literal_eval(left) ** ast.literal_eval(right)
+            if not isinstance(power, int | float):
+                self._refuse(node, "this power")
+            return Scalar(literal(power), INT if isinstance(power, int) else FLOAT)
+        if isinstance(op, ast.BitAnd | ast.BitOr):
+            a, b = self._value(left), self._value(right)
+            if shape_of(a) == shape_of(b) == BOOL:
+                return self._joined_conditions(op, a, b)
+        a, b = self._number(left), self._number(right)
+        kind = LONG if LONG in (a.kind, b.kind) else INT
+        if FLOAT in (a.kind, b.kind) or isinstance(op, ast.Div):
+            kind = FLOAT
+        if isinstance(op, ast.Div) and LONG in (a.kind, b.kind):
+            self._refuse(node, "the division of 64-bit integers")
+        a, b = self._coerced(node, a, kind), self._coerced(node, b, kind)
+        symbols: dict[type[ast.operator], tuple[str, int]] = {
+            ast.Add: ("+", SUM),
+            ast.Sub: ("-", SUM),
+            ast.Mult: ("*", PRODUCT),
+            ast.Div: ("/", PRODUCT),
+        }
+        if type(op) in symbols:
+            symbol, precedence = symbols[type(op)]
+            code = f"{self._grouped(a, precedence)} {symbol} {self._grouped(b, precedence + 1)}"
+            if kind == LONG:
+                return Scalar(f"$long({code})", LONG)
+            if kind == INT and isinstance(op, ast.Mult):  # an integer has no -0
+                return Scalar(f"{code} + 0", INT, SUM)
+            return Scalar(code, kind, precedence)
+        if kind != LONG:
+            self._refuse(node, f"{type(op).__name__} of anything but 64-bit integers")
+        one, other = self._grouped(a, ATOM), self._grouped(b, ATOM)
+        match op:
+            case ast.BitAnd():
+                return Scalar(f"{one} & {other}", LONG, OR)
+            case ast.BitOr():
+                return Scalar(f"{one} | {other}", LONG, OR)
+            case ast.RShift():
+                return Scalar(f"{one} >> {other}", LONG, SHIFT)
+            case ast.LShift():
+                return Scalar(f"$long({one} << {other})", LONG)
+            case ast.FloorDiv():
+                return Scalar(f"$quotient({a.code}, {b.code})", LONG)
+            case ast.Mod():
+                return Scalar(f"$modulo({a.code}, {b.code})", LONG)
+        self._refuse(node, type(op).__name__)
+
+    def _joined_conditions(self, op: ast.AST, *values: Value) -> Scalar:
+        """Join conditions by `&&` or `||`; without side effects, all may as well be evaluated."""
+        both = isinstance(op, ast.And | ast.BitAnd)
+        symbol, precedence = ("&&", AND) if both else ("||", OR)
+        scalars = [leaf for value in values for leaf in leaves_of(value)]
+        code = f" {symbol} ".join(self._grouped(each, precedence + 1) for each in scalars)
+        return Scalar(code, BOOL, precedence)
+
+    def _logic(self, op: ast.boolop, values: list[ast.expr]) -> Scalar:
+        conditions = [self._condition(values[0])]
+        with self._unevaluated():
+            conditions += [self._condition(each) for each in values[1:]]
+        return self._joined_conditions(op, *conditions)
+
+    def _comparison(
+        self, node: ast.expr, left: ast.expr, ops: list[ast.cmpop], others: list[ast.expr]
+    ) -> Scalar:
+        match ops, others:
+            case [ast.In()], [ast.Tuple(elts=elements)]:
+                pairs = [self._compared(node, left, ast.Eq(), each) for each in elements]
+                return self._joined_conditions(ast.Or(), *pairs)
+        with self._unevaluated():  # the middle of a chain is written twice
+            operands = [left, *others]
+            pairs = [
+                self._compared(node, a, op, b)
+                for a, op, b in zip(operands, ops, others, strict=False)
+            ]
+        return pairs[0] if len(pairs) == 1 else self._joined_conditions(ast.And(), *pairs)
+
+    def _compared(self, node: ast.expr, left: ast.expr, op: ast.cmpop, right: ast.expr) -> Scalar:
+        symbols: dict[type[ast.cmpop], tuple[str, int]] = {
+            ast.Lt: ("<", LESS),
+            ast.LtE: ("<=", LESS),
+            ast.Gt: (">", LESS),
+            ast.GtE: (">=", LESS),
+            ast.Eq: ("===", EQUAL),
+            ast.NotEq: ("!==", EQUAL),
+        }
+        if type(op) not in symbols:
+            self._refuse(node, f"the comparison {type(op).__name__}")
+        a, b = self._number(left), self._number(right)
+        if LONG in (a.kind, b.kind):
+            a, b = self._coerced(node, a, LONG), self._coerced(node, b, LONG)
+        symbol, precedence = symbols[type(op)]
+        code = f"{self._grouped(a, SHIFT)} {symbol} {self._grouped(b, SHIFT)}"
+        return Scalar(code, BOOL, precedence)
+
+    def _choice(self, node: ast.expr, test: ast.expr, body: ast.expr, orelse: ast.expr) -> Value:
+        condition = self._condition(test)
+        with self._unevaluated():
+            one, other = self._value(body), self._value(orelse)
+        shape = self._joined(node, shape_of(one), shape_of(other))
+        kinds = kinds_of(shape)
+        if len(kinds) > 1 and condition.precedence < ATOM:
+            condition = self._kept(condition)
+        scalars = []
+        for a, b, kind in zip(leaves_of(one), leaves_of(other), kinds, strict=True):
+            parts = condition, self._coerced(node, a, kind), self._coerced(node, b, kind)
+            test_code, yes, no = (self._grouped(each, OR) for each in parts)
+            scalars.append(Scalar(f"{test_code} ? {yes} : {no}", kind, TERNARY))
+        return filled(shape, iter(scalars))
+
+    def _index(self, node: ast.expr) -> str:
+        at = self._number(node, INT, LONG)
+        return f"Number({at.code})" if at.kind == LONG else at.code
+
+    def _element(self, node: ast.expr, name: str, index: ast.expr) -> Value:
+        value = self._name(node, name)
+        if isinstance(value, list):
+            match index:
+                case ast.Constant(value=int(i)) if i < len(value):
+                    return value[i]
+                case ast.Slice(lower=None | ast.Constant(), upper=None | ast.Constant(), step=None):
+                    first, last = (
+                        int(str(each.value)) if isinstance(each, ast.Constant) else None
+                        for each in (index.lower, index.upper)
+                    )
+                    return value[first:last]
+        elif value.kind == LONGS:
+            return Scalar(f"{value.code}[{self._index(index)}]", LONG)
+        self._refuse(node, "this element")
+
+    # Calls
+
+    def _called(self, node: ast.Call) -> str | None:
+        """Return the name of the translated function that is called, if it is one."""
+        if isinstance(node.func, ast.Name) and self._is_function(node.func.id):
+            return node.func.id
+        return None
+
+    def _call(self, node: ast.Call, keep: bool = True) -> Value:
+        """Translate a call; several results are kept in constants, or read by the caller."""
+        if called := self._called(node):
+            function = self._callee(called)
+            code = self._call_code(function, node)
+            if isinstance(function.result, str):
+                return Scalar(code, function.result)
+            if self._conditional:
+                self._refuse(node, f"{called}, with several results, in a condition or a choice,")
+            self._emit(f"{code};")
+            kinds = kinds_of(function.result)
+            read = [Scalar(f"$out[{i}]", kind) for i, kind in enumerate(kinds)]
+            if keep:
+                read = self._all_kept(read)
+            return filled(function.result, iter(read))
+        if node.keywords:
+            self._refuse(node, "a keyword argument")
+        match node.func, node.args:
+            case ast.Name("abs"), [a]:
+                return Scalar(f"Math.abs({self._number(a, FLOAT).code})", FLOAT)
+            case ast.Name("max" | "min" as name), [a, b]:
+                one, other = self._number(a, INT, FLOAT), self._number(b, INT, FLOAT)
+                kind = INT if one.kind == other.kind == INT else FLOAT
+                return Scalar(f"${name}({one.code}, {other.code})", kind)
+            case ast.Name("float"), [a]:
+                return self._coerced(node, self._number(a), FLOAT)
+            case ast.Attribute(value=ast.Name("math" | "np"), attr="sqrt"), [a]:
+                return Scalar(f"Math.sqrt({self._number(a, INT, FLOAT).code})", FLOAT)
+            case ast.Attribute(value=ast.Name("math"), attr="isnan"), [a]:
+                return Scalar(f"Number.isNaN({self._number(a, FLOAT).code})", BOOL)
+            case (
+                ast.Attribute(value=ast.Name("np"), attr="zeros"),
+                [size, ast.Attribute(value=ast.Name("np"), attr="int64")],
+            ):
+                return Scalar(f"new BigInt64Array({self._number(size, INT).code})", LONGS)
+            case (
+                ast.Attribute(
+                    value=ast.Call(
+                        func=ast.Attribute(value=ast.Name("np"), attr=origin), args=[a], keywords=[]
+                    ),
+                    attr="view",
+                ),
+                [ast.Attribute(value=ast.Name("np"), attr=target)],
+            ):
+                if (origin, target) == ("float64", "int64"):
+                    return Scalar(f"$bitsOf({self._number(a, FLOAT).code})", LONG)
+                if (origin, target) == ("int64", "float64"):
+                    return Scalar(f"$floatOf({self._number(a, LONG).code})", FLOAT)
+        self._refuse(node, f"the call of {ast.unparse(node.func)}")
+
+    def _call_code(self, function: Function, node: ast.Call) -> str:
+        if node.keywords:
+            self._refuse(node, "a keyword argument")
+        self._globals.add(function.name)
+        values = self._tuple(node.args)
+        shapes = [shape for _, shape in function.parameters]
+        if len(values) != len(shapes):
+            self._refuse(node, f"a call of {function.name} with another number of arguments")
+        codes = []
+        for value, shape in zip(values, shapes, strict=True):
+            if len(leaves_of(value)) != len(kinds_of(shape)):
+                self._refuse(node, f"this argument of {function.name}")
+            if shape == NONE and shape_of(value) == NONE:
+                continue
+            for leaf, kind in zip(leaves_of(value), kinds_of(shape), strict=True):
+                if leaf.kind in (LONG, LONGS, BOOL):
+                    self._refuse(node, f"{phrase_of(leaf.kind)} as an argument")
+                codes.append(self._coerced(node, leaf, kind).code)
+        return f"{function.name}({', '.join(codes)})"
+
+
+def is_number(node: ast.expr) -> TypeGuard[ast.expr]:
+    """Return whether an expression is a literal number, with or without a sign."""
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        node = node.operand
+    return isinstance(node, ast.Constant) and type(node.value) in (int, float)

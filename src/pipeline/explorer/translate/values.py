@@ -1,0 +1,92 @@
+"""Values of translated code: expressions with their kinds, tuples of them, and literals."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+# Kinds of scalars. An `int` may become a `float` or a `long`.
+BOOL, INT, FLOAT, LONG, LONGS, NONE = "bool", "int", "float", "long", "longs", "none"
+# Precedence of JavaScript's operators.
+TERNARY, OR, AND, EQUAL, LESS, SHIFT, SUM, PRODUCT, UNARY, ATOM = range(2, 12)
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """A JavaScript expression, its kind and the precedence of its outermost operator."""
+
+    code: str
+    kind: str
+    precedence: int = ATOM
+
+
+# An expression's value: tuples are lists of values.
+Value = Scalar | list["Value"]
+# The kind of each number of a value, with the same nesting.
+Shape = str | list["Shape"]
+
+
+@dataclass
+class Function:
+    """A translated function: its JavaScript name, parameters and result."""
+
+    name: str
+    parameters: list[tuple[str, Shape]]
+    result: Shape
+    code: str
+
+
+def literal(value: int | float) -> str:
+    """Return a number as JavaScript reads it; both languages round decimals correctly."""
+    if isinstance(value, int):
+        return str(value)
+    if math.isnan(value):
+        return "NaN"
+    return repr(value).replace("inf", "Infinity")
+
+
+def long_literal(value: int) -> str:
+    """Return a 64-bit integer as JavaScript reads it: masks and digits are clearer in base 16."""
+    return f"{hex(value) if value > 255 else value}n"
+
+
+def leaves_of(value: Value) -> list[Scalar]:
+    """Return the scalars of a value, in order."""
+    if isinstance(value, Scalar):
+        return [value]
+    return [leaf for each in value for leaf in leaves_of(each)]
+
+
+def kinds_of(shape: Shape) -> list[str]:
+    """Return the kinds of the scalars of a shape, in order."""
+    return (
+        [shape] if isinstance(shape, str) else [kind for each in shape for kind in kinds_of(each)]
+    )
+
+
+def shape_of(value: Value) -> Shape:
+    return value.kind if isinstance(value, Scalar) else [shape_of(each) for each in value]
+
+
+def filled(shape: Shape, scalars: Iterator[Scalar]) -> Value:
+    """Return a value of a shape from its scalars in order."""
+    if isinstance(shape, str):
+        return next(scalars)
+    return [filled(each, scalars) for each in shape]
+
+
+def variables_of(name: str, shape: Shape) -> Value:
+    """Return the variables that hold a value of a shape: `a`, or `a_0`, `a_1`, ..."""
+    if isinstance(shape, str):
+        return Scalar(name, shape)
+    return [variables_of(f"{name}_{i}", each) for i, each in enumerate(shape)]
+
+
+def phrase_of(shape: Shape) -> str:
+    """Return how a message calls a shape."""
+    if isinstance(shape, list):
+        return f"{len(shape)} values"
+    names: Mapping[str, str] = {
+        BOOL: "a condition", INT: "an integer", FLOAT: "a number", LONG: "a 64-bit integer",
+        LONGS: "an array of integers", NONE: "None",
+    }  # fmt: skip
+    return names[shape]
