@@ -14,7 +14,7 @@ from . import atlas
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 _PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
-_SCENES = (PAPER, "claims", "proofs")
+_NO_SECTION = ("families",)  # kinds of picture that show no part of the section
 
 
 def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
@@ -22,14 +22,25 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     return {
         "version": _version(),
         "scenes": {
-            name: block
-            for group in _SCENES
-            for name, block in checked["variants"].get(group, {}).items()
+            name: {field: value for field, value in block.items() if field != "formats"}
+            for variant, scenes in checked["variants"].items()
+            for scene, block in scenes.items()
+            if (name := address(variant, scene, block))
         },
         "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),
         "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
     }
+
+
+def address(variant: str, scene: str, block: YamlMapping) -> str | None:
+    """Return what opens a scene of a variant in the page after `#`, None if nothing does.
+
+    Scenes with another method than the page's have other orbits.
+    """
+    if block["picture"] in _NO_SECTION or "method" in block:
+        return None
+    return scene if variant in PUBLISHED else f"{variant}/{scene}"
 
 
 def _version() -> str:

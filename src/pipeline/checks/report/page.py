@@ -15,6 +15,7 @@ from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
+from ...explorer.data import address
 from ...records import swhid
 from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
@@ -108,7 +109,7 @@ class _Page:
                 reason = "not made" if stale == MISSING else f"not current: {stale}"
             picture = caption_of(scene, block)._asdict() | {"id": f"{name}-{scene}"}
             picture |= {"missing": reason, "image": None, "rows": [], "headline": None}
-            picture["explorer"] = scene if name == PAPER else None
+            picture["explorer"] = address(name, scene, block)
             if not reason:
                 picture |= self._image(file) | self._measured(name, scene)
                 picture["file"] = self._file(name, scene)
@@ -135,9 +136,11 @@ class _Page:
         block = published_set.config.get(scene)
         picture: Picture = caption_of(scene, block)._asdict()
         picture |= {"headline": None, "image": None, "id": published.replace("/", "-")}
-        picture["explorer"] = scene if block and "picture" in block else None
+        picture["explorer"] = None
+        if scene_block := block if block and "picture" in block else None:
+            picture["explorer"] = address(Path(published_set.results).name, scene, scene_block)
         if drawing and drawing not in findings.stale:
-            if block and "picture" in block:
+            if scene_block:
                 picture |= self._measured(Path(published_set.results).name, scene)
             self.shown |= dict.fromkeys([*published_set.data[scene].values(), drawing])
             return picture | self._image(drawing) | {"file": published}

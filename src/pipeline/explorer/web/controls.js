@@ -44,7 +44,11 @@ class Controls {
     }
     this.slides();
     this.validate();
-    element("preset").value = state.preset;
+    const choices = element("preset");
+    if (this.page.data.scenes[state.preset] && ![...choices.options].some(({ value }) => value === state.preset)) {
+      choices.append(this.option(state.preset, state.preset));
+    }
+    choices.value = state.preset;
     const preset = this.page.data.presets.find(({ name }) => name === state.preset);
     element("see").textContent =
       preset?.see ?? "Your own picture: closed curves are regular motion, scattered points are chaos.";

@@ -448,9 +448,9 @@ function begin() {
     const address = window.location.hash;
     if (address.length > 1 && address === writeAddress(explorer.state)) return;
     try {
-      const name = address.slice(1) || "fig2"; // a preset's name is an address too
-      const preset = Object.hasOwn(PRESETS, name) && data.scenes[name];
-      explorer.show(preset ? presetState(name, data.scenes) : readAddress(address));
+      const name = decodeURIComponent(address.slice(1)) || "fig2"; // a scene's name is an address too
+      const known = Object.hasOwn(data.scenes, name);
+      explorer.show(known ? presetState(name, data.scenes) : readAddress(address));
       explorer.controls.welcome();
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));

@@ -1,18 +1,16 @@
 "use strict";
 /*
- * Presets: the paper's figures and the pictures behind the verdicts on its statements. Numbers come
- * from the blocks of config.yaml in the page's data, texts from presets.json; here is from where to
- * look at what. Each entry makes the part of the state that differs from a fresh one.
+ * Presets: the scenes of config.yaml, which are in the page's data, by their kinds of picture. Here is
+ * from where to look at what; presets.json has a title and a sentence for scenes of the paper, of its
+ * claims and of proofs. Each entry makes the part of the state that differs from a fresh one.
  */
 const HOME_VIEW = { kind: "surface", azimuth: 115, elevation: 40, x: 0, y: 0, half: HOME.surface[2] };
 const PRESETS = {
-  fig2: (scene) => surface(scene),
-  fig3: (scene, all) => inTime(scene, all),
-  fig4: (scene, all) => inTime(scene, all),
-  fig5: (scene) => ({ ...surface(scene), periods: [scene.period], branches: branchesOf(scene) }),
-  fig6: (scene) => closeUp(scene),
-  fig7: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
-  fig8: (scene) => surface(scene),
+  portrait: surface,
+  motion: inTime,
+  tangle: (scene) => ({ ...surface(scene), periods: [scene.period], branches: branchesOf(scene) }),
+  closeup: closeUp,
+  exponents: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
   spread: () => ({ view: disk(), orbits: fan(0.55, 0.68, 8, 20000), chosen: 0 }),
   clusters: () => ({ orbits: fan(0.6, 0.6, 1, 10000), chosen: 0, span: 60 }),
   rotation: () => ({ view: disk(), orbits: fan(-0.46, -0.03, 44, 2000), chart: "rotation", chosen: 0 }),
@@ -29,40 +27,48 @@ const PRESETS = {
     const { p } = geometry.fixedPoint(k, g, energy);
     return { view: disk(p, 0, 0.3), orbits: fan(p + 0.005, p + 0.2, 20, 3000), chart: "rotation", chosen: 0 };
   },
+  curves: (scene) => ({ view: disk(), orbits: orbitsOf(scene), chosen: 0 }),
 };
 
-/** The state of the page that shows a preset. */
+/** The state of the page that shows a scene, given by its name: `fig2`, or `below/fig2` of a variant. */
 function presetState(name, scenes) {
   const scene = scenes[name];
   const { k, g } = scene.ball;
   const base = { ...freshState(), k, g, energy: scene.energy, preset: name };
-  return { ...base, ...PRESETS[name](scene, scenes) };
+  return { ...base, ...PRESETS[scene.picture](scene, scenes) };
 }
 
 function disk(x = 0, y = 0, half = HOME.disk[2]) {
   return { ...HOME_VIEW, kind: "disk", x, y, half };
 }
 
-/** The window of a close-up in (x, xdot), in the disk. */
+/** The window of a close-up in (x, xdot), in the disk; the whole disk where a scene has no limits. */
 function closeUp(scene) {
-  const { axes, ball, energy } = scene;
-  const { k, g } = ball;
-  const [x, v] = [axes.x, axes.xdot].map(({ limits }) => 0.5 * (limits[0] + limits[1]));
-  const w = Math.sqrt((2 * energy + 2 * g * x - k * x * x - v * v) / k);
-  const { centre, radius, height } = geometry.section(k, g, energy);
+  const { axes, ball } = scene;
+  const lines = saddle({ ...scene, branches: { outer: scene, inner: scene } });
+  if (!axes) return { view: disk(), ...lines };
+  const [x, xdot] = [axes.x, axes.xdot].map(({ limits }) => 0.5 * (limits[0] + limits[1]));
+  const { radius } = geometry.section(ball.k, ball.g, scene.energy);
   const half = (0.55 * (axes.x.limits[1] - axes.x.limits[0])) / radius;
-  const view = disk((x - centre) / radius, (v - k * w) / height, half);
-  return { view, ...saddle({ ...scene, branches: { outer: scene, inner: scene } }) };
+  return { view: disk(...placeOf({ x, xdot }, scene), half), ...lines };
 }
 
-function orbitsOf({ starts, impacts, sea = [] }) {
-  return starts.map((p, i) => ({
-    p,
-    q: 0,
-    impacts: Array.isArray(impacts) ? impacts[i] : impacts,
-    back: false,
-    sea: sea.includes(i),
-  }));
+/** The place of a start: a fraction, or a point with x and either y or xdot. */
+function placeOf(start, { ball: { k, g }, energy }) {
+  if (typeof start === "number") return [start, 0];
+  const { x, xdot, y } = start;
+  const { centre, radius, height } = geometry.section(k, g, energy);
+  const udot = Math.sqrt((2 * energy + 2 * g * x - k * x * x - xdot * xdot) / k);
+  return [(x - centre) / radius, (y ?? xdot - k * udot) / height];
+}
+
+function orbitsOf(scene) {
+  const { starts, impacts, sea = [] } = scene;
+  return starts.slice(0, MOST_ORBITS).map((start, i) => {
+    const [p, q] = placeOf(start, scene);
+    const count = Array.isArray(impacts) ? impacts[i] : impacts;
+    return { p, q, impacts: Math.min(count, MOST_IMPACTS), back: false, sea: sea.includes(i) };
+  });
 }
 
 function surface(scene) {
@@ -70,14 +76,14 @@ function surface(scene) {
   return { view: { ...HOME_VIEW, azimuth, elevation }, orbits: orbitsOf(scene), chosen: 0 };
 }
 
-function inTime({ period, type, duration }, all) {
-  const context = orbitsOf(all.fig2).filter((orbit) => !orbit.sea);
-  return {
-    orbits: context,
-    motion: { period, type, nth: 0 },
-    periods: [period],
-    span: duration,
-  };
+/** A periodic orbit in time, among the regular orbits of a portrait of the same ball and energy. */
+function inTime(scene, scenes) {
+  const { period, type, duration, ball, energy } = scene;
+  const portrait = Object.values(scenes).find(
+    (other) => other.picture === "portrait" && other.ball.k === ball.k && other.ball.g === ball.g && other.energy === energy,
+  );
+  const orbits = portrait ? orbitsOf(portrait).filter((orbit) => !orbit.sea) : [];
+  return { orbits, motion: { period, type, nth: 0 }, periods: [period], span: duration };
 }
 
 /** A saddle with its branches, and in time. */
