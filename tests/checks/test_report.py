@@ -21,6 +21,7 @@ from pipeline.checks.report import captions, figures_page, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.study import CHARTS
+from pipeline.explorer.data import collect
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
 
@@ -99,7 +100,7 @@ def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
     assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
 
-def test_the_page_needs_no_network_and_its_links_have_targets(text):
+def test_the_page_needs_no_network_and_its_links_have_targets(reported, text):
     outline = Outline(text)
     policy = [a["content"] for a in outline.all("meta") if "http-equiv" in a]
     assert policy == ["default-src 'none'; img-src data:; style-src 'unsafe-inline'"]
@@ -113,7 +114,10 @@ def test_the_page_needs_no_network_and_its_links_have_targets(text):
     links = [a["href"] for a in outline.all("a")]
     assert links[0] == "#main"  # the skip link comes first
     explorer = [link for link in links if link.startswith("../explorer.html")]
-    assert {"../explorer.html", "../explorer.html#fig3"} <= {*explorer}
+    opened = {link.partition("#")[2] for link in explorer} - {""}
+    scenes = {*collect(config.load(reported.config), reported.path)["scenes"]}
+    assert {"fig3", "fig6", "fig7", "lower/fig3"} <= opened <= scenes
+    assert "../explorer.html" in explorer
     assert {*links} - {*explorer} <= {f"#{name}" for name in ids}
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h\d", tag)]
     assert levels[0] == 1 and levels.count(1) == 1

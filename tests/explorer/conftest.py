@@ -3,7 +3,10 @@
 import browsers
 import pytest
 from doubles import SCRIPT
+from person import Person
+from project import SHIPPED
 
+from pipeline import config
 from pipeline.explorer import page
 
 
@@ -17,3 +20,30 @@ def browser(request, tmp_path_factory):
     with browsers.start(request.param, folder / "profile") as opened:
         opened.open(file.as_uri())
         yield opened
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    file = tmp_path_factory.mktemp("page") / "explorer.html"
+    file.write_text(page.render(config.load(SHIPPED)), encoding="utf-8")
+    return file.as_uri()
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory):
+    with browsers.start("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
+        yield browser
+
+
+@pytest.fixture
+def person(chromium, address):
+    """Someone who opens the page; at the end, nothing may have gone wrong."""
+    chromium.resize(1400, 1000)
+    user = Person(chromium)
+    user.open(address)
+    yield user
+    assert chromium.errors() == []
+    requests = "return performance.getEntriesByType('resource').map(r => r.name)"
+    assert [
+        name for name in chromium.run(requests) if not name.startswith(("blob:", "data:"))
+    ] == []

@@ -110,6 +110,20 @@ def test_the_page_follows_config_and_manifest(text, tmp_path):
         data.published_orbits(tmp_path)
 
 
+def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
+    variants = config.load(SHIPPED)["variants"]
+    (stored,) = (e for e in _Elements(text).found if e[1].get("id") == "data")
+    scenes = json.loads(stored[2])["scenes"]
+    assert {"fig2", "jumps", "curves", "below/fig8", "thin-shell/fig2"} <= set(scenes)
+    assert "families" not in scenes and not any("exact" in name for name in scenes)
+    assert scenes["thin-shell/fig2"]["ball"]["k"] == 0.3333333333333333
+    for variant, blocks in variants.items():
+        for scene, block in blocks.items():
+            assert (data.address(variant, scene, block) in scenes) == (
+                "method" not in block and block["picture"] != "families"
+            )
+
+
 def test_data_cannot_end_their_script(text):
     document = config.load(SHIPPED)
     document["variants"]["paper"]["fig2"]["title"] = "</script><script>alert(1)"

@@ -1,7 +1,5 @@
 """The explorer's page in Chromium, used as a person uses it: pointer, touch, keys and fields."""
 
-import csv
-import io
 import math
 import re
 import time
@@ -9,13 +7,11 @@ import time
 import browsers
 import numpy as np
 import pytest
-import yaml
-from PIL import Image
-from project import SHIPPED, fresh_tree, shipped
+from person import WHOLE
+from project import SHIPPED, shipped
 
 from pipeline import config
-from pipeline.explorer import page
-from pipeline.records.artifacts import load
+from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.regularity import regular
@@ -27,163 +23,6 @@ BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
 K, G = BALL.k, BALL.g
 # Ask a job of a worker like the page's own.
 JOB = "const worker = new Computer(); const [job, values] = args; return worker.ask(job, values);"
-MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
-WHOLE = 1.12  # half the disk's view, in section radii
-
-
-@pytest.fixture(scope="module")
-def address(tmp_path_factory):
-    file = tmp_path_factory.mktemp("page") / "explorer.html"
-    file.write_text(page.render(config.load(SHIPPED)), encoding="utf-8")
-    return file.as_uri()
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory):
-    with browsers.start("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
-        yield browser
-
-
-@pytest.fixture
-def person(chromium, address):
-    """Someone who opens the page; at the end, nothing may have gone wrong."""
-    chromium.resize(1400, 1000)
-    user = Person(chromium)
-    user.open(address)
-    yield user
-    assert chromium.errors() == []
-    requests = "return performance.getEntriesByType('resource').map(r => r.name)"
-    assert [
-        name for name in chromium.run(requests) if not name.startswith(("blob:", "data:"))
-    ] == []
-
-
-class Person:
-    """What a person does with the page, and sees."""
-
-    def __init__(self, browser):
-        from selenium.webdriver import ActionChains
-        from selenium.webdriver.common.by import By
-
-        self.browser, self.driver = browser, browser.driver
-        self.chain = lambda **how: ActionChains(self.driver, duration=20, **how)
-        self.by = By.ID
-
-    def open(self, address):
-        self.browser.open("about:blank")
-        self.browser.open(address)
-        self.file = address.split("#")[0]
-
-    def find(self, name):
-        return self.driver.find_element(self.by, name)
-
-    def text(self, name):
-        return self.browser.run("return document.getElementById(args[0]).textContent", name)
-
-    def press(self, name):
-        element = self.find(name)
-        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
-        element.click()
-
-    def unfold(self, name):
-        if self.browser.run("return !document.getElementById(args[0]).open", name):
-            self.driver.find_element("css selector", f"#{name} > summary").click()
-
-    def choose(self, name, value):
-        from selenium.webdriver.support.ui import Select
-
-        Select(self.find(name)).select_by_value(value)
-
-    def type(self, name, text):
-        from selenium.webdriver.common.keys import Keys
-
-        field = self.find(name)
-        field.send_keys(Keys.CONTROL + "a")
-        field.send_keys(Keys.BACKSPACE)
-        field.send_keys(text)
-
-    def state(self):
-        """Fields of the address."""
-        time.sleep(0.5)  # the address follows the state after 0.4 s
-        text = self.browser.run("return decodeURIComponent(location.hash.slice(1))")
-        return dict(part.split("=", 1) for part in text.split("&"))
-
-    def orbits(self):
-        """(start, impacts so far, exponent, rotation number, verdict) of each orbit in the list."""
-        rows = self.browser.run(
-            "return [...document.querySelectorAll('#orbits label')].map(n =>"
-            " [...n.querySelectorAll('div')].slice(1).map(d => d.textContent))"
-        )
-        found = []
-        for title, facts in rows:
-            count, exponent, rotation, start = facts.replace("\N{MINUS SIGN}", "-").split(" · ")
-            found.append(
-                {
-                    "impacts": int(count.split()[0].replace(",", "")),
-                    "exponent": exponent.split()[1],
-                    "rotation": rotation.split()[1],
-                    "start": start.removeprefix("start "),
-                    "verdict": re.sub(r"^\d+\. ", "", title),
-                }
-            )
-        return found
-
-    def wait(self, condition, patience=60):
-        end = time.monotonic() + patience
-        while not (value := condition()):
-            assert time.monotonic() < end, (self.text("hint"), self.browser.errors())
-            time.sleep(0.1)
-        return value
-
-    def settled(self):
-        """Wait until all orbits are complete, and return them."""
-
-        def complete():
-            wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
-            rows = self.orbits() if wanted else []
-            return [r["impacts"] for r in rows] == [int(n) for n in wanted] and (rows or [None])
-
-        return [row for row in self.wait(complete) if row]
-
-    def spot(self, p, q=0.0, shape="disk"):
-        """Where a place of the section is in the whole disk, in pixels from the box's middle."""
-        assert shape == "disk"
-        box = self.find("section").rect
-        wide = box["width"] - 2 - MARGINS["left"] - MARGINS["right"]
-        tall = box["height"] - 2 - MARGINS["top"] - MARGINS["bottom"]
-        scale = min(wide, tall) / 2 / WHOLE
-        across = MARGINS["left"] + wide / 2 - box["width"] / 2 + 1 + p * scale
-        down = MARGINS["top"] + tall / 2 - box["height"] / 2 + 1 - q * scale
-        return round(across), round(down)
-
-    def click(self, p, q=0.0):
-        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-        self.chain().move_to_element_with_offset(
-            self.find("section"), *self.spot(p, q)
-        ).click().perform()
-
-    def drag(self, start, end):
-        box = self.find("section")
-        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-        chain = self.chain().move_to_element_with_offset(box, *start).click_and_hold()
-        for share in (0.3, 0.7, 1.0):
-            at = [round(a + share * (b - a)) for a, b in zip(start, end, strict=True)]
-            chain = chain.move_to_element_with_offset(box, *at)
-        chain.release().perform()
-
-    def pixels(self):
-        """The section's canvases as arrays, one over the other."""
-        url = (
-            "const [first, ...rest] = document.querySelectorAll('#section canvas');"
-            "const c = document.createElement('canvas'); c.width = first.width;"
-            "c.height = first.height; const d = c.getContext('2d');"
-            "for (const layer of [first, ...rest]) d.drawImage(layer, 0, 0);"
-            "return c.toDataURL().split(',')[1];"
-        )
-        import base64
-
-        data = base64.b64decode(self.browser.run(url))
-        return np.array(Image.open(io.BytesIO(data)).convert("RGBA"))
 
 
 def test_the_first_picture_is_figure_2_and_says_what_to_do_next(person):
@@ -235,23 +74,9 @@ def test_a_click_starts_what_the_readout_says_and_the_points_are_the_kernel_s(pe
     centre, radius = BALL.section(ENERGY)
     x, y = centre + p * radius, q * (math.sqrt(K * (1 + K)) * radius)
     expected = orbit(BALL, BALL.state_xy(x, y, ENERGY), 700)
-    rows = saved(person)
+    rows = person.saved()
     for name in ("x", "xdot", "udot", "tau"):
         assert np.array_equal([float(row[name]) for row in rows[1:]], expected[name].values)
-
-
-def saved(person):
-    """Save the chosen orbit as CSV, and return its rows."""
-    catch = (
-        "window.saved = null; const make = URL.createObjectURL;"
-        "URL.createObjectURL = blob => {"
-        " blob.text().then(t => { window.saved = t }); return make(blob) }"
-    )
-    person.browser.run(catch)
-    person.unfold("record-panel")
-    person.press("csv")
-    text = person.wait(lambda: person.browser.run("return window.saved"))
-    return list(csv.DictReader(io.StringIO(text)))
 
 
 def test_a_backward_orbit_is_the_inverse_map_s(person):
@@ -261,7 +86,7 @@ def test_a_backward_orbit_is_the_inverse_map_s(person):
     person.press("back")
     person.click(0.31, 0.22)
     assert "backwards" in person.settled()[0]["verdict"]
-    rows = saved(person)
+    rows = person.saved()
     state = tuple(float(rows[0][name]) for name in ("x", "xdot", "udot"))
     reached = []
     for _ in range(100):
@@ -432,6 +257,24 @@ def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
     assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
 
 
+def test_bounds_of_the_energy_follow_k_and_g(person):
+    """Eq. (31): -g^2/2k < E < k/2 - g."""
+    person.type("g", "0.05")
+    person.wait(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
+    slide = "const s = document.getElementById('E-slide'); s.value = args[0];"
+    slide += "s.dispatchEvent(new Event('input', {bubbles: true}))"
+    for end, bound in ((1, 0.05), (0, -0.00625)):
+        person.browser.run(slide, end)
+        energy = float(person.find("E").get_attribute("value"))
+        assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
+        assert person.text("E-error") == ""
+    person.type("E", "0.03")
+    person.wait(lambda: person.state()["E"] == "0.03")
+    person.type("k", "0.15")  # k/2 - g = 0.025
+    assert "between −g²/2k = −0.008333 and k/2 − g = 0.025, eq. (31)" in person.text("E-error")
+    assert person.state()["k"] == "0.2"  # the last good picture stays
+
+
 def test_periodic_orbits_are_those_of_python(person):
     for period in (1, 2, 5, 6):
         expected = symmetric_orbits(BALL, ENERGY, period)
@@ -520,9 +363,12 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
 
 
 def test_every_preset_draws_and_has_one_sentence(person):
-    names = person.browser.run("return Object.keys(PRESETS)")
-    assert {f"fig{n}" for n in range(2, 9)} < set(names)
-    assert set(shipped()["claims"]) <= set(names)
+    assert set(person.browser.run("return Object.keys(PRESETS)")) == set(KINDS) - {"families"}
+    options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
+    own, *names = person.browser.run(options)
+    variants = config.load(SHIPPED)["variants"]
+    published = {scene for name in ("paper", "claims", "proofs") for scene in variants[name]}
+    assert own == "" and set(names) == published - {"families"}
     seen = []
     for name in names:
         person.choose("preset", name)
@@ -568,6 +414,32 @@ def test_the_name_of_a_preset_is_an_address(person):
     assert person.state()["preset"] == "fig8"
 
 
+@pytest.mark.parametrize("scene", ["thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
+def test_a_scene_of_a_variant_is_an_address(person, scene):
+    variant, name = scene.split("/")
+    block = config.load(SHIPPED)["variants"][variant][name]
+    person.open(f"{person.file}#{scene}")
+    person.wait(lambda: person.state().get("preset") == scene)
+    state = person.state()
+    shown = [float(state[field]) for field in ("k", "g", "E")]
+    assert shown == [*block["ball"].values(), block["energy"]]
+    if "starts" in block:
+        starts = [float(orbit.split("*")[0]) for orbit in state["orbits"].split(";")]
+        assert starts == block["starts"]
+    assert person.find("preset").get_attribute("value") == scene
+
+
+def test_points_of_a_scene_are_places(person):
+    """Starts of a scene may be points with x and y, or with x and xdot."""
+    x, y = BALL.section(ENERGY)[0] + 0.01, 0.02
+    xdot = float(BALL.state_xy(x, y, ENERGY)[1])
+    starts = [{"x": x, "y": y}, {"x": x, "xdot": xdot}, 0.5]
+    block = {"ball": {"k": K, "g": G}, "energy": ENERGY}
+    places = person.browser.run("return args[0].map(s => placeOf(s, args[1]))", starts, block)
+    assert np.allclose(places[0], places[1], rtol=1e-9)
+    assert places[2] == [0.5, 0]
+
+
 def test_the_atlas_goes_to_a_ball_and_an_energy(person):
     person.settled()
     person.unfold("atlas-panel")
@@ -596,75 +468,6 @@ def test_the_view_is_saved_as_png(person):
     person.unfold("record-panel")
     person.press("png")
     person.wait(lambda: "section.png" in person.text("record-note"))
-
-
-def scene(person, kind):
-    """Copy what is on the page as a scene of a kind, and return name, block and points."""
-    person.unfold("record-panel")
-    person.choose("scene-kind", kind)
-    person.press("copy-scene")
-    person.wait(lambda: "config.yaml" in person.text("scene-note"))
-    text = person.browser.run("return document.getElementById('scene').value")
-    ((name, block),) = yaml.safe_load(text).items()
-    assert block["picture"] == kind
-    assert max(map(len, text.splitlines())) <= 100
-    return name, text
-
-
-def test_five_pictures_are_drawn_by_the_pipeline_with_the_same_points(person, tmp_path):
-    texts, points = {}, {}
-    person.press("as-disk")
-    person.press("clear")
-    person.type("impacts", "900")
-    person.click(0.4, 0.3)
-    person.click(-0.2)
-    person.drag(person.spot(0.1), person.spot(0.7))
-    person.settled()
-    name, texts["portrait"] = scene(person, "portrait")
-    points[name] = every_point(person)
-    person.type("E", "0.0123456789")
-    person.settled()
-    name, texts["other energy"] = scene(person, "portrait")
-    points[name] = every_point(person)
-    _, texts["exponents"] = scene(person, "exponents")
-    person.choose("preset", "jumps")
-    person.settled()
-    name, texts["jumps"] = scene(person, "jumps")
-    points[name] = every_point(person)
-    person.choose("preset", "fig4")
-    person.wait(lambda: "3 symmetric" in person.text("periodic-note"))
-    _, texts["motion"] = scene(person, "motion")
-    person.choose("preset", "fig5")
-    person.settled()
-    name, texts["tangle"] = scene(person, "tangle")
-    points[name] = every_point(person)
-    person.choose("preset", "fig6")
-    person.wait(lambda: "24 branches" in person.text("branch-note"))
-    _, texts["closeup"] = scene(person, "closeup")
-
-    document = shipped()
-    document["scenes"], document["variants"] = {}, {}
-    for text in texts.values():
-        document["scenes"] |= yaml.safe_load(text)
-    assert len(document["scenes"]) == len(texts)
-    tree = fresh_tree(tmp_path / "a tree", document)
-    result = tree.run(*[f"results/paper/figures/{name}.png" for name in document["scenes"]])
-    assert result.returncode == 0, result.stdout
-    for name, expected in points.items():
-        orbits = load(tree.path / f"results/paper/orbits_{name}.nc")
-        for variable, values in expected.items():
-            assert np.array_equal(orbits[variable].values, values), (name, variable)
-
-
-def every_point(person):
-    """The impacts of all orbits on the page, joined as in a dataset of orbits."""
-    columns = {"x": [], "xdot": [], "udot": []}
-    for at in range(len(person.orbits())):
-        person.browser.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
-        rows = saved(person)[1:]
-        for name, values in columns.items():
-            values += [float(row[name]) for row in rows]
-    return {name: np.array(values) for name, values in columns.items()}
 
 
 @pytest.mark.parametrize("width", [360, 1280, 2000])
@@ -734,21 +537,45 @@ def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
             "const b = document.getElementById('section').getBoundingClientRect();"
             "return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)"
         )
-        mouse = [
-            {"type": "pointerMove", "x": across, "y": down, "duration": 20},
-            {"type": "pointerDown", "button": 0},
-            {"type": "pointerUp", "button": 0},
-        ]
-        actions = [{"type": "pointer", "id": "mouse", "actions": mouse}]
-        firefox._command("WebDriver:PerformActions", {"actions": actions})
+        tap(firefox, "mouse", [(across, down)])
         hint = "return document.getElementById('hint').textContent"
         wait_for(lambda: firefox.run(hint).startswith("This orbit is"))
         assert len(firefox.run(rows)) == 9
         assert firefox.run("return document.getElementById('play').textContent") == "Pause"
+        half = (
+            "return Number(/view=([^&]*)/.exec(decodeURIComponent(location.hash))[1].split(',')[5])"
+        )
+        wait_for(lambda: "view" in firefox.run("return location.hash"))
+        before = firefox.run(half)
+        apart = [[(across + side * d, down) for d in (30, 50, 90)] for side in (-1, 1)]
+        tap(firefox, "touch", *apart)  # two fingers
+        wait_for(lambda: firefox.run(half) < 0.5 * before)
+        tap(firefox, "touch", [(across, down)])
+        wait_for(lambda: len(firefox.run(rows)) == 10)
         firefox.run("location.hash = 'flux'")
         note = "return document.getElementById('branch-note').textContent"
         wait_for(lambda: "24 branches" in firefox.run(note))
         assert firefox.errors() == []
+
+
+def tap(firefox, kind, *paths):
+    """Move pointers along paths at the same time, from where they press to where they let go."""
+    fingers = [
+        [
+            {"type": "pointerMove", "x": path[0][0], "y": path[0][1], "duration": 20},
+            {"type": "pointerDown", "button": 0},
+            *({"type": "pointerMove", "x": x, "y": y, "duration": 50} for x, y in path[1:]),
+            {"type": "pointerUp", "button": 0},
+        ]
+        for path in paths
+    ]
+    parameters = {"pointerType": kind}
+    actions = [
+        {"type": "pointer", "id": f"{kind}{i}", "parameters": parameters, "actions": finger}
+        for i, finger in enumerate(fingers)
+    ]
+    firefox._command("WebDriver:PerformActions", {"actions": actions})
+    firefox._command("WebDriver:ReleaseActions")
 
 
 def wait_for(condition, patience=60):

@@ -407,6 +407,7 @@ class Controls {
   zoom(factor, at = this.page.section.cross ?? this.page.section.middle) {
     const { view } = this.state;
     const { section } = this.page;
+    section.project(); // several events may come in a frame
     const half = Math.min(4, Math.max(2e-15, view.half * factor));
     const across = (at[0] - section.middle[0]) / section.scale;
     const up = (section.middle[1] - at[1]) / section.scale;
@@ -418,9 +419,10 @@ class Controls {
 
   pan(across, down) {
     const { view } = this.state;
-    const { scale } = this.page.section;
-    view.x -= across / scale;
-    view.y += down / scale;
+    const { section } = this.page;
+    section.project();
+    view.x -= across / section.scale;
+    view.y += down / section.scale;
     this.moved();
   }
 
@@ -574,9 +576,7 @@ class Controls {
     const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     const [from, to] = [middle(before), middle(after)];
     this.pan(to[0] - from[0], to[1] - from[1]);
-    this.page.section.project();
     this.zoom(gap(before) / gap(after), to);
-    this.page.section.project();
   }
 
   finish(gesture, point, cancelled) {

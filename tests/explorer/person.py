@@ -1,0 +1,162 @@
+"""Someone who uses the explorer's page in Chromium by pointer, touch, keys and fields."""
+
+import base64
+import csv
+import io
+import re
+import time
+
+import numpy as np
+from PIL import Image
+
+MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
+WHOLE = 1.12  # half the disk's view, in section radii
+
+
+class Person:
+    """What a person does with the page, and sees."""
+
+    def __init__(self, browser):
+        from selenium.webdriver import ActionChains
+        from selenium.webdriver.common.by import By
+
+        self.browser, self.driver = browser, browser.driver
+        self.chain = lambda **how: ActionChains(self.driver, duration=20, **how)
+        self.by = By.ID
+
+    def open(self, address):
+        self.browser.open("about:blank")
+        self.browser.open(address)
+        self.file = address.split("#")[0]
+
+    def find(self, name):
+        return self.driver.find_element(self.by, name)
+
+    def text(self, name):
+        return self.browser.run("return document.getElementById(args[0]).textContent", name)
+
+    def press(self, name):
+        element = self.find(name)
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def unfold(self, name):
+        if self.browser.run("return !document.getElementById(args[0]).open", name):
+            self.driver.find_element("css selector", f"#{name} > summary").click()
+
+    def choose(self, name, value):
+        from selenium.webdriver.support.ui import Select
+
+        Select(self.find(name)).select_by_value(value)
+
+    def type(self, name, text):
+        from selenium.webdriver.common.keys import Keys
+
+        field = self.find(name)
+        field.send_keys(Keys.CONTROL + "a")
+        field.send_keys(Keys.BACKSPACE)
+        field.send_keys(text)
+
+    def state(self):
+        """Fields of the address."""
+        time.sleep(0.5)  # the address follows the state after 0.4 s
+        text = self.browser.run("return decodeURIComponent(location.hash.slice(1))")
+        return dict(part.split("=", 1) for part in text.split("&"))
+
+    def orbits(self):
+        """(start, impacts so far, exponent, rotation number, verdict) of each orbit in the list."""
+        rows = self.browser.run(
+            "return [...document.querySelectorAll('#orbits label')].map(n =>"
+            " [...n.querySelectorAll('div')].slice(1).map(d => d.textContent))"
+        )
+        found = []
+        for title, facts in rows:
+            count, exponent, rotation, start = facts.replace("\N{MINUS SIGN}", "-").split(" · ")
+            found.append(
+                {
+                    "impacts": int(count.split()[0].replace(",", "")),
+                    "exponent": exponent.split()[1],
+                    "rotation": rotation.split()[1],
+                    "start": start.removeprefix("start "),
+                    "verdict": re.sub(r"^\d+\. ", "", title),
+                }
+            )
+        return found
+
+    def wait(self, condition, patience=60):
+        end = time.monotonic() + patience
+        while not (value := condition()):
+            assert time.monotonic() < end, (self.text("hint"), self.browser.errors())
+            time.sleep(0.1)
+        return value
+
+    def settled(self):
+        """Wait until all orbits are complete, and return them."""
+
+        def complete():
+            wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
+            rows = self.orbits() if wanted else []
+            return [r["impacts"] for r in rows] == [int(n) for n in wanted] and (rows or [None])
+
+        return [row for row in self.wait(complete) if row]
+
+    def spot(self, p, q=0.0, shape="disk"):
+        """Where a place of the section is in the whole disk, in pixels from the box's middle."""
+        assert shape == "disk"
+        box = self.find("section").rect
+        wide = box["width"] - 2 - MARGINS["left"] - MARGINS["right"]
+        tall = box["height"] - 2 - MARGINS["top"] - MARGINS["bottom"]
+        scale = min(wide, tall) / 2 / WHOLE
+        across = MARGINS["left"] + wide / 2 - box["width"] / 2 + 1 + p * scale
+        down = MARGINS["top"] + tall / 2 - box["height"] / 2 + 1 - q * scale
+        return round(across), round(down)
+
+    def click(self, p, q=0.0):
+        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+        self.chain().move_to_element_with_offset(
+            self.find("section"), *self.spot(p, q)
+        ).click().perform()
+
+    def drag(self, start, end):
+        box = self.find("section")
+        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+        chain = self.chain().move_to_element_with_offset(box, *start).click_and_hold()
+        for share in (0.3, 0.7, 1.0):
+            at = [round(a + share * (b - a)) for a, b in zip(start, end, strict=True)]
+            chain = chain.move_to_element_with_offset(box, *at)
+        chain.release().perform()
+
+    def pixels(self):
+        """The section's canvases as arrays, one over the other."""
+        url = (
+            "const [first, ...rest] = document.querySelectorAll('#section canvas');"
+            "const c = document.createElement('canvas'); c.width = first.width;"
+            "c.height = first.height; const d = c.getContext('2d');"
+            "for (const layer of [first, ...rest]) d.drawImage(layer, 0, 0);"
+            "return c.toDataURL().split(',')[1];"
+        )
+        data = base64.b64decode(self.browser.run(url))
+        return np.array(Image.open(io.BytesIO(data)).convert("RGBA"))
+
+    def saved(self):
+        """Save the chosen orbit as CSV, and return its rows."""
+        catch = (
+            "window.saved = null; const make = URL.createObjectURL;"
+            "URL.createObjectURL = blob => {"
+            " blob.text().then(t => { window.saved = t }); return make(blob) }"
+        )
+        self.browser.run(catch)
+        self.unfold("record-panel")
+        self.press("csv")
+        text = self.wait(lambda: self.browser.run("return window.saved"))
+        return list(csv.DictReader(io.StringIO(text)))
+
+    def every_point(self):
+        """The impacts of all orbits on the page, joined as in a dataset of orbits."""
+        columns = {"x": [], "xdot": [], "udot": []}
+        for at in range(len(self.orbits())):
+            self.browser.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
+            rows = self.saved()[1:]
+            for name, values in columns.items():
+                values += [float(row[name]) for row in rows]
+        return {name: np.array(values) for name, values in columns.items()}
