@@ -51,7 +51,7 @@ class Controls {
     choices.value = state.preset;
     const preset = this.page.data.presets.find(({ name }) => name === state.preset);
     element("see").textContent =
-      preset?.see ?? "Your own picture: closed curves are regular motion, scattered points are chaos.";
+      preset?.see ?? "Closed curves are regular motion, scattered points are chaos.";
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
       element("span").append(this.option(state.span, `${state.span} / ω`));
     }
