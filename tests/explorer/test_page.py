@@ -454,6 +454,19 @@ def test_the_atlas_goes_to_a_ball_and_an_energy(person):
     assert len(person.settled()) == 8
 
 
+def test_the_atlas_answers_to_keys(person):
+    from selenium.webdriver.common.keys import Keys
+
+    person.settled()
+    person.unfold("atlas-panel")
+    canvas = person.find("atlas")
+    canvas.send_keys(*[Keys.ARROW_LEFT] * 3, *[Keys.ARROW_DOWN] * 2)
+    assert "k = 0.17, E/g² = 4.96: regular share" in person.text("atlas-note")
+    canvas.send_keys(Keys.ENTER)
+    person.wait(lambda: person.state()["k"] == "0.17")
+    assert float(person.state()["E"]) == pytest.approx(4.96 * 0.04**2)
+
+
 def test_check_this_machine_finds_the_same_bits(person):
     person.press("check")
     person.wait(lambda: "Figure 8: " in person.text("check-note"))

@@ -13,7 +13,7 @@ class Controls {
     this.listen();
     this.pointers();
     this.keys();
-    this.makeAtlas();
+    this.atlas = new AtlasView(page, (k, ratio) => this.goTo(k, ratio));
     this.theme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   }
 
@@ -64,7 +64,7 @@ class Controls {
     this.listPeriodic();
     this.noteJump();
     this.moment();
-    this.drawAtlas();
+    this.atlas.draw();
   }
 
   /** Show which buttons of each group are chosen. */
@@ -225,7 +225,7 @@ class Controls {
       Object.assign(this.state, { k, g, energy: E, preset: "" });
       element("preset").value = "";
       this.slides();
-      this.drawAtlas();
+      this.atlas.draw();
       this.page.restart(true);
       this.listOrbits();
     }, delay);
@@ -311,10 +311,10 @@ class Controls {
       page.section?.resize();
       page.time?.draw();
       page.drawChart();
-      this.drawAtlas();
+      this.atlas.draw();
     }).observe(this.box);
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => this.theme(matches ? "dark" : "light"));
-    element("atlas-panel").addEventListener("toggle", () => this.drawAtlas());
+    element("atlas-panel").addEventListener("toggle", () => this.atlas.draw());
   }
 
   /** Draw after a change of how things are shown. */
@@ -331,7 +331,7 @@ class Controls {
     if (!this.page.controls) return;
     this.page.look();
     this.updateFacts();
-    this.drawAtlas();
+    this.atlas.draw();
   }
 
   startTyped() {
@@ -833,105 +833,10 @@ class Controls {
     page.saveSoon();
   }
 
-  // ---------------------------------------------------------------- the atlas
-
-  makeAtlas() {
-    const { atlas } = this.page.data;
-    if (!atlas) {
-      element("atlas-panel").hidden = true;
-      return;
-    }
-    const bytes = Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0));
-    this.atlas = { ...atlas, bytes };
-    const canvas = element("atlas");
-    const goTo = ([k, logarithm]) => this.goTo(k, 10 ** logarithm);
-    const at = (event) => {
-      const { left, top } = canvas.getBoundingClientRect();
-      return this.atlasPlot.valuesAt(event.clientX - left, event.clientY - top);
-    };
-    canvas.addEventListener("click", (event) => goTo(at(event)));
-    canvas.addEventListener("pointermove", (event) => this.tellAtlas(at(event)));
-    canvas.addEventListener("pointerleave", () => this.tellAtlas());
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    canvas.addEventListener("keydown", (event) => {
-      const { k, energy } = this.atlas;
-      this.aim ??= [this.state.k, Math.log10(Math.max(energy[0], this.state.energy / this.state.g ** 2))];
-      if (arrows[event.key]) {
-        const [across, up] = arrows[event.key];
-        this.aim[0] = Math.min(k.at(-1), Math.max(k[0], this.aim[0] + across * 0.01));
-        const [low, high] = [energy[0], energy.at(-1)].map(Math.log10);
-        this.aim[1] = Math.min(high, Math.max(low, this.aim[1] + up * 0.05));
-        this.tellAtlas(this.aim);
-        this.drawAtlas();
-      } else if (event.key === "Enter") {
-        goTo(this.aim);
-        this.aim = null;
-      } else return;
-      event.preventDefault();
-    });
-    canvas.addEventListener("blur", () => {
-      this.aim = null;
-      this.drawAtlas();
-    });
-  }
-
-  drawAtlas() {
-    if (!this.atlas || !element("atlas-panel").open) return;
-    const { pen, width, height } = fitted(element("atlas"));
-    const colours = readColours();
-    const { k, energy, bytes, steps } = this.atlas;
-    const logs = energy.map(Math.log10);
-    const frame = { left: 48, top: 24, right: 12, bottom: 38 };
-    const plot = new Plot(pen, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
-    const image = new OffscreenCanvas(k.length, energy.length);
-    const paper = image.getContext("2d");
-    const cells = paper.createImageData(k.length, energy.length);
-    const pixels = new Uint32Array(cells.data.buffer);
-    for (let i = 0; i < k.length; i++) {
-      for (let j = 0; j < energy.length; j++) {
-        const byte = bytes[i * energy.length + j];
-        pixels[(energy.length - 1 - j) * k.length + i] = packed(shade(byte > steps ? NaN : byte / steps));
-      }
-    }
-    paper.putImageData(cells, 0, 0);
-    const [left, top] = plot.at([k[0], logs.at(-1)]);
-    pen.drawImage(image, left, top, ...plot.size);
-    for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
-      write(pen, value, left - 6, plot.at([k[0], Math.log10(value)])[1], colours.muted, "right", "middle");
-    }
-    for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) {
-      write(pen, value, plot.at([value, 0])[0], top + plot.size[1] + 5, colours.muted, "center");
-    }
-    write(pen, "E/g²", 4, 3, colours.ink);
-    write(pen, "k", width - frame.right, height - 2, colours.ink, "right", "bottom");
-    write(pen, "dark: chaotic · light: regular", width - frame.right, 4, colours.ink, "right");
-    const ratio = this.state.energy / this.state.g ** 2;
-    const here = [this.state.k, Math.log10(ratio)];
-    if (ratio > 0) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
-    if (this.aim) drawRing(pen, plot.at(this.aim), 7, "#000000", "#ff7fc0");
-    this.atlasPlot = plot;
-  }
-
-  tellAtlas(point) {
-    if (!point) {
-      setText("atlas-note", "");
-      return;
-    }
-    const { k, energy, bytes, steps } = this.atlas;
-    const nearest = (list, value) => {
-      const distances = list.map((entry) => Math.abs(entry - value));
-      return distances.indexOf(Math.min(...distances));
-    };
-    const byte = bytes[nearest(k, point[0]) * energy.length + nearest(energy.map(Math.log10), point[1])];
-    const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
-    setText("atlas-note", `k = ${shortNumber(point[0], 3)}, E/g² = ${shortNumber(10 ** point[1], 3)}: regular share ${share}`);
-  }
+  // ---------------------------------------------------------------- places of the atlas
 
   /** Go to a k and E/g^2; g becomes smaller where eq. (31) needs it, which changes the scale only. */
   goTo(k, ratio) {
-    const { atlas } = this;
-    k = Number(Math.min(atlas.k.at(-1), Math.max(atlas.k[0], k)).toPrecision(3));
-    ratio = Number(Math.min(atlas.energy.at(-1), Math.max(atlas.energy[0], ratio)).toPrecision(3));
     const largest = (Math.sqrt(1 + 2 * ratio * k) - 1) / (2 * ratio);
     const { g: present } = this.state;
     const g = present < largest ? present : Number((0.9 * largest).toPrecision(2));
@@ -1019,16 +924,4 @@ function button(text, label, act) {
   const made = node("button", { type: "button", className: "tight", textContent: text, title: label, ariaLabel: label });
   made.addEventListener("click", act);
   return made;
-}
-
-/** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */
-function shade(share) {
-  if (Number.isNaN(share)) return "#808080";
-  const stops = [[0, 33, 16, 70], [0.25, 94, 40, 120], [0.5, 180, 70, 100], [0.75, 240, 140, 70], [1, 252, 240, 170]];
-  const at = Math.sqrt(share);
-  const index = Math.min(3, Math.floor(at * 4));
-  const [low, high] = [stops[index], stops[index + 1]];
-  const part = (at - low[0]) / (high[0] - low[0]);
-  const mixed = [1, 2, 3].map((i) => Math.round(low[i] + part * (high[i] - low[i])));
-  return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
 }

@@ -1,0 +1,120 @@
+"use strict";
+/*
+ * The atlas as a map: the share of regular motion over k and E/g^2. A click, or arrow keys and Enter,
+ * go to a place of it.
+ */
+class AtlasView {
+  constructor(page, goTo) {
+    this.page = page; // its state has the present place
+    this.aim = null; // [k, log10 of E/g^2]: the keyboard's pointer
+    const { atlas } = page.data;
+    this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
+    this.canvas = element("atlas");
+    this.listen(([k, logarithm]) => {
+      const within = (list, value) => Math.min(list.at(-1), Math.max(list[0], value));
+      const [place, ratio] = [within(atlas.k, k), within(atlas.energy, 10 ** logarithm)];
+      goTo(...[place, ratio].map((value) => Number(value.toPrecision(3))));
+    });
+  }
+
+  listen(goTo) {
+    const { canvas } = this;
+    const at = (event) => {
+      const { left, top } = canvas.getBoundingClientRect();
+      return this.plot.valuesAt(event.clientX - left, event.clientY - top);
+    };
+    canvas.addEventListener("click", (event) => goTo(at(event)));
+    canvas.addEventListener("pointermove", (event) => this.tell(at(event)));
+    canvas.addEventListener("pointerleave", () => this.tell());
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    canvas.addEventListener("keydown", (event) => {
+      const { k, energy } = this.atlas;
+      this.aim ??= this.here().map((value, i) => (i ? Math.max(Math.log10(energy[0]), value) : value));
+      if (arrows[event.key]) {
+        const [across, up] = arrows[event.key];
+        this.aim[0] = Math.min(k.at(-1), Math.max(k[0], this.aim[0] + across * 0.01));
+        const [low, high] = [energy[0], energy.at(-1)].map(Math.log10);
+        this.aim[1] = Math.min(high, Math.max(low, this.aim[1] + up * 0.05));
+        this.tell(this.aim);
+        this.draw();
+      } else if (event.key === "Enter") {
+        goTo(this.aim);
+        this.aim = null;
+      } else return;
+      event.preventDefault();
+    });
+    canvas.addEventListener("blur", () => {
+      this.aim = null;
+      this.draw();
+    });
+  }
+
+  /** The present place, [k, log10 of E/g^2]; the logarithm is -Infinity for E <= 0. */
+  here() {
+    const { k, g, energy } = this.page.state;
+    return [k, Math.log10(Math.max(0, energy / (g * g)))];
+  }
+
+  draw() {
+    if (!element("atlas-panel").open) return;
+    const { pen, width, height } = fitted(this.canvas);
+    const colours = readColours();
+    const { k, energy, bytes, steps } = this.atlas;
+    const logs = energy.map(Math.log10);
+    const frame = { left: 48, top: 24, right: 12, bottom: 38 };
+    const plot = new Plot(pen, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
+    const image = new OffscreenCanvas(k.length, energy.length);
+    const paper = image.getContext("2d");
+    const cells = paper.createImageData(k.length, energy.length);
+    const pixels = new Uint32Array(cells.data.buffer);
+    for (let i = 0; i < k.length; i++) {
+      for (let j = 0; j < energy.length; j++) {
+        const byte = bytes[i * energy.length + j];
+        pixels[(energy.length - 1 - j) * k.length + i] = packed(shade(byte > steps ? NaN : byte / steps));
+      }
+    }
+    paper.putImageData(cells, 0, 0);
+    const [left, top] = plot.at([k[0], logs.at(-1)]);
+    pen.drawImage(image, left, top, ...plot.size);
+    for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
+      write(pen, value, left - 6, plot.at([k[0], Math.log10(value)])[1], colours.muted, "right", "middle");
+    }
+    for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) {
+      write(pen, value, plot.at([value, 0])[0], top + plot.size[1] + 5, colours.muted, "center");
+    }
+    write(pen, "E/g²", 4, 3, colours.ink);
+    write(pen, "k", width - frame.right, height - 2, colours.ink, "right", "bottom");
+    write(pen, "dark: chaotic · light: regular", width - frame.right, 4, colours.ink, "right");
+    const here = this.here();
+    if (here[1] > -Infinity) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
+    if (this.aim) drawRing(pen, plot.at(this.aim), 7, "#000000", "#ff7fc0");
+    this.plot = plot;
+  }
+
+  tell(point) {
+    if (!point) {
+      setText("atlas-note", "");
+      return;
+    }
+    const { k, energy, bytes, steps } = this.atlas;
+    const nearest = (list, value) => {
+      const distances = list.map((entry) => Math.abs(entry - value));
+      return distances.indexOf(Math.min(...distances));
+    };
+    const byte = bytes[nearest(k, point[0]) * energy.length + nearest(energy.map(Math.log10), point[1])];
+    const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
+    setText("atlas-note", `k = ${shortNumber(point[0], 3)}, E/g² = ${shortNumber(10 ** point[1], 3)}: regular share ${share}`);
+  }
+}
+
+/** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */
+function shade(share) {
+  if (Number.isNaN(share)) return "#808080";
+  const stops = [[0, 33, 16, 70], [0.25, 94, 40, 120], [0.5, 180, 70, 100], [0.75, 240, 140, 70], [1, 252, 240, 170]];
+  const at = Math.sqrt(share);
+  const index = Math.min(3, Math.floor(at * 4));
+  const [low, high] = [stops[index], stops[index + 1]];
+  const part = (at - low[0]) / (high[0] - low[0]);
+  const mixed = [1, 2, 3].map((i) => Math.round(low[i] + part * (high[i] - low[i])));
+  return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+}
