@@ -19,6 +19,7 @@ FIELDS = {
     "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
     "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
     "energy_up_to", "theta_below", "theta", "trace_above", "zero", "resonance",
+    "event",
 }  # fmt: skip
 
 

@@ -78,13 +78,13 @@ def _steepness(k: arb, end: arb, bands: int) -> float:
     if not width > 0:
         raise NotProvedError("theta does not reach pi/2, where the bands begin")
     edges = [start + band * width for band in range(bands + 1)]
-    slopes = [_slope(k, low.union(high)) for low, high in pairwise(edges)]
+    slopes = [slope_at(k, low.union(high)) for low, high in pairwise(edges)]
     if not all(slope < 0 for slope in slopes):
         raise NotProvedError("the trace is not proved to fall on each band of theta")
     return min(lowest(-slope) for slope in slopes)
 
 
-def _slope(k: arb, theta: arb) -> arb:
+def slope_at(k: arb, theta: arb) -> arb:
     """Enclose the trace's derivative by theta."""
     sine, cosine = theta.sin_cos()
     double, _ = (2 * theta).sin_cos()

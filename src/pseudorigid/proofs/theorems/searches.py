@@ -2,11 +2,12 @@
 
 from fractions import Fraction
 
-from ..checks import curve, ellipticity, horseshoe, jump, one_zero, periodic, twist
+from ..checks import curve, ellipticity, events, horseshoe, jump, one_zero, periodic, twist
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
 from ..search import curve as curve_search
 from ..search import ellipticity as ellipticity_search
+from ..search import events as event_search
 from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
 from ..search import one_zero as one_zero_search
@@ -22,6 +23,12 @@ _CURVES = {  # the partial quotients, the error, and the strips
     "curve-fixed-point-outer": ((5, 1, 6), "1e-38", ("0.0125", "0.002", 512, 6, 4, 1020)),
     "curve-fixed-point-low": ((9,), "1e-37", ("0.025", "0.004", 512, 10, 6, 440)),
     "curve-six": ((1, 4, 1, 3), "5e-45", ("0.02", "0.0033", 128, 5, 5, 540)),
+}
+_EVENTS = {  # where Newton's method begins: the energy, and x or y
+    "six-elliptic-doubling": ("0.010825252768", "0.305443359319"),
+    "six-elliptic-end": ("0.012520264234",),
+    "six-hyperbolic-end": ("0.042726525978", "0.167175430477"),
+    "six-inverse-birth": ("0.009682501945",),
 }
 _ZERO = Fraction("0.029"), Fraction("0.03")  # energies between which the twist falls through zero
 _SPEED = "0.02"  # xdot of the rim point from which the stated point of the jump set is reached
@@ -65,6 +72,16 @@ def _curve(theorem) -> str:
     return curve_search.propose(surface, points, quotients, strips, error=error, **bounds)
 
 
+def _doubling(theorem) -> str:
+    near = _EVENTS[theorem.name]
+    return event_search.propose_doubling(near, theorem.holds_for_any_radius, **theorem.bounds)
+
+
+def _grazing(theorem) -> str:
+    near = _EVENTS[theorem.name]
+    return event_search.propose_grazing(near, theorem.holds_for_any_radius, **theorem.bounds)
+
+
 def _jump(theorem) -> str:
     return jump_search.propose(theorem.bounds["surface"], _SPEED, _JUMP_RADIUS)
 
@@ -73,6 +90,9 @@ SEARCHES = {
     periodic.check: _orbit,
     periodic.check_only_fixed_point: lambda it: orbit_search.propose_only_fixed_point(**it.bounds),
     ellipticity.check: lambda it: ellipticity_search.propose(**it.bounds),
+    events.check_resonance: lambda it: event_search.propose_resonance(**it.bounds),
+    events.check_doubling: _doubling,
+    events.check_grazing: _grazing,
     twist.check: _twist,
     twist.check_zero: _zero,
     one_zero.check: _one_zero,

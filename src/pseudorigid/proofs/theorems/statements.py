@@ -13,7 +13,7 @@ from importlib import resources
 import pseudorigid
 
 from ...dynamics import paper
-from ..checks import curve, ellipticity, horseshoe, jump, one_zero, periodic, twist
+from ..checks import curve, ellipticity, events, horseshoe, jump, one_zero, periodic, twist
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
@@ -223,6 +223,72 @@ _ORBITS = {
          _window("-0.0059", "-0.0058", "0.0159", "0.016")),
     )
 }  # fmt: skip
+
+
+def _grazing(
+    name: str, text: str, halves: tuple, periods: tuple[int, int], sides: tuple[int, int],
+    radius: str, low: str, high: str,
+) -> Theorem:  # fmt: skip
+    """State that an orbit with a grazing impact exists at one energy, and what meets there."""
+    longer, shorter = (
+        f"period {period} just {'above' if side > 0 else 'below'} this E"
+        for period, side in zip(periods, sides, strict=True)
+    )
+    statement = (
+        f"at exactly one E within {float(radius):g} of that below, {low} < E < {high}, {text}; "
+        f"there meet a family of symmetric orbits of {longer}, with an impact whose contact speed "
+        f"tends to zero, and one without it, of {shorter}"
+    )
+    bounds = {
+        "k": K, "g": G, "halves": halves, "periods": periods, "sides": sides,
+        "radius": Fraction(radius), "energies": (Fraction(low), Fraction(high)),
+    }  # fmt: skip
+    return Theorem(name, statement, events.check_grazing, bounds)
+
+
+_BIRTH = {
+    "k": K, "g": G, "rotation": Fraction("1/6"), "period": 6,
+    "energies": (Fraction("0.007378"), Fraction("0.007379")),
+}  # fmt: skip
+_DOUBLING = {
+    "k": K, "g": G, "period": 6, "line": 0, "radius": Fraction("1e-10"), "trace": -2,
+    "energies": (Fraction("0.010825"), Fraction("0.010826")),
+    "positions": (Fraction("0.305"), Fraction("0.306")),
+}  # fmt: skip
+_EVENTS = (
+    Theorem(
+        "six-birth",
+        "at exactly one E, 0.007378 < E < 0.007379, the fixed point's rotation number is 1/6; the "
+        "twist is positive there, and near the point, at energies just above and at none just "
+        "below, there are two symmetric orbits of period 6, of which one meets y = 0",
+        events.check_resonance,
+        _BIRTH,
+    ),
+    Theorem(
+        "six-elliptic-doubling",
+        "at exactly one (E, x) within 1e-10 of that below, 0.010825 < E < 0.010826 and "
+        "0.305 < x < 0.306, a symmetric orbit of period 6 meets y = 0 at x, and of its half orbit "
+        "the derivative of x by x vanishes; along its family the trace falls through -2 as E rises",
+        events.check_doubling,
+        _DOUBLING,
+    ),
+    _grazing(
+        "six-elliptic-end",
+        "an orbit touches the floor once per period, while the ball is at rest, and meets y = 0",
+        ((3, "impact"),), (6, 5), (-1, 1), "1e-5", "0.01252", "0.012521",
+    ),
+    _grazing(
+        "six-hyperbolic-end",
+        "an orbit touches the floor twice per period, in a flight that is symmetric in time",
+        ((2, "apex"), (0, "apex")), (6, 4), (-1, -1), "1e-4", "0.042726", "0.042727",
+    ),
+    _grazing(
+        "six-inverse-birth",
+        "an orbit touches the floor once per period, while the ball is at rest, and does not meet "
+        "y = 0",
+        ((3, "apex"),), (7, 6), (-1, 1), "1e-5", "0.009682", "0.009683",
+    ),
+)  # fmt: skip
 _JUMPS = {
     "surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
     "jump": Fraction("0.27"),
@@ -246,6 +312,7 @@ _THEOREMS = (
         ellipticity.check,
         {"k": K, "g": G, "energy": K / 2 - G, "trace": _TRACE},
     ),
+    *_EVENTS,
     _horseshoe("outer", "0.326", "0.327", "0.0185"),
     _horseshoe("inner", "0.187", "0.188", "0.0083"),
     _invariant_curves("twist-fixed-point", _ORBITS["fixed-point"]),
