@@ -14,10 +14,12 @@ from ..enclosure.flight import Gap, UndecidedError, fly
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
+from .hsets import HSet
 
 BITS = 192  # twice what points to 1e-28 need
 _START_FACTOR = 1 - arb(2) ** -20  # shortens a bound's root so far that the bound is negative there
 _SHORT_FLIGHTS = 0.95  # of the largest xdot: beyond it flights from the rim are short
+_CROSSING_PARTS = 64  # of the part of S+ that crosses an h-set
 
 Point = tuple[arb, arb]
 
@@ -93,7 +95,7 @@ def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
     `speed` is xdot on the rim where the flight from the point touches. Raises NotProvedError if
     there is no such point of the rim with x < -g.
     """
-    if not abs(speed) < _fastest(surface):
+    if not abs(speed) < fastest_touch(surface):
         raise NotProvedError("the speed is not one of a rim point with x < -g")
     inner, outer = _ends(surface)
     return {
@@ -108,7 +110,7 @@ def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
 def _ends(surface: Surface) -> tuple[Point, Point]:
     """Return the inner and the outer end of the jump set in the chart."""
     k, g, _ = surface.constants()
-    fastest = _fastest(surface)
+    fastest = fastest_touch(surface)
     return _mirrored(_flight(surface, -g, -fastest)), (-g, -(1 + k) * fastest)
 
 
@@ -137,7 +139,7 @@ def _flight(surface: Surface, x: arb, xdot: arb) -> Impact:
     return Impact(x, v - k * w, tau, v + w)
 
 
-def _fastest(surface: Surface) -> arb:
+def fastest_touch(surface: Surface) -> arb:
     """Return the largest xdot on the rim, at x = -g, if any flight touches the floor."""
     k, g, energy = surface.constants()
     square = (2 * energy - g * g * (2 + k)) / (1 + k)
@@ -167,9 +169,34 @@ def _transversality(surface: Surface, speed: arb) -> float:
 
 def curve(surface: Surface, count: int) -> list[Point]:
     """Return points of the jump set from its inner to its outer end, at `count` even xdot steps."""
-    fastest, (inner, outer) = _fastest(surface), _ends(surface)
+    fastest, (inner, outer) = fastest_touch(surface), _ends(surface)
     speeds = [fastest * arb(2 * i - count) / count for i in range(1, count)]
     return [inner, *(_mirrored(_flight_from_rim(surface, speed)) for speed in speeds), outer]
+
+
+def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
+    """Prove that S+ crosses an h-set from one edge |q| = 1 to the other, within |p| < 1.
+
+    The crossing part is that of the flights that touch the floor with xdot from low to high. This
+    returns the least margin in p and q, and raises NotProvedError.
+    """
+    steps = [low + (high - low) * i / _CROSSING_PARTS for i in range(_CROSSING_PARTS + 1)]
+    try:
+        ends = [_touching(surface, hset, speed)[1] for speed in (low, high)]
+        across = [_touching(surface, hset, a.union(b))[0] for a, b in pairwise(steps)]
+    except UndecidedError as error:
+        raise NotProvedError(f"a flight that touches the floor: {error}") from None
+    if not (ends[0] > 1 and ends[1] < -1) and not (ends[0] < -1 and ends[1] > 1):
+        raise NotProvedError(f"{hset.name}: the jump set may not reach both of its edges")
+    room = min(lowest(1 - abs(p)) for p in across)
+    if not room > 0:
+        raise NotProvedError(f"{hset.name}: the jump set may leave it sideways")
+    return min(room, *(lowest(abs(q) - 1) for q in ends))
+
+
+def _touching(surface: Surface, hset: HSet, speed: arb) -> tuple[arb, arb]:
+    """Return (p, q) of the point of S+ whose flight touches the floor with this xdot."""
+    return hset.coordinates(*_mirrored(_flight_from_rim(surface, speed)))
 
 
 def _check_no_second_touch(surface: Surface) -> None:
@@ -180,7 +207,7 @@ def _check_no_second_touch(surface: Surface) -> None:
     -(g + x) < xdot^2/(4 A).
     """
     g = surface.constants()[1]
-    fastest = _fastest(surface)
+    fastest = fastest_touch(surface)
     low, high = -fastest.upper(), (fastest * _SHORT_FLIGHTS).upper()
     xdot = high.union(fastest.upper())
     x = _rim_x(surface, xdot)

@@ -134,8 +134,8 @@ def search(surface: Surface, points: Sequence, side: int, prove: Callable[[str],
 def _connect(surface: Surface, points: Sequence, side: int, steps: int) -> _Connection:
     """Follow the branches of a side, up to `steps` points after y = 0."""
     saddles = polished(surface, points, _NEWTON_STEPS)
-    mirror = _mirrors(saddles)
-    rho, expanding = _directions(surface, saddles, side)
+    mirror = mirrors(saddles)
+    rho, expanding = directions(surface, saddles, side)
     multiplier, period = rho ** len(points), len(points)
     sigma, impacts = _crossing(surface, saddles[0], expanding[0], float(multiplier), period)
     extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
@@ -166,7 +166,7 @@ def _mirrored(vector: Vector) -> list[arb]:
     return [vector[0], -vector[1]]
 
 
-def _mirrors(saddles: list[Vector]) -> list[int]:
+def mirrors(saddles: list[Vector]) -> list[int]:
     """Return the index of the mirror image of each point; ValueError if there is none."""
     indices = []
     for x, y in saddles:
@@ -177,7 +177,7 @@ def _mirrors(saddles: list[Vector]) -> list[int]:
     return indices
 
 
-def _directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
+def directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
     """Return rho, and the unstable directions, stretched by rho from one to the next."""
     orbit = enclose(surface, saddles)
     half, (a, b) = orbit.trace / 2, orbit.matrix.table()[0]

@@ -2,14 +2,27 @@
 
 from fractions import Fraction
 
-from ..checks import curve, ellipticity, events, horseshoe, jump, one_zero, periodic, twist
+from ..checks import (
+    curve,
+    ellipticity,
+    events,
+    graph,
+    horseshoe,
+    jump,
+    no_circle,
+    one_zero,
+    periodic,
+    twist,
+)
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
 from ..search import curve as curve_search
 from ..search import ellipticity as ellipticity_search
 from ..search import events as event_search
+from ..search import graph as graph_search
 from ..search import horseshoe as horseshoe_search
 from ..search import jump as jump_search
+from ..search import no_circle as circle_search
 from ..search import one_zero as one_zero_search
 from ..search import periodic as orbit_search
 from ..search import twist as twist_search
@@ -18,6 +31,11 @@ _PLANS = {
     "horseshoe-outer": horseshoe_search.Plan(side=1, steps=59, size=6.5e-5, room=1.14),
     "horseshoe-inner": horseshoe_search.Plan(side=-1, steps=177, size=1e-10, room=1.12),
 }
+_GRAPHS = {
+    "entropy": graph_search.Plan(periods=(6, 7, 8, 9), size=6e-3, impacts=12),
+    "entropy-lower": graph_search.Plan(periods=(9, 10), size=2.5e-3, impacts=20),
+}
+_JUMP_CROSSING = {"size": 6.5e-5, "last": 1e-3}  # scales of the sets at saddles and jump set
 _CURVES = {  # the partial quotients, the error, and the strips
     "curve-fixed-point": ((5, 1, 3), "1e-37", ("0.025", "0.004", 256, 6, 6, 380)),
     "curve-fixed-point-outer": ((5, 1, 6), "1e-38", ("0.0125", "0.002", 512, 6, 4, 1020)),
@@ -61,7 +79,9 @@ def _one_zero(theorem) -> str:
 
 def _horseshoe(theorem) -> str:
     near = _near(theorem, "hyperbolic")
-    return horseshoe_search.propose(*near, _PLANS[theorem.name], theorem.prove)
+    if theorem.name in _PLANS:
+        return horseshoe_search.propose(*near, _PLANS[theorem.name], theorem.prove)
+    return horseshoe_search.search(*near, 1, theorem.prove)
 
 
 def _curve(theorem) -> str:
@@ -82,6 +102,14 @@ def _grazing(theorem) -> str:
     return event_search.propose_grazing(near, theorem.holds_for_any_radius, **theorem.bounds)
 
 
+def _graph(theorem) -> str:
+    return graph_search.propose(theorem.bounds["surface"], _GRAPHS[theorem.name])
+
+
+def _no_circle(theorem) -> str:
+    return circle_search.propose(*_near(theorem, "hyperbolic"), **_JUMP_CROSSING)
+
+
 def _jump(theorem) -> str:
     return jump_search.propose(theorem.bounds["surface"], _SPEED, _JUMP_RADIUS)
 
@@ -97,6 +125,8 @@ SEARCHES = {
     twist.check_zero: _zero,
     one_zero.check: _one_zero,
     horseshoe.check: _horseshoe,
+    graph.check: _graph,
+    no_circle.check: _no_circle,
     curve.check: _curve,
     jump.check: _jump,
     jump.check_smooth: lambda it: jump_search.propose_smooth(it.bounds["k"], it.bounds["g"]),

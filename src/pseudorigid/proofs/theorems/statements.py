@@ -13,7 +13,18 @@ from importlib import resources
 import pseudorigid
 
 from ...dynamics import paper
-from ..checks import curve, ellipticity, events, horseshoe, jump, one_zero, periodic, twist
+from ..checks import (
+    curve,
+    ellipticity,
+    events,
+    graph,
+    horseshoe,
+    jump,
+    no_circle,
+    one_zero,
+    periodic,
+    twist,
+)
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
@@ -168,19 +179,26 @@ def _invariant_curves(name: str, orbit: dict) -> Theorem:
     return Theorem(name, statement, twist.check, bounds)
 
 
-def _horseshoe(side: str, low: str, high: str, entropy: str) -> Theorem:
+def _horseshoe(orbit: dict, name: str, side: str, low: str, high: str, entropy: str) -> Theorem:
     """State that there is a horseshoe whose connection passes y = 0 between two x."""
     statement = (
-        f"at E = {HIGH.energy} the hyperbolic orbit of period 6 with a point in "
-        f"{_region(_FIGURE_6)} has a transversal connection, {side}, that passes y = 0 at "
-        f"{low} < x < {high}, and P has a uniformly hyperbolic invariant set that contains both, "
-        f"conjugate to a mixing subshift of entropy above {entropy}"
+        f"at E = {orbit['surface'].energy} the hyperbolic orbit of period {orbit['period']} with a "
+        f"point in {_region(orbit['window'])} has a transversal connection, {side}, that passes "
+        f"y = 0 at {low} < x < {high}, and P has a uniformly hyperbolic invariant set that "
+        f"contains both, conjugate to a mixing subshift of entropy above {entropy}"
     )
-    bounds = {
-        "surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6,
-        "crossing": (Fraction(low), Fraction(high)), "entropy": Fraction(entropy),
-    }  # fmt: skip
-    return Theorem(f"horseshoe-{side}", statement, horseshoe.check, bounds)
+    bounds = {"crossing": (Fraction(low), Fraction(high)), "entropy": Fraction(entropy)}
+    return Theorem(f"horseshoe-{name}", statement, horseshoe.check, orbit | bounds)
+
+
+def _entropy(name: str, surface: Surface, entropy: str) -> Theorem:
+    """State that the topological entropy is above a number, in nats per impact."""
+    statement = (
+        f"at E = {surface.energy} P has a compact invariant set, on a neighbourhood of which it is "
+        f"analytic, with topological entropy above {entropy}"
+    )
+    bounds = {"surface": surface, "entropy": Fraction(entropy)}
+    return Theorem(name, statement, graph.check, bounds)
 
 
 def _curve(name: str, orbit: dict, rotation: tuple[str, str], share: str) -> Theorem:
@@ -289,6 +307,11 @@ _EVENTS = (
         ((3, "apex"),), (7, 6), (-1, 1), "1e-5", "0.009682", "0.009683",
     ),
 )  # fmt: skip
+_SADDLES = {"surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6}
+_SMOOTH_SADDLES = {
+    "surface": Surface(K, G, "3/2000"), "period": 14, "radius": Fraction("1e-6"),
+    "window": _window("0.3821", "0.3822", "0.0384", "0.0385"),
+}  # fmt: skip
 _JUMPS = {
     "surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
     "jump": Fraction("0.27"),
@@ -313,8 +336,19 @@ _THEOREMS = (
         {"k": K, "g": G, "energy": K / 2 - G, "trace": _TRACE},
     ),
     *_EVENTS,
-    _horseshoe("outer", "0.326", "0.327", "0.0185"),
-    _horseshoe("inner", "0.187", "0.188", "0.0083"),
+    _horseshoe(_SADDLES, "outer", "outer", "0.326", "0.327", "0.0185"),
+    _horseshoe(_SADDLES, "inner", "inner", "0.187", "0.188", "0.0083"),
+    _horseshoe(_SMOOTH_SADDLES, "smooth", "outer", "0.3895", "0.3896", "0.0128"),
+    _entropy("entropy", HIGH, "0.136"),
+    _entropy("entropy-lower", Surface(K, G, "1/200"), "0.05"),
+    Theorem(
+        "no-circle",
+        f"at E = {HIGH.energy} the unstable manifold of the hyperbolic orbit of period 6 with a "
+        f"point in {_region(_FIGURE_6)} meets the set on which P jumps; so no invariant circle on "
+        "which P is continuous has a point of this orbit inside",
+        no_circle.check,
+        _SADDLES,
+    ),
     _invariant_curves("twist-fixed-point", _ORBITS["fixed-point"]),
     _invariant_curves("twist-fixed-point-low", _ORBITS["fixed-point-low"]),
     _invariant_curves("twist-six", _ORBITS["six-elliptic"]),

@@ -1,0 +1,223 @@
+"""A graph of h-sets: sets, joined by chains of coverings, and its entropy from below.
+
+A connection leads from a strip of one set B_i, low <= p <= high, to a whole set B_j: the strip
+covers the first set of the connection's chain, each of these covers the next one, and the last one
+covers B_j. docs/proofs.md ("Entropy through the sea") has the theorem.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import arb, ctx
+
+from ..enclosure.flight import UndecidedError
+from ..enclosure.surface import Surface, ball_of
+from . import hsets
+from .certificate import Certificate, Finding, NotProvedError, lowest
+from .hsets import HSet
+
+BITS = 64  # the smallest sets are 1e-6 wide, and one machine word is 1e-19 fine
+
+
+MOST_CELLS = 600  # of a set, before its covering is given up
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A chain of coverings from the strip low <= p <= high of one set to another set."""
+
+    source: int
+    target: int
+    low: Fraction
+    high: Fraction
+    strip: HSet
+    chain: tuple[HSet, ...]
+
+    @property
+    def impacts(self) -> int:
+        """Number of impacts from the strip to the target."""
+        return len(self.chain) + 1
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Sets and the connections between them."""
+
+    sets: list[HSet]
+    connections: list[Connection]
+
+
+def check(text: str, surface: Surface, *, entropy: Fraction) -> Finding:
+    """Prove that the entropy of a certificate's graph, in nats per impact, is above the given one.
+
+    The margins are the least over all relations, and over the gaps between the strips of a set. The
+    parts are the graph and the growth.
+    """
+    certificate = Certificate(text, "graph", surface)
+    with ctx.workprec(BITS):
+        graph = read(certificate)
+        apart = check_strips(graph)
+        growth = certificate.number("growth")
+        check_growth(graph, growth, certificate.row("weights", len(graph.sets)))
+        bound = ball_of(growth).log()
+        if not bound > ball_of(entropy):
+            raise NotProvedError(f"the entropy is not proved to be above {float(entropy)}")
+        margins = [prove_connection(surface, graph.sets, it) for it in graph.connections]
+        beyond, room = map(min, zip(*margins, strict=True))
+        return Finding(
+            {"entropy": bound},
+            {"beyond": beyond, "room": room, "apart": apart},
+            {"graph": graph},
+        )
+
+
+def read(certificate: Certificate) -> Graph:
+    """Return the graph of a certificate; raises NotProvedError where it is none."""
+    sets = [hset(f"B_{i}", row) for i, row in enumerate(certificate.numbers("sets", 6))]
+    rows = iter(certificate.numbers("chains", 6))
+    connections = []
+    for n, row in enumerate(certificate.numbers("connections", 5)):
+        *ends, low, high, impacts = row
+        if not {*ends} <= set(range(len(sets))) or impacts < 1 or impacts.denominator != 1:
+            raise NotProvedError(f"connection {n} does not lead from a set to a set")
+        if not -1 <= low < high <= 1:
+            raise NotProvedError(f"the strip of connection {n} is not a part of its set")
+        source, target = map(int, ends)
+        taken = _take(rows, int(impacts) - 1, n)
+        chain = (hset(f"set {i} of connection {n}", row) for i, row in enumerate(taken, 1))
+        strip = part(sets[source], f"the strip of connection {n}", low, high)
+        connections.append(Connection(source, target, low, high, strip, tuple(chain)))
+    if next(rows, None) is not None:
+        raise NotProvedError("the certificate has more sets than its connections take")
+    return Graph(sets, connections)
+
+
+def _take(rows: Iterator, count: int, connection: int) -> list:
+    """Return the next `count` rows."""
+    taken = [row for _, row in zip(range(count), rows, strict=False)]
+    if len(taken) < count:
+        raise NotProvedError(f"the certificate lacks sets of connection {connection}")
+    return taken
+
+
+def hset(name: str, row: list[Fraction]) -> HSet:
+    """Return the set of a certificate's row: centre, expanding side, contracting side."""
+    values = tuple(ball_of(value) for value in row)
+    return HSet(name, values[:2], values[2:4], values[4:])
+
+
+def part(of: HSet, name: str, low: Fraction, high: Fraction) -> HSet:
+    """Return the strip low <= p <= high of a set."""
+    middle, half = ball_of((low + high) / 2), ball_of((high - low) / 2)
+    centre = tuple(c + middle * u for c, u in zip(of.centre, of.u, strict=True))
+    return HSet(name, centre, tuple(half * u for u in of.u), of.s)
+
+
+def check_strips(graph: Graph) -> float:
+    """Check that the strips of each set are disjoint, and return the least gap, in its p."""
+    gaps = [Fraction(2)]
+    for source in range(len(graph.sets)):
+        strips = sorted((it.low, it.high) for it in graph.connections if it.source == source)
+        gaps += [right[0] - left[1] for left, right in pairwise(strips)]
+        if not gaps[-1] > 0 or not min(gaps) > 0:
+            raise NotProvedError(f"two strips of B_{source} overlap")
+    return lowest(ball_of(min(gaps)))
+
+
+def check_growth(graph: Graph, growth: Fraction, weights: list[Fraction]) -> None:
+    """Check by positive weights that the number of paths grows by at least `growth` an impact.
+
+    The sum of growth^-impacts times the target's weight, over the connections that leave a set, is
+    to be at least the set's weight: exactly, in rational numbers.
+    """
+    if not growth > 0:
+        raise NotProvedError("the growth is not positive")
+    sums = [Fraction(0)] * len(weights)
+    for it in graph.connections:
+        sums[it.source] += weights[it.target] / growth**it.impacts
+    for i, (weight, total) in enumerate(zip(weights, sums, strict=True)):
+        if not weight > 0:
+            raise NotProvedError(f"the weight of B_{i} is not positive")
+        if not total >= weight:
+            raise NotProvedError(f"the growth is not proved: at B_{i} the weights do not grow")
+
+
+def prove_connection(
+    surface: Surface, sets: list[HSet], connection: Connection
+) -> tuple[float, float]:
+    """Prove the coverings of a connection, and return the least of each of their two margins.
+
+    Raises NotProvedError.
+    """
+    path = [connection.strip, *connection.chain, sets[connection.target]]
+    margins = [prove_covering(surface, *pair) for pair in pairwise(path)]
+    return tuple(map(min, zip(*margins, strict=True)))
+
+
+def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
+    """Prove that source covers target, on cells of the source that are halved where needed.
+
+    Returns how far beyond the target's edges the exit edges land, and how much room is left within
+    |q'| < 1, in units of the target's half widths. Raises NotProvedError.
+    """
+    try:
+        right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
+    except UndecidedError as error:
+        raise NotProvedError(f"{source.name}: {error}") from None
+    side = 1 if right > 0 else -1  # on which the edge p = 1 lands
+    beyond = room = float("inf")
+    failure = f"{source.name} does not cover {target.name}"
+    cells = [_Cell(0.0, 0.0, 1.0, 1.0)]
+    for _ in range(MOST_CELLS):
+        if not cells:
+            return beyond, room
+        cell = cells.pop()
+        try:
+            local = hsets.local_map(surface, cell.of(source), target)
+        except (UndecidedError, ZeroDivisionError) as error:
+            failure = f"{source.name}: {error}"
+            cells += cell.halves(source)
+            continue
+        edges = [p * side * local.exit_edge(p) - 1 for p in (-1, 1) if cell.is_at(p)]
+        left = 1 - abs(local.across()).upper()
+        if left > 0 and all(edge > 0 for edge in edges):
+            beyond = min([beyond, *map(lowest, edges)])
+            room = min(room, lowest(left))
+        elif any(edge < 0 for edge in edges) or abs(local.centre[1]) > 1:
+            break
+        else:
+            cells += cell.halves(source)
+    raise NotProvedError(failure)
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """The part of a set with these middles and half widths of p and q, which are exact."""
+
+    p: float
+    q: float
+    half_p: float
+    half_q: float
+
+    def of(self, source: HSet) -> HSet:
+        """Return the cell of a set as an HSet."""
+        u, s = (
+            tuple(arb(half) * a for a in side)
+            for half, side in ((self.half_p, source.u), (self.half_q, source.s))
+        )
+        return HSet(source.name, tuple(source.box(arb(self.p), arb(self.q))), u, s)
+
+    def is_at(self, edge: int) -> bool:
+        """Whether the cell touches the edge p = -1 or p = 1."""
+        return self.p + edge * self.half_p == edge
+
+    def halves(self, source: HSet) -> list["_Cell"]:
+        """Return the two halves of the cell, cut across its longer side."""
+        u, s = (float(x * x + y * y) for x, y in (source.u, source.s))
+        if self.half_p**2 * u > self.half_q**2 * s:
+            half = self.half_p / 2
+            return [replace(self, p=self.p + e * half, half_p=half) for e in (-1, 1)]
+        half = self.half_q / 2
+        return [replace(self, q=self.q + e * half, half_q=half) for e in (-1, 1)]

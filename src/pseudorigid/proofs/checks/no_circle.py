@@ -1,0 +1,61 @@
+"""No invariant circle around the saddles: their unstable manifold meets the jump set.
+
+Sets S_0 ... S_(n-1) at the points of a hyperbolic orbit cover each other in turn. A chain of
+coverings leads from S_a to a set N, which the jump set crosses from edge to edge. docs/proofs.md
+("No invariant circle outside the saddles") has the argument.
+"""
+
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import ctx
+
+from ..enclosure.flight import UndecidedError
+from ..enclosure.surface import Surface, ball_of
+from . import graph, horseshoe, hsets, jump
+from .certificate import Certificate, Finding, NotProvedError
+from .periodic import Window
+
+
+def check(text: str, surface: Surface, *, period: int, radius: Fraction, window: Window) -> Finding:
+    """Prove that the unstable manifold of a certificate's hyperbolic orbit meets the jump set.
+
+    The orbit must have this prime period, be the only one within the radius of the centres of the
+    S, and have a point in the window. The margins are the least over all relations. The parts are
+    saddles, chain (lists of HSet; N comes last) and leaves, the index of S_a.
+    """
+    certificate = Certificate(text, "jump crossing", surface)
+    orbit = horseshoe.prove_saddles(certificate, surface, period, radius, window)
+    with ctx.workprec(graph.BITS):
+        saddles = [
+            graph.hset(f"S_{i}", it) for i, it in enumerate(certificate.numbers("saddles", 6))
+        ]
+        chain = [
+            graph.hset(f"M_{i}", it) for i, it in enumerate(certificate.numbers("chain", 6), 1)
+        ]
+        horseshoe.check_contained(saddles, orbit)
+        leaves = certificate.whole("leaves")
+        if leaves not in range(len(saddles)):
+            raise NotProvedError("the certificate's chain does not begin at its saddles")
+        loop = [_round(surface, *pair) for pair in pairwise([*saddles, saddles[0]])]
+        margins = [graph.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
+    with ctx.workprec(jump.BITS):
+        touches = [ball_of(value) for value in certificate.row("touches", 2)]
+        across = jump.prove_crossing(surface, chain[-1], *touches)
+    beyond, room = map(min, zip(*margins, *(pair[:2] for pair in loop), strict=True))
+    cone = min(least for *_, least in loop)
+    return Finding(
+        {"jump set at x": chain[-1].box()[0]},
+        {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
+        {"saddles": saddles, "chain": chain, "leaves": leaves},
+    )
+
+
+def _round(surface, source, target) -> tuple[float, float, float]:
+    """Prove a covering with its cone condition, and return beyond, room and the cone's margin."""
+    try:
+        local = hsets.local_map(surface, source, target)
+    except (UndecidedError, ZeroDivisionError) as error:
+        raise NotProvedError(f"{source.name}: {error}") from None
+    beyond, room = hsets.covering(local, source, target)
+    return beyond, room, hsets.cones(local, source, target)

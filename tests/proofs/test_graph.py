@@ -1,0 +1,267 @@
+"""Graphs of coverings: entropy, refused certificates, and the growth of a material line."""
+
+import dataclasses
+from collections import Counter
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from certificates import OTHER_CONSTANTS, numbers, with_field, with_rows
+from flint import arb, ctx
+from slowly import slowly
+
+from pseudorigid import Ball
+from pseudorigid.proofs import THEOREMS
+from pseudorigid.proofs.checks import graph, jump, no_circle
+from pseudorigid.proofs.checks.certificate import NotProvedError
+from pseudorigid.proofs.checks.hsets import HSet
+from pseudorigid.proofs.search.chains import DoubleMap
+
+BALL = Ball(k=0.2, g=0.04)
+SMALL = "entropy-lower"
+GRAPHS = [SMALL, *slowly("entropy")]
+
+
+def refused(name, text):
+    result = THEOREMS[name].check(text)
+    assert result.verdict == "not proved"
+    return result.reason
+
+
+def changed(text, field, row, column, change):
+    """The certificate with one number of a field of rows changed by a function."""
+    rows = numbers(text, field)
+    rows[row][column] = f'"{change(Fraction(rows[row][column]))}"'
+    return with_rows(text, field, rows)
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_the_entropy_is_that_of_the_paths(name):
+    """The logarithm of the spectral radius of the matrix with a vertex for each impact."""
+    theorem = THEOREMS[name]
+    finding = theorem.prove(theorem.text())
+    sets, connections = finding.parts["graph"].sets, finding.parts["graph"].connections
+    size = len(sets) + sum(it.impacts - 1 for it in connections)
+    matrix, free = np.zeros((size, size)), len(sets)
+    for it in connections:
+        path = [it.source, *range(free, free + it.impacts - 1), it.target]
+        free += it.impacts - 1
+        for a, b in pairwise(path):
+            matrix[a, b] += 1.0
+    entropy = np.log(np.abs(np.linalg.eigvals(matrix)).max())
+    with ctx.workprec(64):
+        proved = float(finding.digits["entropy"])
+    assert float(theorem.bounds["entropy"]) < proved < entropy < proved + 5e-4
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_coverings_of_a_graph_hold_for_points_in_doubles(name):
+    theorem = THEOREMS[name]
+    double_map = DoubleMap(theorem.bounds["surface"])
+    found = theorem.prove(theorem.text()).parts["graph"]
+    edge = np.linspace(-1.0, 1.0, 21)
+    for it in found.connections:
+        path = [it.strip, *it.chain, found.sets[it.target]]
+        for source, target in pairwise(path):
+            centre, u, s = (np.array([float(a) for a in side])[:, None]
+                            for side in (source.centre, source.u, source.s))  # fmt: skip
+            origin, *sides = (np.array([float(a) for a in side])
+                              for side in (target.centre, target.u, target.s))  # fmt: skip
+            ends = []
+            for p in (-1.0, 1.0):
+                image = double_map.step(centre + p * u + edge * s)
+                p_image, q_image = np.linalg.solve(np.stack(sides, 1), image - origin[:, None])
+                assert np.abs(q_image).max() < 1
+                ends.append(p_image)
+            assert np.abs(ends).min() > 1
+            assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
+
+
+def test_the_strips_of_a_set_are_apart_and_each_set_is_left():
+    theorem = THEOREMS[SMALL]
+    found = theorem.prove(theorem.text()).parts["graph"]
+    assert set(Counter(it.source for it in found.connections)) == set(range(len(found.sets)))
+    for it in found.connections:
+        assert -1 <= it.low < it.high <= 1
+        for other in found.connections:
+            if other is not it and other.source == it.source:
+                assert other.high < it.low or it.high < other.low
+
+
+@pytest.mark.parametrize(("field", "row", "columns"), [
+    ("sets", 0, (0, 1)), ("sets", 1, (0, 1)), ("chains", 0, (0, 1)), ("chains", -1, (0, 1)),
+])  # fmt: skip
+@pytest.mark.parametrize("shift", [2, 4])
+def test_a_moved_set_is_refused(field, row, columns, shift):
+    text = THEOREMS[SMALL].text()
+    side = numbers(text, field)[row]
+    for column in columns:
+        step = Fraction(side[column + shift])
+        text = changed(text, field, row, column, lambda a, step=step: a + step)
+    assert "cover" in refused(SMALL, text)
+
+
+@pytest.mark.parametrize(
+    ("columns", "factor"), [((2, 3), Fraction("1.3")), ((4, 5), Fraction("0.5"))]
+)
+@pytest.mark.parametrize("row", [1, 20, -2])
+def test_a_wider_or_thinner_set_of_a_chain_is_refused(row, columns, factor):
+    text = THEOREMS[SMALL].text()
+    for column in columns:
+        text = changed(text, "chains", row, column, lambda a: a * factor)
+    assert "cover" in refused(SMALL, text)
+
+
+def test_a_doubled_connection_and_overlapping_strips_are_refused():
+    text = THEOREMS[SMALL].text()
+    rows, chains = numbers(text, "connections"), numbers(text, "chains")
+    doubled = with_rows(text, "connections", [rows[0], *rows])
+    doubled = with_rows(doubled, "chains", chains[: int(rows[0][4]) - 1] + chains)
+    assert "overlap" in refused(SMALL, doubled)
+    for i in (0, 1):
+        assert rows[2 * i][0] == rows[2 * i + 1][0]  # two strips of one set, from left to right
+        upper = Fraction(rows[2 * i + 1][2])
+        for end in (upper, upper + Fraction(1, 100)):
+            assert "overlap" in refused(
+                SMALL, changed(text, "connections", 2 * i, 3, lambda a, end=end: end)
+            )
+
+
+def test_an_invented_connection_is_refused():
+    text = THEOREMS[SMALL].text()
+    rows = numbers(text, "connections")
+    for i, row in enumerate(rows):
+        assert refused(SMALL, changed(text, "connections", i, 1, lambda a: 1 - a))
+        shorter = changed(text, "connections", i, 4, lambda a: a - 1)
+        assert "more sets" in refused(SMALL, shorter)
+        longer = changed(text, "connections", i, 4, lambda a: a + 1)
+        assert "lacks sets" in refused(SMALL, longer)
+        assert row
+    direct = [[*rows[0][:2], "0.97", "0.98", "1"], *rows]  # one impact, without a chain
+    assert "cover" in refused(SMALL, with_rows(text, "connections", direct))
+    for column, value in ((0, 2), (0, Fraction(1, 2)), (1, -1), (4, 0), (2, -2), (3, 2)):
+        assert refused(SMALL, changed(text, "connections", -1, column, lambda a, v=value: v))
+
+
+def test_a_growth_that_is_too_large_and_wrong_weights_are_refused():
+    text = THEOREMS[SMALL].text()
+    growth = Fraction(
+        numbers("growth = [\n" + text.split("growth = ")[1][:8] + "\n]", "growth")[0][0]
+    )
+    for value in (growth * Fraction("1.001"), growth + 1, 10**6):
+        assert "the weights do not grow" in refused(SMALL, with_field(text, "growth", f'"{value}"'))
+    for value in (0, -1):
+        assert "not positive" in refused(SMALL, with_field(text, "growth", f'"{value}"'))
+    for weights in ("[1.0, 0.0]", "[1.0, -1.0]", "[0.0, 0.0]", "[1.0, 1e-9]", "[1.0]"):
+        assert refused(SMALL, with_field(text, "weights", weights))
+
+
+@pytest.mark.parametrize("growth", ["1.0", "1.0000001", "1.04"])
+def test_a_weaker_graph_does_not_prove_the_statement(growth):
+    text = with_field(THEOREMS[SMALL].text(), "growth", growth)
+    assert "entropy is not proved" in refused(SMALL, text)
+    theorem = THEOREMS[SMALL]
+    weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(-1)})
+    assert weaker.check(text).verdict == "proved"
+
+
+def test_a_graph_without_one_connection_has_less_entropy():
+    """The rest is consistent: one loop of each set and one way from the second to the first."""
+    text = THEOREMS[SMALL].text()
+    rows, chains = numbers(text, "connections"), numbers(text, "chains")
+    first = next(i for i, row in enumerate(rows) if row[0] != row[1])
+    begin = sum(int(row[4]) - 1 for row in rows[:first])
+    text = with_rows(text, "connections", rows[:first] + rows[first + 1 :])
+    text = with_rows(text, "chains", chains[:begin] + chains[begin + int(rows[first][4]) - 1 :])
+    assert "the weights do not grow" in refused(SMALL, text)
+    text = with_field(text, "growth", "1.0")
+    assert "entropy is not proved" in refused(SMALL, with_field(text, "weights", "[1.0, 1.0]"))
+
+
+@pytest.mark.parametrize(("field", "value"), OTHER_CONSTANTS)
+def test_the_sets_do_not_cover_at_another_ball_or_energy(field, value):
+    """With a statement about that ball and energy, so that the sets themselves are refused."""
+    theorem = THEOREMS[SMALL]
+    surface = dataclasses.replace(theorem.bounds["surface"], **{field: value}, _balls={})
+    text = with_field(theorem.text(), field, f'"{value}"')
+    with pytest.raises(NotProvedError, match=r"cover|floor|rim|grazing"):
+        graph.check(text, surface, entropy=Fraction(0))
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_the_entropy_is_below_the_growth_of_a_material_line(name):
+    """The length of a line through the sea, from the 6th to the 14th impact, in doubles."""
+    theorem = THEOREMS[name]
+    double_map = DoubleMap(theorem.bounds["surface"])
+    first = [float(a) for a in numbers(theorem.text(), "sets")[0]]
+    line = np.linspace(-1.0, 1.0, 60_001)
+    points = np.array(first[:2])[:, None] + np.outer(first[2:4], line)
+    lengths = []
+    for _ in range(15):
+        steps = np.hypot(*np.diff(points, axis=1))
+        lengths.append(steps[steps < 0.02].sum())  # without the jumps
+        points = double_map.step(points)
+    growth = np.log(lengths[14] / lengths[6]) / 8
+    assert float(theorem.bounds["entropy"]) < growth < 0.5
+
+
+# ---- no invariant circle
+
+
+def test_points_of_the_unstable_manifold_land_on_both_sides_of_the_jump_set():
+    """The image of the last set but one, mapped once more, jumps."""
+    theorem = THEOREMS["no-circle"]
+    chain = theorem.prove(theorem.text()).parts["chain"]
+    double_map = DoubleMap(theorem.bounds["surface"])
+    last = chain[-1]
+    p = np.linspace(-1.0, 1.0, 2001)
+    points = np.array([float(a) for a in last.centre])[:, None] + np.outer(
+        [float(a) for a in last.u], p
+    )
+    steps = np.hypot(*np.diff(double_map.step(points), axis=1))
+    assert np.count_nonzero(steps > 0.05) == 1
+
+
+def test_the_jump_set_must_cross_the_last_set():
+    theorem = THEOREMS["no-circle"]
+    text = theorem.text()
+    low, high = (float(a) for a in text.split("touches = [")[1].split("]")[0].split(", "))
+    middle = (low + high) / 2
+    for touches in ((low, middle), (middle, high), (low + 1.0, high + 1.0), (high, high)):
+        assert refused("no-circle", with_field(text, "touches", str(list(touches))))
+    surface = theorem.bounds["surface"]
+    with ctx.workprec(jump.BITS):
+        last = theorem.prove(text).parts["chain"][-1]
+        turned = HSet("N", last.centre, last.s, last.u)
+        with pytest.raises(NotProvedError, match="jump set"):
+            jump.prove_crossing(surface, turned, arb(low), arb(high))
+
+
+@pytest.mark.parametrize("row", [0, 30, -1])
+@pytest.mark.parametrize("shift", [2, 4])
+def test_a_moved_set_of_the_chain_to_the_jump_set_is_refused(row, shift):
+    text = THEOREMS["no-circle"].text()
+    side = numbers(text, "chain")[row]
+    for column in (0, 1):
+        step = 2 * Fraction(side[column + shift])
+        text = changed(text, "chain", row, column, lambda a, step=step: a + step)
+    assert refused("no-circle", text)
+
+
+def test_a_chain_from_elsewhere_or_of_another_orbit_is_refused():
+    theorem = THEOREMS["no-circle"]
+    text = theorem.text()
+    for leaves in (1, 3, 6, -1):
+        assert refused("no-circle", with_field(text, "leaves", leaves))
+    assert "not hyperbolic" in refused(
+        "no-circle",
+        with_rows(text, "saddles", [
+            [*row, *side[2:]] for row, side in zip(
+                numbers(THEOREMS["six-elliptic"].text(), "points"), numbers(text, "saddles"),
+                strict=True)
+        ]),
+    )  # fmt: skip
+    window = tuple((low, low) for low, _ in theorem.bounds["window"])
+    with pytest.raises(NotProvedError, match="window"):
+        no_circle.check(text, **theorem.bounds | {"window": window})
