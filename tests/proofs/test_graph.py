@@ -29,11 +29,18 @@ def refused(name, text):
     return result.reason
 
 
-def changed(text, field, row, column, change):
-    """The certificate with one number of a field of rows changed by a function."""
+def changed(text, field, row, columns, change):
+    """The certificate with numbers of a row changed by a function of column and number."""
     rows = numbers(text, field)
-    rows[row][column] = f'"{change(Fraction(rows[row][column]))}"'
+    for column in columns:
+        rows[row][column] = f'"{change(column, Fraction(rows[row][column]))}"'
     return with_rows(text, field, rows)
+
+
+def moved(text, field, row, shift):
+    """The certificate with a set moved by the side in the columns that are shifted so far."""
+    side = [Fraction(a) for a in numbers(text, field)[row]]
+    return changed(text, field, row, (0, 1), lambda column, a: a + side[column + shift])
 
 
 @pytest.mark.parametrize("name", GRAPHS)
@@ -89,17 +96,13 @@ def test_the_strips_of_a_set_are_apart_and_each_set_is_left():
                 assert other.high < it.low or it.high < other.low
 
 
-@pytest.mark.parametrize(("field", "row", "columns"), [
-    ("sets", 0, (0, 1)), ("sets", 1, (0, 1)), ("chains", 0, (0, 1)), ("chains", -1, (0, 1)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("field", "row"), [("sets", 0), ("sets", 1), ("chains", 0), ("chains", -1)]
+)
 @pytest.mark.parametrize("shift", [2, 4])
-def test_a_moved_set_is_refused(field, row, columns, shift):
-    text = THEOREMS[SMALL].text()
-    side = numbers(text, field)[row]
-    for column in columns:
-        step = Fraction(side[column + shift])
-        text = changed(text, field, row, column, lambda a, step=step: a + step)
-    assert "cover" in refused(SMALL, text)
+def test_a_moved_set_is_refused(field, row, shift):
+    reason = refused(SMALL, moved(THEOREMS[SMALL].text(), field, row, shift))
+    assert "does not cover" in reason or "floor" in reason
 
 
 @pytest.mark.parametrize(
@@ -107,9 +110,7 @@ def test_a_moved_set_is_refused(field, row, columns, shift):
 )
 @pytest.mark.parametrize("row", [1, 20, -2])
 def test_a_wider_or_thinner_set_of_a_chain_is_refused(row, columns, factor):
-    text = THEOREMS[SMALL].text()
-    for column in columns:
-        text = changed(text, "chains", row, column, lambda a: a * factor)
+    text = changed(THEOREMS[SMALL].text(), "chains", row, columns, lambda _, a: a * factor)
     assert "cover" in refused(SMALL, text)
 
 
@@ -123,25 +124,23 @@ def test_a_doubled_connection_and_overlapping_strips_are_refused():
         assert rows[2 * i][0] == rows[2 * i + 1][0]  # two strips of one set, from left to right
         upper = Fraction(rows[2 * i + 1][2])
         for end in (upper, upper + Fraction(1, 100)):
-            assert "overlap" in refused(
-                SMALL, changed(text, "connections", 2 * i, 3, lambda a, end=end: end)
-            )
+            wider = changed(text, "connections", 2 * i, [3], lambda *_, end=end: end)
+            assert "overlap" in refused(SMALL, wider)
 
 
 def test_an_invented_connection_is_refused():
     text = THEOREMS[SMALL].text()
     rows = numbers(text, "connections")
-    for i, row in enumerate(rows):
-        assert refused(SMALL, changed(text, "connections", i, 1, lambda a: 1 - a))
-        shorter = changed(text, "connections", i, 4, lambda a: a - 1)
+    for i in range(len(rows)):
+        assert refused(SMALL, changed(text, "connections", i, [1], lambda _, a: 1 - a))
+        shorter = changed(text, "connections", i, [4], lambda _, a: a - 1)
         assert "more sets" in refused(SMALL, shorter)
-        longer = changed(text, "connections", i, 4, lambda a: a + 1)
+        longer = changed(text, "connections", i, [4], lambda _, a: a + 1)
         assert "lacks sets" in refused(SMALL, longer)
-        assert row
     direct = [[*rows[0][:2], "0.97", "0.98", "1"], *rows]  # one impact, without a chain
     assert "cover" in refused(SMALL, with_rows(text, "connections", direct))
     for column, value in ((0, 2), (0, Fraction(1, 2)), (1, -1), (4, 0), (2, -2), (3, 2)):
-        assert refused(SMALL, changed(text, "connections", -1, column, lambda a, v=value: v))
+        assert refused(SMALL, changed(text, "connections", -1, [column], lambda *_, v=value: v))
 
 
 def test_a_growth_that_is_too_large_and_wrong_weights_are_refused():
@@ -241,12 +240,7 @@ def test_the_jump_set_must_cross_the_last_set():
 @pytest.mark.parametrize("row", [0, 30, -1])
 @pytest.mark.parametrize("shift", [2, 4])
 def test_a_moved_set_of_the_chain_to_the_jump_set_is_refused(row, shift):
-    text = THEOREMS["no-circle"].text()
-    side = numbers(text, "chain")[row]
-    for column in (0, 1):
-        step = 2 * Fraction(side[column + shift])
-        text = changed(text, "chain", row, column, lambda a, step=step: a + step)
-    assert refused("no-circle", text)
+    assert refused("no-circle", moved(THEOREMS["no-circle"].text(), "chain", row, shift))
 
 
 def test_a_chain_from_elsewhere_or_of_another_orbit_is_refused():

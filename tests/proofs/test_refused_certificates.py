@@ -225,7 +225,8 @@ STRONGER = [
       for name in [*ORBITS, *TWISTS, *HORSESHOES]),
     *((name, "crossing", lambda sides: (sides[0] + Fraction(1, 1000), sides[1] + 1))
       for name in HORSESHOES),
-    *((name, "entropy", lambda entropy: entropy * Fraction(102, 100)) for name in HORSESHOES),
+    *((name, "entropy", lambda entropy: entropy * Fraction(102, 100))
+      for name in [*HORSESHOES, "horseshoe-smooth", "entropy", "entropy-lower"]),
     ("one-fixed-point", "energy", lambda energy: energy * Fraction(101, 100)),
     ("fixed-point-elliptic", "energy", lambda energy: energy * Fraction(101, 100)),
     ("fixed-point-elliptic", "trace", lambda trace: trace * Fraction(99, 100)),

@@ -23,7 +23,8 @@ BALL = Ball(k=0.2, g=0.04)
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]  # a search takes ten seconds and more
-QUICK = [n for n in THEOREMS if n not in CURVES]
+LONG = ["entropy", "entropy-lower", "horseshoe-smooth"]  # to search
+QUICK = [n for n in THEOREMS if n not in CURVES + LONG]
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +49,7 @@ def test_every_theorem_is_proved_with_positive_margins_in_a_line(results):
     assert THEOREMS["fixed-point"].check("nonsense").line().endswith("; not proved")
 
 
-@pytest.mark.parametrize("name", [*QUICK, *slowly(*CURVES)])
+@pytest.mark.parametrize("name", [*QUICK, *slowly(*CURVES, *LONG)])
 def test_a_new_search_gives_a_certificate_that_holds(name):
     text = search_certificate(name)
     assert THEOREMS[name].check(text).verdict == "proved"
