@@ -74,6 +74,7 @@ STAGES = {
     "curves": Stage(
         f"{_PROOFS}.theorems.curve_scene", "scene_curves", ("rotation_numbers",), follows=False
     ),
+    "graph": Stage(f"{_PROOFS}.theorems.graph_scene", "scene_graph", (), follows=False),
     "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 

@@ -6,22 +6,18 @@ covers B_j. docs/proofs.md ("Entropy through the sea") has the theorem.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from flint import arb, ctx
+from flint import ctx
 
-from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Surface, ball_of
 from . import hsets
 from .certificate import Certificate, Finding, NotProvedError, lowest
 from .hsets import HSet
 
 BITS = 64  # the smallest sets are 1e-6 wide, and one machine word is 1e-19 fine
-
-
-MOST_CELLS = 600  # of a set, before its covering is given up
 
 
 @dataclass(frozen=True)
@@ -75,7 +71,7 @@ def check(text: str, surface: Surface, *, entropy: Fraction) -> Finding:
 
 def read(certificate: Certificate) -> Graph:
     """Return the graph of a certificate; raises NotProvedError where it is none."""
-    sets = [hset(f"B_{i}", row) for i, row in enumerate(certificate.numbers("sets", 6))]
+    sets = [hsets.hset(f"B_{i}", row) for i, row in enumerate(certificate.numbers("sets", 6))]
     rows = iter(certificate.numbers("chains", 6))
     connections = []
     for n, row in enumerate(certificate.numbers("connections", 5)):
@@ -86,7 +82,7 @@ def read(certificate: Certificate) -> Graph:
             raise NotProvedError(f"the strip of connection {n} is not a part of its set")
         source, target = map(int, ends)
         taken = _take(rows, int(impacts) - 1, n)
-        chain = (hset(f"set {i} of connection {n}", row) for i, row in enumerate(taken, 1))
+        chain = (hsets.hset(f"set {i} of connection {n}", row) for i, row in enumerate(taken, 1))
         strip = part(sets[source], f"the strip of connection {n}", low, high)
         connections.append(Connection(source, target, low, high, strip, tuple(chain)))
     if next(rows, None) is not None:
@@ -100,12 +96,6 @@ def _take(rows: Iterator, count: int, connection: int) -> list:
     if len(taken) < count:
         raise NotProvedError(f"the certificate lacks sets of connection {connection}")
     return taken
-
-
-def hset(name: str, row: list[Fraction]) -> HSet:
-    """Return the set of a certificate's row: centre, expanding side, contracting side."""
-    values = tuple(ball_of(value) for value in row)
-    return HSet(name, values[:2], values[2:4], values[4:])
 
 
 def part(of: HSet, name: str, low: Fraction, high: Fraction) -> HSet:
@@ -152,72 +142,5 @@ def prove_connection(
     Raises NotProvedError.
     """
     path = [connection.strip, *connection.chain, sets[connection.target]]
-    margins = [prove_covering(surface, *pair) for pair in pairwise(path)]
+    margins = [hsets.prove_covering(surface, *pair) for pair in pairwise(path)]
     return tuple(map(min, zip(*margins, strict=True)))
-
-
-def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
-    """Prove that source covers target, on cells of the source that are halved where needed.
-
-    Returns how far beyond the target's edges the exit edges land, and how much room is left within
-    |q'| < 1, in units of the target's half widths. Raises NotProvedError.
-    """
-    try:
-        right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
-    except UndecidedError as error:
-        raise NotProvedError(f"{source.name}: {error}") from None
-    side = 1 if right > 0 else -1  # on which the edge p = 1 lands
-    beyond = room = float("inf")
-    failure = f"{source.name} does not cover {target.name}"
-    cells = [_Cell(0.0, 0.0, 1.0, 1.0)]
-    for _ in range(MOST_CELLS):
-        if not cells:
-            return beyond, room
-        cell = cells.pop()
-        try:
-            local = hsets.local_map(surface, cell.of(source), target)
-        except (UndecidedError, ZeroDivisionError) as error:
-            failure = f"{source.name}: {error}"
-            cells += cell.halves(source)
-            continue
-        edges = [p * side * local.exit_edge(p) - 1 for p in (-1, 1) if cell.is_at(p)]
-        left = 1 - abs(local.across()).upper()
-        if left > 0 and all(edge > 0 for edge in edges):
-            beyond = min([beyond, *map(lowest, edges)])
-            room = min(room, lowest(left))
-        elif any(edge < 0 for edge in edges) or abs(local.centre[1]) > 1:
-            break
-        else:
-            cells += cell.halves(source)
-    raise NotProvedError(failure)
-
-
-@dataclass(frozen=True)
-class _Cell:
-    """The part of a set with these middles and half widths of p and q, which are exact."""
-
-    p: float
-    q: float
-    half_p: float
-    half_q: float
-
-    def of(self, source: HSet) -> HSet:
-        """Return the cell of a set as an HSet."""
-        u, s = (
-            tuple(arb(half) * a for a in side)
-            for half, side in ((self.half_p, source.u), (self.half_q, source.s))
-        )
-        return HSet(source.name, tuple(source.box(arb(self.p), arb(self.q))), u, s)
-
-    def is_at(self, edge: int) -> bool:
-        """Whether the cell touches the edge p = -1 or p = 1."""
-        return self.p + edge * self.half_p == edge
-
-    def halves(self, source: HSet) -> list["_Cell"]:
-        """Return the two halves of the cell, cut across its longer side."""
-        u, s = (float(x * x + y * y) for x, y in (source.u, source.s))
-        if self.half_p**2 * u > self.half_q**2 * s:
-            half = self.half_p / 2
-            return [replace(self, p=self.p + e * half, half_p=half) for e in (-1, 1)]
-        half = self.half_q / 2
-        return [replace(self, q=self.q + e * half, half_q=half) for e in (-1, 1)]

@@ -111,17 +111,12 @@ def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
         if rows[(leaves + enters - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
             raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
     steps = len(approach)
-    chain = [_hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
+    chain = [hsets.hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
     x, ux, uy = certificate.row("middle", 3)
-    middle = _hset("M_0", [x, 0, ux, uy, ux, -uy])
+    middle = hsets.hset("M_0", [x, 0, ux, uy, ux, -uy])
     back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
-    saddles = [_hset(f"S_{i}", row) for i, row in enumerate(rows)]
+    saddles = [hsets.hset(f"S_{i}", row) for i, row in enumerate(rows)]
     return saddles, [*chain, middle, *reversed(back)], leaves, enters
-
-
-def _hset(name: str, row: list[Fraction]) -> HSet:
-    values = tuple(ball_of(value) for value in row)
-    return HSet(name, values[:2], values[2:4], values[4:])
 
 
 def _relations(surface: Surface, edges: list[tuple[HSet, HSet]], chain: list[HSet]):

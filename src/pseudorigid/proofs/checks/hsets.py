@@ -5,16 +5,19 @@ direction. Its exit set are the two edges p = -1 and p = 1. docs/proofs.md ("Hor
 relations, after Zgliczynski and Gidea (2004) and Kokubu, Wilczak and Zgliczynski (2007).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import product
 
 from flint import arb
 
+from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet
-from ..enclosure.surface import Surface
+from ..enclosure.surface import Surface, ball_of
 from .certificate import NotProvedError, lowest
 
 UNIT = arb(0, 1)  # the interval from -1 to 1
+MOST_CELLS = 600  # of a set, before its covering is given up
 _SQUARE = arb(0.5, 0.5)  # the interval from 0 to 1
 
 Vector = tuple[arb, arb]
@@ -59,6 +62,12 @@ class HSet:
     def mirrored(self, name: str) -> "HSet":
         """Return the image under the reversor (x, y) -> (x, -y), its two directions exchanged."""
         return HSet(name, *((x, -y) for x, y in (self.centre, self.s, self.u)))
+
+
+def hset(name: str, row: list[Fraction]) -> HSet:
+    """Return the set of a certificate's row: centre, expanding side, contracting side."""
+    values = tuple(ball_of(value) for value in row)
+    return HSet(name, values[:2], values[2:4], values[4:])
 
 
 @dataclass(frozen=True)
@@ -138,3 +147,70 @@ def cones(local: LocalMap, source: HSet, target: HSet) -> float:
     if not (first > 0 and determinant > 0):
         raise NotProvedError(f"cone condition not proved from {source.name} to {target.name}")
     return lowest(determinant / (first + last))
+
+
+def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
+    """Prove that source covers target, on cells of the source that are halved where needed.
+
+    Returns how far beyond the target's edges the exit edges land, and how much room is left within
+    |q'| < 1, in units of the target's half widths. Raises NotProvedError.
+    """
+    try:
+        right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
+    except UndecidedError as error:
+        raise NotProvedError(f"{source.name}: {error}") from None
+    side = 1 if right > 0 else -1  # on which the edge p = 1 lands
+    beyond = room = float("inf")
+    failure = f"{source.name} does not cover {target.name}"
+    cells = [_Cell(0.0, 0.0, 1.0, 1.0)]
+    for _ in range(MOST_CELLS):
+        if not cells:
+            return beyond, room
+        cell = cells.pop()
+        try:
+            local = local_map(surface, cell.of(source), target)
+        except (UndecidedError, ZeroDivisionError) as error:
+            failure = f"{source.name}: {error}"
+            cells += cell.halves(source)
+            continue
+        edges = [p * side * local.exit_edge(p) - 1 for p in (-1, 1) if cell.is_at(p)]
+        left = 1 - abs(local.across()).upper()
+        if left > 0 and all(edge > 0 for edge in edges):
+            beyond = min([beyond, *map(lowest, edges)])
+            room = min(room, lowest(left))
+        elif any(edge < 0 for edge in edges) or abs(local.centre[1]) > 1:
+            break
+        else:
+            cells += cell.halves(source)
+    raise NotProvedError(failure)
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """The part of a set with these middles and half widths of p and q, which are exact."""
+
+    p: float
+    q: float
+    half_p: float
+    half_q: float
+
+    def of(self, source: HSet) -> HSet:
+        """Return the cell of a set as an HSet."""
+        u, s = (
+            tuple(arb(half) * a for a in side)
+            for half, side in ((self.half_p, source.u), (self.half_q, source.s))
+        )
+        return HSet(source.name, tuple(source.box(arb(self.p), arb(self.q))), u, s)
+
+    def is_at(self, edge: int) -> bool:
+        """Whether the cell touches the edge p = -1 or p = 1."""
+        return self.p + edge * self.half_p == edge
+
+    def halves(self, source: HSet) -> list["_Cell"]:
+        """Return the two halves of the cell, cut across its longer side."""
+        u, s = (float(x * x + y * y) for x, y in (source.u, source.s))
+        if self.half_p**2 * u > self.half_q**2 * s:
+            half = self.half_p / 2
+            return [replace(self, p=self.p + e * half, half_p=half) for e in (-1, 1)]
+        half = self.half_q / 2
+        return [replace(self, q=self.q + e * half, half_q=half) for e in (-1, 1)]

@@ -12,9 +12,11 @@ from flint import ctx
 
 from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Surface, ball_of
-from . import graph, horseshoe, hsets, jump
+from . import horseshoe, hsets, jump
 from .certificate import Certificate, Finding, NotProvedError
 from .periodic import Window
+
+BITS = 64  # the smallest sets are 1e-5 wide
 
 
 def check(text: str, surface: Surface, *, period: int, radius: Fraction, window: Window) -> Finding:
@@ -26,19 +28,19 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     """
     certificate = Certificate(text, "jump crossing", surface)
     orbit = horseshoe.prove_saddles(certificate, surface, period, radius, window)
-    with ctx.workprec(graph.BITS):
+    with ctx.workprec(BITS):
         saddles = [
-            graph.hset(f"S_{i}", it) for i, it in enumerate(certificate.numbers("saddles", 6))
+            hsets.hset(f"S_{i}", it) for i, it in enumerate(certificate.numbers("saddles", 6))
         ]
         chain = [
-            graph.hset(f"M_{i}", it) for i, it in enumerate(certificate.numbers("chain", 6), 1)
+            hsets.hset(f"M_{i}", it) for i, it in enumerate(certificate.numbers("chain", 6), 1)
         ]
         horseshoe.check_contained(saddles, orbit)
         leaves = certificate.whole("leaves")
         if leaves not in range(len(saddles)):
             raise NotProvedError("the certificate's chain does not begin at its saddles")
         loop = [_round(surface, *pair) for pair in pairwise([*saddles, saddles[0]])]
-        margins = [graph.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
+        margins = [hsets.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
     with ctx.workprec(jump.BITS):
         touches = [ball_of(value) for value in certificate.row("touches", 2)]
         across = jump.prove_crossing(surface, chain[-1], *touches)

@@ -16,7 +16,7 @@ from flint import ctx
 
 from ...dynamics.periodic import symmetric_orbits
 from ...dynamics.variables import chart, states_of
-from ..checks import graph
+from ..checks import graph, hsets
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
 from .certificate_text import header, rows
@@ -242,9 +242,9 @@ def _row(of: Parallelogram, digits: int = _SIDE_DIGITS) -> str:
 def _connection(sets, crossing, strip, chain_rows):
     """Return the sets and the connection as the checker reads them."""
     numbers = [[Fraction(a) for a in row.strip("[]").split(", ")] for row in chain_rows]
-    ends = [graph.hset(f"B_{i}", _fractions(sets[i])) for i in (crossing.source, crossing.target)]
+    ends = [hsets.hset(f"B_{i}", _fractions(sets[i])) for i in (crossing.source, crossing.target)]
     low, high = map(Fraction, strip)
-    through = tuple(graph.hset(f"set {i}", row) for i, row in enumerate(numbers, 1))
+    through = tuple(hsets.hset(f"set {i}", row) for i, row in enumerate(numbers, 1))
     part = graph.part(ends[0], "the strip", low, high)
     return ends, graph.Connection(0, 1, low, high, part, through)
 
