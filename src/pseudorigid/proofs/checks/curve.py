@@ -196,7 +196,7 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
         images = [surface.impact(x, y)[:2] for x, y in points]
         waves = [transform([image[r] for image in images], count // 2) for r in (0, 1)]
         if i + 1 < period:
-            curves.append(tuple([c.mid() for c in row[: modes + 1]] for row in waves))
+            curves.append(tuple(_real_on_the_circle(row[: modes + 1]) for row in waves))
             target = curves[i + 1]
         else:
             target = tuple(rotated(row, omega) for row in first)
@@ -205,6 +205,12 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
             for r in (0, 1)
         ])  # fmt: skip
     return curves, errors
+
+
+def _real_on_the_circle(waves: list[acb]) -> list[acb]:
+    """Return the midpoints of Fourier coefficients, with a real mean."""
+    mean, *others = (c.mid() for c in waves)
+    return [acb(mean.real), *others]
 
 
 def _size_of_error(errors: list, most: int, count: int, image: arb, plan: Plan) -> arb:
@@ -374,12 +380,13 @@ def _normals(curve: Curve, centre: list[arb], count: int) -> list[tuple[arb, arb
 
 
 def _check_winding(curve: Curve, centre: list[arb], columns: int) -> None:
-    """Check that every curve near K turns around the centre once, clockwise.
+    """Check that every curve near K turns once, clockwise, around the centre and the orbit's point.
 
-    det(K - c, K') is not zero (`_bounds`), so that the curve turns one way. K - c stays, over each
-    cell, within a right angle of its values at the middles of this cell and the one before, so that
-    arguments from middle to middle are principal.
+    The point is within periodic.CLOSE of the centre. det(K - c, K') is not zero (`_bounds`), so the
+    curve turns one way. K - c stays, over each cell, within a right angle of its values at the
+    middles of this cell and the one before, so that arguments from middle to middle are principal.
     """
+    centre = [_inflated(value, ball_of(periodic.CLOSE)) for value in centre]
     boxes = _real_cells(curve, columns)
     middles = list(zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True))
     total = arb(0)
@@ -401,7 +408,10 @@ def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]
     """Return a polygon inside every curve near K, with the centre inside.
 
     Vertex j is K at the left end of cell j, moved towards the centre. The curve over a cell that is
-    wider than the edge's sector lies beyond the edge; so each ray meets the edge first.
+    wider than the edge's sector lies beyond the edge; so each ray meets the edge first. The three
+    turns, from the cell's beginning to the edge's ends and to the cell's end, are each less than a
+    right angle. So they add up to the curve's own turn over the cell, which `_check_winding` proves
+    to be less than half a turn, and the polygon turns once.
     """
     wide = arb(1) / (2 * columns)
     cells = [Cells(row, columns, wide=wide * 1.25) for row in curve]
@@ -428,15 +438,16 @@ def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]
         rest = abs(side[0]) * abs(cells[1].rest) + abs(side[1]) * abs(cells[0].rest)
         rest += (abs(side[0]) + abs(side[1])) * NEAR
         height = evaluate([acb(c) for c in line], cells[0].box).real
-        turns = (_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[k])))
-        if not (height > rest and all(turn < 0 for turn in turns)):
+        turns = [_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[k]))]
+        if not (height > rest and all(turn < 0 < towards for turn, towards in turns)):
             raise NotProvedError("the polygon is not proved to lie inside the curve")
     return corners
 
 
-def _turn(centre: list[arb], a: list[arb], b: list[arb]) -> arb:
-    """Return det(a - c, b - c)."""
-    return (a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0])
+def _turn(centre: list[arb], a: list[arb], b: list[arb]) -> tuple[arb, arb]:
+    """Return det(a - c, b - c) and the scalar product of a - c and b - c."""
+    (p, q), (u, v) = ([value - c for value, c in zip(z, centre, strict=True)] for z in (a, b))
+    return p * v - q * u, p * u + q * v
 
 
 def _check_disjoint(curves: list, columns: int) -> None:
