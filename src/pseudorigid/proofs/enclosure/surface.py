@@ -38,6 +38,11 @@ def exact(name: str, value: Exact) -> Fraction:
     raise ValueError(f"{name} = {value!r} is not an exact number, such as '1/5' or '0.2'")
 
 
+def _shortened(value: Fraction) -> Fraction | float:
+    """Return the Fraction, or the nearest double if its denominator is long."""
+    return value if value.denominator < 10**15 else float(value)
+
+
 def ball_of(fraction: Fraction) -> arb:
     """Return the narrowest ball of the context's precision around a Fraction."""
     return arb(fmpq(fraction.numerator, fraction.denominator))
@@ -92,13 +97,12 @@ class Surface:
             raise ValueError(f"g = {self.g} is not allowed: g > 0")
         lowest = -self.g * self.g / (2 * self.k)
         if not self.energy > lowest:
-            raise ValueError(f"energy = {self.energy} is not allowed: above {lowest}")
+            energy, least = map(_shortened, (self.energy, lowest))
+            raise ValueError(f"energy = {energy} is not allowed: above {least}")
 
     def __str__(self):
-        return ", ".join(
-            f"{name} = {value if value.denominator < 10**15 else float(value)}"
-            for name, value in (("k", self.k), ("g", self.g), ("E", self.energy))
-        )
+        values = (("k", self.k), ("g", self.g), ("E", self.energy))
+        return ", ".join(f"{name} = {_shortened(value)}" for name, value in values)
 
     def constants(self) -> tuple[arb, arb, arb]:
         """Return k, g and the energy in balls of the context's precision."""

@@ -107,11 +107,11 @@ def search(
     with ctx.workprec(64):
         k, g, energy = (float(a) for a in surface.constants())
     section = math.pi * (2.0 * energy + g * g / k) * math.sqrt((1.0 + k) / k)
-    share = f"{0.9999 * area / section:.3g}"
-    for part, cells, room in ((0.4, 6, 0.6), (0.3, 9, 0.5)):
+    share = f"{0.9999 * area / section:.5g}"  # rounding to five digits adds less than 1e-4
+    for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
         strip = part * decay / (2.0 * math.pi)
         loss = strip / 6.2
-        digits = math.ceil(_DIGITS_OF_ERROR - 8.0 * math.log10(loss))
+        digits = math.ceil(_DIGITS_OF_ERROR + spare - 8.0 * math.log10(loss))
         modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
         columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
         rows = math.ceil(columns * strip)
@@ -130,7 +130,8 @@ def search(
 def quotients_near(value: float) -> list[int]:
     """Return partial quotients for which the number of `checks.circle.noble` is close to a value.
 
-    They are the first ones of the value's continued fraction.
+    They are the first ones of the value's continued fraction. Raises NoCurveError for a value so
+    close to a fraction of small integers that this gives no number close to it.
     """
     golden, rest, quotients = 0.5 * (1.0 + math.sqrt(5.0)), value, []
     while True:
@@ -140,8 +141,10 @@ def quotients_near(value: float) -> list[int]:
         for a in reversed(quotients):
             noble_value = a + 1.0 / noble_value
         rest -= int(rest)
-        if abs(1.0 / noble_value - value) < _CLOSE or rest < _CLOSE:
+        if abs(1.0 / noble_value - value) < _CLOSE:
             return quotients
+        if rest < _CLOSE:
+            raise NoCurveError(f"{value:.10g} is too close to a fraction of small integers")
 
 
 def from_symmetric_point(points: Sequence) -> list[list[float]]:

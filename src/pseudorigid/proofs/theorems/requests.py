@@ -1,5 +1,6 @@
 """Proofs on request: of symmetric orbits, horseshoes on these, and invariant curves."""
 
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -130,6 +131,7 @@ def prove_curve(
     rotation_number : float
         Clockwise turns per impact, between 0 and 1. The curve has a number within 5e-4 of it whose
         continued fraction ends in ones: its partial quotients are the first ones of this number's.
+        A number too close to a fraction of small integers is refused.
 
     Returns
     -------
@@ -160,6 +162,8 @@ def prove_curve(
     rotation = number(
         "rotation_number", rotation_number, "one number between 0 and 1", lambda v: 0.0 < v < 1.0
     )
+    if isinstance(energy, float) and not math.isfinite(energy):
+        raise ValueError(f"energy = {energy} is not allowed: a finite number")
     exact_energy = exact("energy", Fraction(energy) if isinstance(energy, float) else energy)
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
     surface = Surface(k, g, exact_energy)
@@ -169,8 +173,8 @@ def prove_curve(
         "share": Fraction(0), "error": Fraction(1),
     }  # fmt: skip
     theorem = Theorem(name, name, curve.check, bounds)
-    quotients = curve_search.quotients_near(rotation)
     try:
+        quotients = curve_search.quotients_near(rotation)
         points = approximate_orbits.points(surface, 1, "elliptic")
         return curve_search.search(surface, points, quotients, theorem.prove)
     except (NotProvedError, ValueError, ArithmeticError) as error:
