@@ -17,6 +17,7 @@ from pipeline.cli.session import UsageError
 from pipeline.config import ConfigError, paths
 from pipeline.records.sources import ROOT
 from pseudorigid import Ball
+from pseudorigid.proofs import THEOREMS
 
 PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's text
 ALL = range(1, 73)
@@ -42,8 +43,23 @@ def test_verdicts_without_and_with_all_proofs(datasets, proofs):
 
 
 def test_all_theorems_of_invariant_curves_are_used():
-    curves = {name for name in paths.THEOREMS if name.startswith("twist-")} - {"twist-zero"}
-    assert set(claims.CLAIMS[52].theorems) == set(claims.CLAIMS[70].theorems) == curves
+    near = {name for name in paths.THEOREMS if name.startswith("twist-")} - {"twist-zero"}
+    sized = {name for name in paths.THEOREMS if name.startswith("curve-")}
+    assert set(claims.CLAIMS[52].theorems) == near | sized
+    assert set(claims.CLAIMS[70].theorems) == near - {"twist-one-zero"}
+
+
+@pytest.mark.parametrize("number", [23, 28, 42, 43, 52])
+def test_shares_inside_curves_are_said_only_of_proved_theorems(datasets, number):
+    """The share is the bound of the theorem whose certificate was checked, and no other."""
+    claim = claims.CLAIMS[number]
+    sized = [name for name in claim.theorems if name.startswith("curve-")]
+    others = dict.fromkeys(claim.theorems, PROVED)
+    for name in sized:
+        share = f"more than {float(THEOREMS[name].bounds['share'])}"
+        only = others | dict.fromkeys(sized, "not proved")
+        assert "more than" not in claim.judge(datasets, only).value
+        assert share in claim.judge(datasets, only | {name: PROVED}).value
 
 
 def test_all_statements_are_there_and_whole():

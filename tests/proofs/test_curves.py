@@ -11,15 +11,17 @@ import pytest
 from certificates import numbers
 from flint import acb, arb, ctx
 from matplotlib.path import Path
+from scipy import ndimage
 from slowly import slowly
 from small_curve import SMALL
 
-from pseudorigid import Ball, orbit
+from pseudorigid import Ball, orbit, prove_curve
 from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import circle, curve
 from pseudorigid.proofs.checks.certificate import NotProvedError
 from pseudorigid.proofs.enclosure import complex_impact
+from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search import curve as search
 
 TEXT = SMALL.text()
@@ -60,6 +62,13 @@ def with_coefficients(text, rows):
     return pattern.sub(lambda _: f"coefficients = [\n{lines}]", text)
 
 
+def start_of(finding):
+    """The x of the curve's point with t = 0, which is on y = 0."""
+    waves = finding.parts["curve"][0]
+    with ctx.workprec(200):
+        return float(sum((2 * c.real for c in waves[1:]), waves[0].real))
+
+
 def polygon_area(points):
     """The area inside a polygon."""
     x, y = np.array(points).T
@@ -85,12 +94,53 @@ def test_a_curve_is_proved_and_its_polygon_has_nearly_its_area(name):
 def test_orbits_next_to_a_curve_have_its_rotation_number(name):
     """An independent computation in doubles, at the point of the curve with t = 0."""
     bounds, finding = bounds_and_finding(name)
-    with ctx.workprec(200):
-        start = float(sum((arb(2 * c.real) for c in finding.parts["curve"][0][1:]), arb(0))
-                      + finding.parts["curve"][0][0].real)  # fmt: skip
     points = [[float(a) for a in z] for z in finding.parts["orbit"].points]
-    turns = search.turns(bounds["surface"], start, points, 20_000)
+    turns = search.turns(bounds["surface"], start_of(finding), points, 20_000)
     assert turns == pytest.approx(float(finding.digits["rotation number"]), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_the_area_is_that_of_the_cells_inside_an_orbit_on_the_curve(name):
+    """The orbit in doubles closes a ring of cells; the area is between its inside and all of it."""
+    bounds, finding = bounds_and_finding(name)
+    period, x = bounds["period"], start_of(finding)
+    with ctx.workprec(64):
+        state = (x, *(float(a) for a in bounds["surface"].velocities(arb(x), arb(0))))
+    z = chart(0.2, *states_of(orbit(BALL, state, 50_000 * period)))[:, period - 1 :: period]
+    low, size = z.min(axis=1), np.ptp(z, axis=1) / 900
+    ring = np.zeros((902, 902), dtype=bool)
+    ring[tuple(((z - low[:, None]) / size[:, None]).astype(int))] = True
+    filled = ndimage.binary_fill_holes(ring)
+    area, cell = float(finding.digits["area"]), size.prod()
+    inner, outer = (filled & ~ring).sum() * cell, filled.sum() * cell
+    assert inner < area < outer < 1.01 * inner
+
+
+@pytest.mark.slow
+def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
+    """400 orbits all over the disc, each impact compared with a radius in doubles."""
+    theorem = THEOREMS["curve-fixed-point-outer"]
+    finding = theorem.prove(theorem.text())
+    centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])[:, None]
+    corners = np.array(finding.parts["polygons"][0]).T - centre
+    angle, radius = np.arctan2(*corners[::-1]), np.hypot(*corners)
+    order = np.argsort(angle)
+    angle, radius = angle[order], radius[order] / 0.999  # of the curve
+    places = np.arange(400)
+    at, share = np.pi * (3 - sqrt(5)) * places, np.sqrt((places + 0.5) / 400)
+    at = (at + np.pi) % (2 * np.pi) - np.pi
+    length = 0.99 * share * np.interp(at, angle, radius, period=2 * np.pi)
+    x, y = centre + length * np.array([np.cos(at), np.sin(at)])
+    states = [np.ascontiguousarray(row) for row in BALL.state_xy(x, y, 0.01)]
+    out, furthest, impacts = np.empty((400, 2_500, 4)), 0.0, 0
+    for _ in range(100):
+        BALL.map.history(*states, 0.2, 0.04, out)
+        dx, dy = chart(0.2, *np.moveaxis(out[..., :3], 2, 0)).reshape(2, -1) - centre
+        bound = np.interp(np.arctan2(dy, dx), angle, radius, period=2 * np.pi)
+        furthest = max(furthest, np.max((dx * dx + dy * dy) / (bound * bound)))
+        impacts += dx.size
+    assert impacts == 10**8
+    assert 0.98 < furthest < 1
 
 
 @pytest.mark.parametrize("name", PROVED)
@@ -174,6 +224,27 @@ def test_the_curve_run_through_twice_is_refused():
     twice = [row for pair in ((a, ["0.0", "0.0"]) for a in rows) for row in pair]
     text = with_line(with_coefficients(TEXT, twice), "quotients", "[11, 5, 13]")
     assert refused(text, replaced(rotation=None))
+
+
+@pytest.mark.slow
+def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monkeypatch):
+    """With omega/2 itself, which no certificate can state, and a curve of more digits."""
+    theorem = THEOREMS["curve-fixed-point"]
+    points = approximate_orbits.points(theorem.bounds["surface"], 1, "elliptic")
+    strips = search.Strips("0.025", "0.004", 256, 6, 6, 430)
+    text = search.propose(
+        theorem.bounds["surface"], points, (5, 1, 3), strips,
+        radius="4e-3", share="0.117", error="1e-42",
+    )  # fmt: skip
+    weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"rotation": None})
+    assert weaker.check(text).verdict == "proved"
+    rows = numbers(text, "coefficients")
+    text = with_coefficients(text, [row for a in rows for row in (a, ["0.0", "0.0"])])
+    for field, value in (("strip", "0.0125"), ("loss", "0.002"), ("columns", "512")):
+        text = with_line(text, field, value)
+    noble = circle.noble
+    monkeypatch.setattr(curve, "noble", lambda *given: tuple(a / 2 for a in noble(*given)))
+    assert "turns -2.00 times around the centre" in weaker.check(text).reason
 
 
 def test_a_curve_that_turns_the_other_way_is_refused():
@@ -276,3 +347,33 @@ def test_cells_enclose_a_polynomial():
                 for q, c in enumerate(waves[1:], 1):
                     value += c * (2 * q * t).exp_pi_i() + c.conjugate() * (-2 * q * t).exp_pi_i()
                 assert cells[j].contains(value)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("k", "g", "energy", "rotation", "share"), [
+    (0.1, 0.03, 0.02, 0.150528, 0.115), (0.2, 0.04, 0.02, 0.211302, 0.018),
+])  # fmt: skip
+def test_curves_of_other_balls_and_energies_are_proved_on_request(k, g, energy, rotation, share):
+    certificate, finding = prove_curve(Ball(k, g), energy, rotation)
+    assert float(finding.digits["rotation number"]) == pytest.approx(rotation, abs=5e-4)
+    assert share < float(finding.digits["share"]) < 1.1 * share
+    assert 'kind = "invariant curve"' in certificate
+
+
+@pytest.mark.parametrize(("energy", "rotation", "reason"), [
+    (0.01, 0.25, "0.25 is too close to a fraction of small integers"),
+    (0.01, 0.1666666666, "0.1666666666 is too close to a fraction of small integers"),
+    (0.01, 0.0, "rotation_number = 0.0 is not allowed: one number between 0 and 1"),
+    (0.01, [0.1, 0.2], "rotation_number = [0.1, 0.2] is not allowed"),
+    (0.01, "a", "rotation_number = 'a' is not allowed"),
+    (float("nan"), 0.17, "energy = nan is not allowed: a finite number"),
+    (float("inf"), 0.17, "energy = inf is not allowed: a finite number"),
+    ("x", 0.17, "energy = 'x' is not an exact number"),
+    (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
+    (5.0, 0.17, "no elliptic orbit of period 1"),
+    (0.01, 0.41, "no curve with the rotation number 0.409955"),
+])  # fmt: skip
+def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, reason):
+    with pytest.raises(ValueError, match=re.escape(reason)) as error:
+        prove_curve(BALL, energy, rotation)
+    assert "\n" not in str(error.value)

@@ -18,6 +18,7 @@ from .schema import (
     UNDECIDED,
     Outcome,
     Series,
+    enclosed,
     formula,
     outcome_of,
     regular_share,
@@ -156,13 +157,15 @@ def opposite(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     return outcome_of(holds, drift=drift, impacts=impacts)
 
 
-def depends_on_energy(line: xr.Dataset) -> Outcome:
+def depends_on_energy(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Compare the least and the largest regular share over the energies."""
     least, most = line["regular"].values.min(), line["regular"].values.max()
     unit = line.attrs["g"] ** 2
     shares = [regular_share(line, 0, energy / unit) for energy in ENERGIES]
     shares = [share | {"energy": share["energy"] * unit} for share in shares]
-    return outcome_of(least < 0.5 * most, low=least, high=most, shares=shares, width=_widest(line))
+    numbers = {"low": least, "high": most, "shares": shares, "curves": enclosed(proved)}
+    numbers["closed"] = bool(numbers["curves"])
+    return outcome_of(least < 0.5 * most, **numbers, width=_widest(line))
 
 
 def destroyed(line: xr.Dataset) -> Outcome:

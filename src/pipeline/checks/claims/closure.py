@@ -9,7 +9,7 @@ import xarray as xr
 from pseudorigid.analyses.regularity import regular
 from pseudorigid.analyses.rotation import island
 
-from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, Outcome, Series, formula
+from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, Outcome, Series, enclosed, formula
 
 ROTATION_ACCURACY = 1e-8  # turns per impact
 # A regular share remains, or is gone, above and below these parts of the impact map's own.
@@ -31,7 +31,8 @@ def no_twist_map(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     )
     numbers = {"turns": bool(turning), "energies": turning, "monotone": min(counts[0]) == 0}
     numbers |= {"energy": energies[0], "evidence": proved["twist-fixed-point"]}
-    return Outcome(HOLDS if turning else UNDECIDED, numbers | {"zero": proved["twist-zero"]})
+    numbers |= {"zero": proved["twist-zero"], "once": proved["twist-one-zero"]}
+    return Outcome(HOLDS if turning else UNDECIDED, numbers)
 
 
 def _rises_and_falls(rotation: xr.Dataset, row: int) -> tuple[int, int]:
@@ -72,10 +73,12 @@ def conjecture(algebra: xr.Dataset, control: xr.Dataset, proved: Mapping[str, bo
 
 
 def kam(proved: Mapping[str, bool]) -> Outcome:
-    """List the theorems of invariant curves that are proved."""
-    names = Series(name for name, known in proved.items() if known)
-    word = PROVED if len(names) == len(proved) else UNDECIDED
-    return Outcome(word, {"names": names}, case="" if names else "unproved")
+    """List the theorems of invariant curves that are proved, near points and of visible size."""
+    sized = {name: known for name, known in proved.items() if name.startswith("curve-")}
+    names = Series(name for name, known in proved.items() if known and name not in sized)
+    word = PROVED if all(proved.values()) else UNDECIDED
+    numbers = {"names": names, "curves": enclosed(sized), "closed": any(sized.values())}
+    return Outcome(word, numbers, case="" if names else "unproved")
 
 
 def like_kam(proved: Mapping[str, bool]) -> Outcome:

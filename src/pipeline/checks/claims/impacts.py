@@ -17,6 +17,7 @@ from .schema import (
     Outcome,
     Series,
     derived,
+    enclosed,
     formula,
     numbers_of,
     outcome_of,
@@ -93,11 +94,12 @@ def figure_2(orbits: xr.Dataset) -> Outcome:
     return _portrait(orbits, "fig2")
 
 
-def figure_8(orbits: xr.Dataset, line: xr.Dataset) -> Outcome:
+def figure_8(orbits: xr.Dataset, line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the starts and points of Figure 8, and read the regular share at its energy."""
     verdict, numbers, _ = _portrait(orbits, "fig8")
     share = regular_share(line, 0, orbits.attrs["energy"] / orbits.attrs["g"] ** 2)
-    return outcome_of(verdict == HOLDS and share["low"] > 0.5, **numbers | share)
+    numbers = numbers | share | {"curves": enclosed(proved)}
+    return outcome_of(verdict == HOLDS and share["low"] > 0.5, **numbers)
 
 
 def _portrait(orbits: xr.Dataset, figure: str) -> Outcome:

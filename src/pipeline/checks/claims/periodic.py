@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,7 +14,7 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.paper import FIGURES, WINDOW
 from pseudorigid.dynamics.variables import chart, states_of
 
-from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, Outcome, Series, outcome_of
+from .schema import CORRECTED, HOLDS, PROVED, UNDECIDED, Outcome, Series, enclosed, outcome_of
 
 TRANSVERSAL = 1e-8  # sine of a crossing angle above which doubles tell it from 0
 STEP_BITS = range(20, 44)  # steps of differences are 2^-20 to 2^-43
@@ -63,7 +64,8 @@ def dense(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     if not gaps:
         return Outcome(UNDECIDED, case="no_gap")
     p, q, first, last = max(gaps, key=lambda gap: gap[3] - gap[2])
-    numbers = {"exist": proved["twist-fixed-point"], "p": p, "q": q, "first": first, "last": last}
+    numbers: dict[str, Any] = {"exist": proved["twist-fixed-point"], "curves": enclosed(proved)}
+    numbers |= {"p": p, "q": q, "first": first, "last": last}
     return Outcome(CORRECTED, numbers | {"spacing": abs(place[1] - place[0])})
 
 
@@ -148,7 +150,7 @@ def _half_turns(k: float, states: np.ndarray) -> float:
     return float(np.nansum(np.abs(np.angle(direction[1:] / direction[:-1]))) / np.pi)
 
 
-def last_curve(residues: xr.Dataset) -> Outcome:
+def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Find the rotation numbers between which curves break up, by the residues of convergents."""
     size = np.abs(residues["residue"].values)
     last, largest = size[:, -1], size.max(axis=1)
@@ -157,7 +159,8 @@ def last_curve(residues: xr.Dataset) -> Outcome:
         return Outcome(UNDECIDED, case="no_break_up")
     numbers, period = residues["rotation"].values, int(residues["period"].values[:, -1].min())
     inside, outside = numbers[gone].min(), numbers[broken].max()
-    return Outcome(HOLDS, {"inside": inside, "outside": outside, "period": period})
+    ends = {"inside": inside, "outside": outside}
+    return Outcome(HOLDS, ends | {"period": period, "curves": enclosed(proved)})
 
 
 def window(manifolds: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:

@@ -225,6 +225,22 @@ def numbers_of(algebra: xr.Dataset) -> dict[str, float]:
     return dict(zip(algebra["formula"].values.tolist(), algebra["value"].values, strict=True))
 
 
+def enclosed(proved: Mapping[str, bool]) -> list[dict[str, Any]]:
+    """Return what the invariant curves among the proved theorems enclose, one row for each.
+
+    `share` is a lower bound, of the section, that the theorem states for the disc inside one curve;
+    `period` is the number of such discs.
+    """
+    from pseudorigid.proofs import THEOREMS
+
+    bounds = [THEOREMS[name].bounds for name, known in proved.items() if known]
+    return [
+        {"share": float(b["share"]), "energy": float(b["surface"].energy), "period": b["period"]}
+        for b in bounds
+        if "share" in b
+    ]
+
+
 def regular_share(sweep: xr.Dataset, row: int, energy: float) -> dict[str, float]:
     """Return the regular share of a sweep's row, and its interval, at the nearest E/g^2."""
     cell = sweep.isel(k=row).sel(energy=energy, method="nearest")
