@@ -9,8 +9,8 @@ are those of docs/proofs.md. It takes other ways than the package's checker:
 - An orbit is proved by Brouwer's theorem, and alone by a comparison vector, without elimination.
 - Coverings are proved from images of single points and, again, the distance from a chord.
 
-It does not cover the twist and its zero, invariant curves, graphs of coverings, the jump set, the
-uniqueness of the fixed point, and the angle at which the manifolds of a horseshoe cross.
+It does not cover the twist and its zero, invariant curves, graphs of coverings, births and ends of
+orbits, the jump set, the uniqueness and trace of the fixed point, and the angles of horseshoes.
 
 Nothing rests on floating point. Doubles only propose what intervals then prove: a time near the
 first root, and the approximate inverse of a matrix.
