@@ -1,9 +1,20 @@
 """The locked packages as files: the right ones for a machine, and damaged ones refused."""
 
-import pytest
+import os
+import platform
+import shutil
+import subprocess
+import sys
 
+import pytest
+from project import ROOT, run
+
+from pipeline import config
 from pipeline.cli.packages import wheels
 from pipeline.cli.session import UsageError
+from pipeline.publication import archive
+
+PYTHON = ".".join(platform.python_version_tuple()[:2])
 
 
 @pytest.mark.parametrize("python", ["3.11", "3.13"])
@@ -27,3 +38,30 @@ def test_a_damaged_package_is_named(tmp_path, name):
     (tmp_path / name).write_bytes(b"damaged")
     with pytest.raises(UsageError, match=f"{name} is damaged"):
         wheels.refuse_damaged(tmp_path)
+
+
+@pytest.mark.slow
+def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accepted, tmp_path):
+    tree = accepted.copy(tmp_path / "tree")
+    shutil.copy(ROOT / ".gitignore", tree.path)
+    for words in (["init", "-q"], ["add", "."]):
+        subprocess.run(["git", "-C", tree.path, *words], check=True)
+    checked, sums = config.load(tree.config), []
+    for name in ("one.tar", "two.tar"):
+        try:
+            packages = wheels.download(tmp_path / f"packages of {name}", PYTHON, None)
+        except UsageError as error:
+            pytest.skip(str(error))
+        sums.append(archive.write(tree.path, checked, tmp_path / name, packages))
+    assert sums[0] == sums[1]
+    assert (tmp_path / "one.tar").stat().st_size < 300e6
+    subprocess.run(["tar", "-xf", "one.tar"], cwd=tmp_path, check=True)
+    folder = tmp_path / archive.TOP
+    (wheel,) = (folder / archive.PACKAGES).glob("numpy-*.whl")
+    whole = wheel.read_bytes()
+    wheel.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    path = f"{os.path.dirname(sys.executable)}{os.pathsep}{os.environ['PATH']}"
+    result = run(folder / "reproduce", env={"PATH": path, "HOME": str(tmp_path)}, cwd="/")
+    assert result.returncode == 1
+    line = f"reproduce: {wheel} is damaged: its hash is not in requirements/"
+    assert result.stderr.splitlines()[-1] == line
