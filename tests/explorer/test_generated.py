@@ -18,6 +18,7 @@ from slowly import slowly
 from pipeline import config
 from pipeline.cli.commands import explore
 from pipeline.config.paths import EXPLORER
+from pipeline.config.schema.kinds import KINDS
 from pipeline.explorer import atlas, data, page
 
 MOST_CODE = 150_000  # bytes of the page without its data
@@ -120,8 +121,17 @@ def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
     for variant, blocks in variants.items():
         for scene, block in blocks.items():
             assert (data.address(variant, scene, block) in scenes) == (
-                "method" not in block and block["picture"] != "families"
+                "method" not in block and block["picture"] not in data.NO_SECTION
             )
+
+
+def test_every_kind_of_picture_with_a_section_has_a_preset():
+    """A new kind needs an entry in web/presets.js, and a published scene one in presets.json."""
+    table = page.script("presets.js").partition("const PRESETS = {")[2].partition("\n};")[0]
+    assert set(re.findall(r"^  (\w+)[:(]", table, re.MULTILINE)) == set(KINDS) - {*data.NO_SECTION}
+    scenes = data.collect(config.load(SHIPPED))
+    own = {name for name in scenes["scenes"] if "/" not in name}
+    assert {preset["name"] for preset in scenes["presets"]} == own
 
 
 def test_data_cannot_end_their_script(text):

@@ -12,6 +12,7 @@ from project import SHIPPED, shipped
 
 from pipeline import config
 from pipeline.config.schema.kinds import KINDS
+from pipeline.explorer import data
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.regularity import regular
@@ -363,12 +364,12 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
 
 
 def test_every_preset_draws_and_has_one_sentence(person):
-    assert set(person.browser.run("return Object.keys(PRESETS)")) == set(KINDS) - {"families"}
+    assert set(person.browser.run("return Object.keys(PRESETS)")) == set(KINDS) - {*data.NO_SECTION}
     options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
     own, *names = person.browser.run(options)
     variants = config.load(SHIPPED)["variants"]
     published = {scene for name in ("paper", "claims", "proofs") for scene in variants[name]}
-    assert own == "" and set(names) == published - {"families"}
+    assert own == "" and set(names) == published - {*data.NO_SECTION}
     seen = []
     for name in names:
         person.choose("preset", name)

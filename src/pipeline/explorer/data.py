@@ -14,7 +14,7 @@ from . import atlas
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 _PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
-_NO_SECTION = ("families",)  # kinds of picture that show no part of the section
+NO_SECTION = ("control", "families")  # kinds of picture without a section of the impact map
 
 
 def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
@@ -38,7 +38,7 @@ def address(variant: str, scene: str, block: YamlMapping) -> str | None:
 
     Scenes with another method than the page's have other orbits.
     """
-    if block["picture"] in _NO_SECTION or "method" in block:
+    if block["picture"] in NO_SECTION or "method" in block:
         return None
     return scene if variant in PUBLISHED else f"{variant}/{scene}"
 
