@@ -352,9 +352,15 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
     person.wait(lambda: "impact 0" in person.text("moment"))
     six = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
     times = np.concatenate([[0.0], np.cumsum(six["tau"].values)])
+    views = "return ['#ball', '#curves', '#section .cursors'].map(s => document.querySelector(s)"
+    views += ".toDataURL())"
+    before = person.browser.run(views)
     for when in times[1:]:
         person.press("next-impact")
         assert float(person.state()["t"]) == pytest.approx(when, abs=1e-9)
+        now = person.browser.run(views)  # one cursor in all views
+        assert all(a != b for a, b in zip(before, now, strict=True))
+        before = now
     person.press("back-impact")
     assert float(person.state()["t"]) == pytest.approx(times[-2], abs=1e-9)
     person.press("play")

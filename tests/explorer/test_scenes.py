@@ -27,9 +27,7 @@ def copied(person, kind):
 
 
 def test_orbits_of_two_clicks_are_copied(person, tmp_path):
-    person.press("as-disk")
-    person.press("clear")
-    person.type("impacts", "300")
+    person.open(f"{person.file}#view=disk,115,40,0,0,1.12&next=300")
     person.click(0.4, 0.3)
     person.click(-0.2)
     assert len(person.settled()) == 2
