@@ -27,17 +27,22 @@ def checked(block):
     return check({"ball": PAPER, "scenes": {"one": block}})["scenes"]["one"]
 
 
-def made(block, legible=True):
-    """Compute and draw a complete block; return the picture, its quantities and its caption."""
-    kind, data = KINDS[block["picture"]], {}
-    ball, energy = Ball(**block["ball"]), block["energy"]
-    for name in upstream(kind.stages):
+def computed(block):
+    """Stage -> its dataset, of a complete block."""
+    data, ball, energy = {}, Ball(**block["ball"]), block["energy"]
+    for name in upstream(KINDS[block["picture"]].stages):
         stage = STAGES[name]
         compute = getattr(import_module(stage.module), stage.function)
         fields = {field: block[field] for field in stage.fields if field in block}
         inputs = [data[used] for used in stage.inputs]
         data[name] = compute(ball, energy, *inputs, **fields)
         data[name].attrs |= {"k": ball.k, "g": ball.g, "energy": float(energy)}
+    return data
+
+
+def made(block, data=None, legible=True):
+    """Draw a complete block; return the picture, its quantities and its caption."""
+    kind, data = KINDS[block["picture"]], data or computed(block)
     draw = import_module(f"pseudorigid.figures.kinds.{block['picture']}").draw
     figure = draw(block, *(data[name] for name in kind.stages))
     if legible:
@@ -108,10 +113,12 @@ def test_no_data_are_clipped_to_the_frame(name, change, no_clipping):
 
 def test_a_horseshoe_shows_only_what_lies_within_its_limits():
     given = {"x": {"limits": [0, 0.1], "ticks": [0]}, "q": {"limits": [-0.9, 0.9], "ticks": [0]}}
-    made(checked(yaml.safe_load(example("horseshoe")) | {"axes": given}))
+    block = yaml.safe_load(example("horseshoe"))
+    data = computed(checked(block))
+    made(checked(block | {"axes": given}), data)
     with pytest.raises(ValueError, match=r"axes.x.limits \[1.0, 2.0\]: all data lie beyond them"):
         far = {"x": {"limits": [1.0, 2.0], "ticks": [1]}}
-        made(checked(yaml.safe_load(example("horseshoe")) | {"axes": far}))
+        made(checked(block | {"axes": far}), data)
 
 
 @pytest.mark.parametrize("name", COSTLY)

@@ -36,6 +36,7 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     assert not (tree.path / "results").exists()
 
 
+@pytest.mark.slow
 def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
     """On a cluster, a job could import the packages of another checkout."""
     result = tree.python("-m", "snakemake", "--cores", "1", PYTHONPATH=str(ROOT / "src"))
