@@ -18,7 +18,7 @@ from pseudorigid.proofs.enclosure.surface import exact
 
 PAPER = Surface("1/5", "1/25", "1/100")
 BALL = Ball(k=0.2, g=0.04)
-# theorems proved by hand
+# theorems without a flight whose root is searched
 WITHOUT_FLIGHTS = ("diffeomorphism", "one-fixed-point", "fixed-point-elliptic", "twist-one-zero")
 
 

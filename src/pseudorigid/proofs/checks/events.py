@@ -207,6 +207,7 @@ def _constants(k: Fraction, g: Fraction) -> tuple[arb, arb]:
 
 
 def _check_within(name: str, value: arb, limits: Range) -> None:
+    """Check that an enclosed quantity lies between exact limits."""
     low, high = limits
     if not ball_of(low) < value < ball_of(high):
         raise NotProvedError(f"the {name} is not proved to lie where the statement says")
@@ -352,4 +353,5 @@ def _half_orbit(k: Fraction, g: Fraction, energy: arb, x: arb, impacts: int) -> 
 
 
 def _apart(first: Sequence[arb], last: Sequence[arb]) -> bool:
+    """Return whether two enclosed points are proved to differ."""
     return not all(a.overlaps(b) for a, b in zip(first, last, strict=True))
