@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from mpmath import mp, mpf
-from slowly import slowly
 
 from pseudorigid.analyses.continuation import loci
 from pseudorigid.analyses.continuation.half_orbit import B
@@ -89,6 +88,24 @@ def event(k, order, kind, energy, x):
     return defect(k, energy, x, mpf(0), order)[1], entry
 
 
+def solved(equations, energy, x):
+    """Newton's method with differences that are wide against the equations' own."""
+    wide = mpf(10) ** -12
+    for _ in range(3):
+        h, entry = equations(energy, x)
+        h_e, entry_e = (
+            (a - b) / wide for a, b in zip(equations(energy + wide, x), (h, entry), strict=True)
+        )
+        h_x, entry_x = (
+            (a - b) / wide for a, b in zip(equations(energy, x + wide), (h, entry), strict=True)
+        )
+        determinant = h_e * entry_x - h_x * entry_e
+        step = (h * entry_x - entry * h_x) / determinant
+        energy, x = energy - step, x - (h_e * entry - entry_e * h) / determinant
+    assert abs(step) < mpf(10) ** -18 * energy
+    return energy
+
+
 def exact_energy(k, energy, order, kind):
     """The energy of an event at a k, in 60 digits, next to an approximate one."""
     x = None if kind == "rim" else place_of(order, kind, k)
@@ -103,8 +120,7 @@ def exact_energy(k, energy, order, kind):
 
             near = mpf(energy), mpf(energy) * (1 + mpf("1e-9"))
             return mp.findroot(beyond, near, solver="secant", tol=mpf(10) ** -40)
-        start = [mpf(energy), mpf(x)]
-        return mp.findroot(lambda e, x: event(k, order, kind, e, x), start, tol=mpf(10) ** -20)[0]
+        return solved(lambda e, x: event(k, order, kind, e, x), mpf(energy), mpf(x))
 
 
 def place_of(order, kind, k):
@@ -116,7 +132,7 @@ def place_of(order, kind, k):
 
 @pytest.mark.parametrize(
     ("order", "kind", "near"),
-    [(7, "rim", 0.3), *slowly((4, "fold", 0.26), (6, "doubling", 0.2))],
+    [(7, "rim", 0.3), (4, "fold", 0.26), (6, "doubling", 0.2)],
 )
 def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, kind, near):
     k, energy = at(curves, order, kind, near)
