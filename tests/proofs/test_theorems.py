@@ -13,8 +13,8 @@ from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.fixed_point import half_time
 from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.proofs import THEOREMS, Surface, search_certificate
-from pseudorigid.proofs.checks import ellipticity, jump, periodic
-from pseudorigid.proofs.checks.ellipticity import energy_at, trace_at
+from pseudorigid.proofs.checks import jump, periodic
+from pseudorigid.proofs.enclosure.fixed_point import energy_at, slope_at, trace_at
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search.periodic import polished
 from pseudorigid.proofs.search.twist import estimate
@@ -118,7 +118,7 @@ def test_the_trace_falls_as_steeply_as_differences_say():
         k, step = arb(1) / 5, arb(2) ** -60
         for theta in (arb("1.6"), arb("2.0"), arb("2.3")):
             slope = (trace_at(k, theta + step) - trace_at(k, theta - step)) / (2 * step)
-            assert abs(slope - ellipticity.slope_at(k, theta)) < arb("1e-30")
+            assert abs(slope - slope_at(k, theta)) < arb("1e-30")
 
 
 def frequency(energy, fixed, frame, q):

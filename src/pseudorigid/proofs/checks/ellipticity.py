@@ -1,9 +1,6 @@
-"""The fixed point's trace over all energies, by its closed form; docs/proofs.md has the argument.
+"""The fixed point's trace over all energies, by its closed form.
 
-With theta = half the time of flight, p = 1/theta - cot(theta) and q = 2 theta - sin(2 theta),
-
-    E = (g^2/2k) ((1+k) theta^2 + (theta p)^2 - 1),
-    trace/2 = (1 + k cos(2 theta))/(1+k) - k p q/(1+k)^2.
+docs/proofs.md has the argument ("Periodic orbits").
 """
 
 from fractions import Fraction
@@ -11,6 +8,7 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
+from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.surface import ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
 from .periodic import BITS, CLOSE
@@ -56,19 +54,6 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
         return Finding(digits, margins)
 
 
-def energy_at(k: arb, g: arb, theta: arb) -> arb:
-    """Enclose the energy at a theta, which rises with it."""
-    bend = 1 - theta * theta.cot()
-    return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
-
-
-def trace_at(k: arb, theta: arb) -> arb:
-    """Enclose the trace at a theta."""
-    sine, cosine = (2 * theta).sin_cos()
-    shear = (1 / theta - theta.cot()) * (2 * theta - sine)
-    return 2 * ((1 + k * cosine) / (1 + k) - k * shear / (1 + k) ** 2)
-
-
 def _steepness(k: arb, end: arb, bands: int) -> float:
     """Prove that the trace falls from pi/2 to a theta, and bound its slope's modulus below."""
     if not 1 <= bands <= _MOST_BANDS:
@@ -82,13 +67,3 @@ def _steepness(k: arb, end: arb, bands: int) -> float:
     if not all(slope < 0 for slope in slopes):
         raise NotProvedError("the trace is not proved to fall on each band of theta")
     return min(lowest(-slope) for slope in slopes)
-
-
-def slope_at(k: arb, theta: arb) -> arb:
-    """Enclose the trace's derivative by theta."""
-    sine, cosine = theta.sin_cos()
-    double, _ = (2 * theta).sin_cos()
-    lift, spread = 1 / theta - cosine / sine, 2 * theta - double
-    growth = 1 / (sine * sine) - 1 / (theta * theta)
-    shear = growth * spread + lift * 4 * sine * sine
-    return -2 * k / (1 + k) * (2 * double + shear / (1 + k))

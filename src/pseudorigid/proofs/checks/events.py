@@ -9,10 +9,11 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, ctx
 
+from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.flight import Gap, UndecidedError, first_root
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface, ball_of
-from . import ellipticity, periodic
+from . import periodic
 from .birkhoff import normal_form
 from .certificate import Certificate, Finding, NotProvedError, box, lowest
 from .periodic import BITS, CLOSE
@@ -47,12 +48,12 @@ def check_resonance(
         if not (ends[0] > 0 and ends[1] < arb.pi()):
             raise NotProvedError("theta is not proved to lie between 0 and pi")
         wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
-        above, below = (ellipticity.trace_at(inertia, end) - wanted for end in ends)
+        above, below = (trace_at(inertia, end) - wanted for end in ends)
         theta = ends[0].union(ends[1])
-        slope = ellipticity.slope_at(inertia, theta)
+        slope = slope_at(inertia, theta)
         if not (above > 0 and below < 0 and slope < 0):
             raise NotProvedError("the trace is not proved to fall through the resonance's")
-        energy = ellipticity.energy_at(inertia, gravity, theta)
+        energy = energy_at(inertia, gravity, theta)
         _check_stated([energy], certificate.row("event", 1))
         _check_within("energy", energy, energies)
         bottom = _fraction(energy.lower()) - CLOSE

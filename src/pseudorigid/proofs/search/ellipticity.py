@@ -4,8 +4,8 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from ..checks.ellipticity import energy_at
 from ..checks.periodic import BITS
+from ..enclosure.fixed_point import energy_at
 from ..enclosure.surface import ball_of
 from .certificate_text import decimal
 

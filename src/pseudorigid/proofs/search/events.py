@@ -5,9 +5,9 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from ..checks.ellipticity import energy_at, trace_at
 from ..checks.events import System, doubling, grazing, newton
 from ..checks.periodic import BITS
+from ..enclosure.fixed_point import energy_at, trace_at
 from ..enclosure.surface import ball_of
 from .certificate_text import row
 from .periodic import DIGITS, with_largest_radius

@@ -1,0 +1,34 @@
+"""The fixed point's energy and trace in closed form, in ball arithmetic.
+
+With theta = half the time of flight, p = 1/theta - cot(theta) and q = 2 theta - sin(2 theta),
+
+    E = (g^2/2k) ((1+k) theta^2 + (theta p)^2 - 1),
+    trace/2 = (1 + k cos(2 theta))/(1+k) - k p q/(1+k)^2.
+
+docs/proofs.md has the argument ("Periodic orbits").
+"""
+
+from flint import arb
+
+
+def energy_at(k: arb, g: arb, theta: arb) -> arb:
+    """Enclose the energy at a theta, which rises with it."""
+    bend = 1 - theta * theta.cot()
+    return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
+
+
+def trace_at(k: arb, theta: arb) -> arb:
+    """Enclose the trace at a theta."""
+    sine, cosine = (2 * theta).sin_cos()
+    shear = (1 / theta - theta.cot()) * (2 * theta - sine)
+    return 2 * ((1 + k * cosine) / (1 + k) - k * shear / (1 + k) ** 2)
+
+
+def slope_at(k: arb, theta: arb) -> arb:
+    """Enclose the trace's derivative by theta."""
+    sine, cosine = theta.sin_cos()
+    double, _ = (2 * theta).sin_cos()
+    lift, spread = 1 / theta - cosine / sine, 2 * theta - double
+    growth = 1 / (sine * sine) - 1 / (theta * theta)
+    shear = growth * spread + lift * 4 * sine * sine
+    return -2 * k / (1 + k) * (2 * double + shear / (1 + k))
