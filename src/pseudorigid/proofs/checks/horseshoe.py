@@ -40,10 +40,10 @@ def check(
     (impacts).
     """
     certificate = Certificate(text, "horseshoe", surface)
-    orbit = prove_saddles(certificate, surface, period, radius, window)
+    orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
     with ctx.workprec(BITS):
         saddles, chain, leaves, enters = _sets(certificate)
-        check_contained(saddles, orbit)
+        hsets.check_contained(saddles, orbit.points)
         edges = [
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
@@ -72,32 +72,6 @@ def check(
             {"beyond": beyond, "room": room, "cones": cone},
             dict(saddles=saddles, chain=chain, edges=edges, margins=margins, loop=loop),
         )
-
-
-def prove_saddles(
-    certificate: Certificate,
-    surface: Surface,
-    period: int,
-    radius: Fraction,
-    window: Window | None,
-) -> periodic.Orbit:
-    """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
-    with ctx.workprec(periodic.BITS):
-        centres = [row[:2] for row in certificate.numbers("saddles", 6)]
-        if len(centres) != period:
-            raise NotProvedError(f"the certificate has {len(centres)} saddles, not {period}")
-        orbit = periodic.prove(surface, centres, radius)
-        if orbit.type != "hyperbolic":
-            raise NotProvedError(f"the orbit at the sets is {orbit.type}, not hyperbolic")
-        periodic.check_window(surface, orbit, window)
-        return orbit
-
-
-def check_contained(saddles: list[HSet], orbit: periodic.Orbit) -> None:
-    """Check that the sets contain the orbit's points."""
-    for hset, point in zip(saddles, orbit.points, strict=True):
-        if not hset.contains(*point):
-            raise NotProvedError(f"{hset.name} is not proved to contain the orbit's point")
 
 
 def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:

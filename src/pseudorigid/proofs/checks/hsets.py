@@ -5,6 +5,7 @@ direction. Its exit set are the two edges p = -1 and p = 1. docs/proofs.md ("Hor
 relations, after Zgliczynski and Gidea (2004) and Kokubu, Wilczak and Zgliczynski (2007).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
@@ -68,6 +69,13 @@ def hset(name: str, row: list[Fraction]) -> HSet:
     """Return the set of a certificate's row: centre, expanding side, contracting side."""
     values = tuple(ball_of(value) for value in row)
     return HSet(name, values[:2], values[2:4], values[4:])
+
+
+def check_contained(sets: list[HSet], points: Sequence[Vector]) -> None:
+    """Check that each set contains the point at its place."""
+    for hset, point in zip(sets, points, strict=True):
+        if not hset.contains(*point):
+            raise NotProvedError(f"{hset.name} is not proved to contain the orbit's point")
 
 
 @dataclass(frozen=True)

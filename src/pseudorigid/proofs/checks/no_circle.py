@@ -12,7 +12,7 @@ from flint import ctx
 
 from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Surface, ball_of
-from . import horseshoe, hsets, jump
+from . import hsets, jump, periodic
 from .certificate import Certificate, Finding, NotProvedError
 from .periodic import Window
 
@@ -27,7 +27,7 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     saddles, chain (lists of HSet; N comes last) and leaves, the index of S_a.
     """
     certificate = Certificate(text, "jump crossing", surface)
-    orbit = horseshoe.prove_saddles(certificate, surface, period, radius, window)
+    orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
     with ctx.workprec(BITS):
         saddles = [
             hsets.hset(f"S_{i}", it) for i, it in enumerate(certificate.numbers("saddles", 6))
@@ -35,7 +35,7 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
         chain = [
             hsets.hset(f"M_{i}", it) for i, it in enumerate(certificate.numbers("chain", 6), 1)
         ]
-        horseshoe.check_contained(saddles, orbit)
+        hsets.check_contained(saddles, orbit.points)
         leaves = certificate.whole("leaves")
         if leaves not in range(len(saddles)):
             raise NotProvedError("the certificate's chain does not begin at its saddles")

@@ -140,6 +140,25 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
     return orbit
 
 
+def prove_saddles(
+    certificate: Certificate,
+    surface: Surface,
+    period: int,
+    radius: Fraction,
+    window: Window | None,
+) -> Orbit:
+    """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
+    with ctx.workprec(BITS):
+        centres = [row[:2] for row in certificate.numbers("saddles", 6)]
+        if len(centres) != period:
+            raise NotProvedError(f"the certificate has {len(centres)} saddles, not {period}")
+        orbit = prove(surface, centres, radius)
+        if orbit.type != "hyperbolic":
+            raise NotProvedError(f"the orbit at the sets is {orbit.type}, not hyperbolic")
+        check_window(surface, orbit, window)
+        return orbit
+
+
 def newton_image(surface: Surface, boxes: Points) -> list[list[arb]]:
     """Return the image N of boxes (x, y) under interval Newton on the shooting map."""
     n = len(boxes)
