@@ -3,6 +3,7 @@
 import dataclasses
 from collections import Counter
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -29,6 +30,12 @@ def refused(name, text):
     return result.reason
 
 
+@cache
+def proved(name):
+    """The finding about a theorem's own certificate."""
+    return THEOREMS[name].prove(THEOREMS[name].text())
+
+
 def changed(text, field, row, columns, change):
     """The certificate with numbers of a row changed by a function of column and number."""
     rows = numbers(text, field)
@@ -47,7 +54,7 @@ def moved(text, field, row, shift):
 def test_the_entropy_is_that_of_the_paths(name):
     """The logarithm of the spectral radius of the matrix with a vertex for each impact."""
     theorem = THEOREMS[name]
-    finding = theorem.prove(theorem.text())
+    finding = proved(name)
     sets, connections = finding.parts["graph"].sets, finding.parts["graph"].connections
     size = len(sets) + sum(it.impacts - 1 for it in connections)
     matrix, free = np.zeros((size, size)), len(sets)
@@ -58,15 +65,15 @@ def test_the_entropy_is_that_of_the_paths(name):
             matrix[a, b] += 1.0
     entropy = np.log(np.abs(np.linalg.eigvals(matrix)).max())
     with ctx.workprec(64):
-        proved = float(finding.digits["entropy"])
-    assert float(theorem.bounds["entropy"]) < proved < entropy < proved + 5e-4
+        bound = float(finding.digits["entropy"])
+    assert float(theorem.bounds["entropy"]) < bound < entropy < bound + 5e-4
 
 
 @pytest.mark.parametrize("name", GRAPHS)
 def test_coverings_of_a_graph_hold_for_points_in_doubles(name):
     theorem = THEOREMS[name]
     double_map = DoubleMap(theorem.bounds["surface"])
-    found = theorem.prove(theorem.text()).parts["graph"]
+    found = proved(name).parts["graph"]
     edge = np.linspace(-1.0, 1.0, 21)
     for it in found.connections:
         path = [it.strip, *it.chain, found.sets[it.target]]
@@ -86,8 +93,7 @@ def test_coverings_of_a_graph_hold_for_points_in_doubles(name):
 
 
 def test_the_strips_of_a_set_are_apart_and_each_set_is_left():
-    theorem = THEOREMS[SMALL]
-    found = theorem.prove(theorem.text()).parts["graph"]
+    found = proved(SMALL).parts["graph"]
     assert set(Counter(it.source for it in found.connections)) == set(range(len(found.sets)))
     for it in found.connections:
         assert -1 <= it.low < it.high <= 1
