@@ -12,8 +12,8 @@ from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from .reference import meaning
-from .schema.fields import Block, fields_of
+from .reference import meanings
+from .schema.fields import Block
 from .schema.kinds import KINDS
 from .schema.published import PAPER, PUBLISHED
 from .schema.sweep import Sweep
@@ -36,10 +36,6 @@ def schema() -> Schema:
     def reference(model: type[Block]) -> Schema:
         return references[model, "validation"]
 
-    for kind in KINDS.values():
-        properties = blocks[reference(kind)["$ref"].rpartition("/")[2]]["properties"]
-        for key in fields_of(kind):  # pydantic does not inherit docstrings of repeated fields
-            properties[key]["description"] = meaning(kind, key)
     scene: Schema = {
         "type": "object",
         "required": ["picture"],
@@ -86,6 +82,13 @@ class _Generator(GenerateJsonSchema):
         made: Schema = super().default_schema(schema)
         if made.get("default", 0) is None:
             del made["default"]
+        return made
+
+    def model_schema(self, schema: Any) -> Schema:
+        """Add the docstrings of the fields, which pydantic does not read."""
+        made: Schema = super().model_schema(schema)
+        for key, words in meanings(schema["cls"]).items():
+            made["properties"][key]["description"] = words
         return made
 
     def field_title_should_be_set(self, schema: Any) -> bool:

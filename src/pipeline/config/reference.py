@@ -3,7 +3,11 @@
 Run `.venv/bin/python -m pipeline.config.reference` to renew it.
 """
 
+import ast
+import inspect
 from collections.abc import Iterable
+from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from textwrap import dedent, fill
 
@@ -62,11 +66,25 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
 
 def meaning(model: type[Block], key: str) -> str:
     """Return the docstring of a field, from the nearest class that has one."""
-    blocks = (base for base in model.__mro__ if issubclass(base, Block))
-    fields = (fields_of(base).get(key) for base in blocks)
-    found = next((field.description for field in fields if field and field.description), None)
-    if found is None:
+    if key not in meanings(model):
         raise ValueError(f"{model.__name__}.{key} has no docstring")
+    return meanings(model)[key]
+
+
+@cache
+def meanings(model: type[Block]) -> dict[str, str]:
+    """Return the docstrings of the fields of a model, by their keys.
+
+    Pydantic can read them too, but does so whenever a class is made, at each start of a command.
+    """
+    found: dict[str, str] = {}
+    for base in model.__mro__[model.__mro__.index(Block) - 1 :: -1]:
+        (tree,) = ast.parse(dedent(inspect.getsource(base))).body
+        assert isinstance(tree, ast.ClassDef)
+        for field, text in pairwise(tree.body):
+            match field, text:
+                case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
+                    found[model.model_fields[name].alias or name] = inspect.cleandoc(words)
     return found
 
 

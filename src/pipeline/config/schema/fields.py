@@ -24,9 +24,7 @@ LARGEST = 10_000_000
 class Block(BaseModel):
     """A mapping of the config. Unknown keys are mistakes, and so are numbers in quotes."""
 
-    model_config = ConfigDict(
-        extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
-    )
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
 
 def allowed(words: str, **constraints: Any) -> Any:
