@@ -92,16 +92,18 @@ def test_the_example_of_a_kind_is_made_without_a_warning(name, request):
 OTHER = {"k": 0.25, "g": 0.03}
 ELSEWHERE = [
     ("rotation", {"ball": OTHER, "energy": 0.008, "energies": [0.002, 0.012]}),
-    ("rotation", {"detail": [-0.25, -0.24999]}),
     ("clusters", {"ball": {"k": 0.3, "g": 0.005}, "energy": 0.01, "lags": 20,
                   "cuts": [10, 20, 30, 35, 40, 45, 50]}),
-    ("control", {"ball": OTHER, "energy": 0.008, "strengths": [0.02], "shown": 0.02}),
     ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0005]}),
     ("last_curve", {"ball": PAPER, "energy": 0.01, "between": [-0.2, -0.0325639],
                     "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
-    ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2], "convergents": 8}),
     ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
-    *slowly(("spread", {"regular_impacts": 1_000_000})),
+    *slowly(
+        ("rotation", {"detail": [-0.25, -0.24999]}),
+        ("control", {"ball": OTHER, "energy": 0.008, "strengths": [0.02], "shown": 0.02}),
+        ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2], "convergents": 8}),
+        ("spread", {"regular_impacts": 1_000_000}),
+    ),
     ("twist", {"ball": OTHER, "energies": [0.001, 0.004, 0.014], "marks": [0.001]}),
 ]  # fmt: skip
 

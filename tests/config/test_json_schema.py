@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from slowly import slowly
 
 from pipeline.config import json_schema
 from pipeline.config.reference import example
@@ -40,12 +41,14 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     ("old", "new", "named"),
     [
         ("elevation: 40", "elevatoin: 40", "elevatoin"),
-        ("\nscenes:", "\nscnes:", "scnes"),
-        ("picture: portrait", "picture: portrayed", "portrayed"),
         ("elevation: 40", "elevation: 400", "400"),
-        ("impacts: 200000", "impacts: '200000'", "200000"),
-        ("scenes:\n", "scenes:\n  -x: {picture: portrait}\n", "-x"),
-        ("sweeps:", "sweeps:\n  s: {k: [0.2], energy: [1], starts: 0}\nothers:", "others"),
+        *slowly(
+            ("\nscenes:", "\nscnes:", "scnes"),
+            ("picture: portrait", "picture: portrayed", "portrayed"),
+            ("impacts: 200000", "impacts: '200000'", "200000"),
+            ("scenes:\n", "scenes:\n  -x: {picture: portrait}\n", "-x"),
+            ("sweeps:", "sweeps:\n  s: {k: [0.2], energy: [1], starts: 0}\nothers:", "others"),
+        ),
     ],
 )
 def test_a_mistake_is_refused_and_named(tmp_path, old, new, named):

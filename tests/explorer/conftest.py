@@ -5,12 +5,13 @@ import pytest
 from doubles import SCRIPT
 from person import Person
 from project import SHIPPED
+from slowly import slowly
 
 from pipeline import config
 from pipeline.explorer import page
 
 
-@pytest.fixture(scope="module", params=browsers.PROGRAMS)
+@pytest.fixture(scope="module", params=["chromium", *slowly("firefox")])
 def browser(request, tmp_path_factory):
     """A browser on a page that has the kernel, and functions to read and write arrays."""
     folder = tmp_path_factory.mktemp(request.param)

@@ -182,7 +182,7 @@ def test_a_large_partial_quotient_far_behind_is_refused_too():
     assert "not proved to converge" in refused(text)
 
 
-@pytest.mark.parametrize(("index", "column"), [(0, 0), (1, 0), (1, 1), (5, 1), (10, 0)])
+@pytest.mark.parametrize(("index", "column"), [(1, 0), *slowly((0, 0), (1, 1), (5, 1), (10, 0))])
 def test_a_coefficient_that_differs_in_its_25th_digit_is_refused(index, column):
     rows = numbers(TEXT, "coefficients")
     value = Fraction(rows[index][column])
@@ -191,17 +191,27 @@ def test_a_coefficient_that_differs_in_its_25th_digit_is_refused(index, column):
     assert "error is not proved" in refused(with_coefficients(TEXT, rows))
 
 
-def test_dropped_and_swapped_coefficients_are_refused():
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda rows: [*rows[:7], rows[8], rows[7], *rows[9:]],  # two are swapped
+        *slowly(
+            lambda rows: rows[:20],  # too few modes
+            lambda rows: rows[:15] + rows[16:],  # one is dropped
+            lambda rows: [[b, a] if i == 20 else [a, b] for i, (a, b) in enumerate(rows)],
+            lambda rows: [
+                [a, b.removeprefix("-") if i == 3 else b] for i, (a, b) in enumerate(rows)
+            ],
+        ),
+    ],
+)
+def test_dropped_and_swapped_coefficients_are_refused(change):
+    reason = refused(with_coefficients(TEXT, change(numbers(TEXT, "coefficients"))))
+    assert "error is not proved" in reason or "strip" in reason
+
+
+def test_coefficients_of_another_form_are_refused():
     rows = numbers(TEXT, "coefficients")
-    for other in (
-        rows[:20],  # too few modes
-        rows[:15] + rows[16:],  # one is dropped
-        [*rows[:7], rows[8], rows[7], *rows[9:]],  # two are swapped
-        [[b, a] if i == 20 else [a, b] for i, (a, b) in enumerate(rows)],
-        [[a, b.removeprefix("-") if i == 3 else b] for i, (a, b) in enumerate(rows)],
-    ):
-        reason = refused(with_coefficients(TEXT, other))
-        assert "error is not proved" in reason or "strip" in reason
     assert "sin(0)" in refused(with_coefficients(TEXT, [[rows[0][0], "1e-30"], *rows[1:]]))
     assert "coefficients, not 3" in refused(with_coefficients(TEXT, rows[:2]))
 

@@ -105,7 +105,7 @@ def test_the_strips_of_a_set_are_apart_and_each_set_is_left():
 @pytest.mark.parametrize(
     ("field", "row"), [("sets", 0), ("sets", 1), ("chains", 0), ("chains", -1)]
 )
-@pytest.mark.parametrize("shift", [2, 4])
+@pytest.mark.parametrize("shift", [2, *slowly(4)])
 def test_a_moved_set_is_refused(field, row, shift):
     reason = refused(SMALL, moved(THEOREMS[SMALL].text(), field, row, shift))
     assert "does not cover" in reason or "floor" in reason
@@ -162,7 +162,7 @@ def test_a_growth_that_is_too_large_and_wrong_weights_are_refused():
         assert refused(SMALL, with_field(text, "weights", weights))
 
 
-@pytest.mark.parametrize("growth", ["1.0", "1.0000001", "1.04"])
+@pytest.mark.parametrize("growth", ["1.04", *slowly("1.0", "1.0000001")])
 def test_a_weaker_graph_does_not_prove_the_statement(growth):
     text = with_field(THEOREMS[SMALL].text(), "growth", growth)
     assert "entropy is not proved" in refused(SMALL, text)

@@ -76,8 +76,9 @@ def test_a_request_that_cannot_be_proved_is_refused_in_one_line(six):
 
 @pytest.mark.parametrize(
     ("k", "g", "energy", "period", "side", "entropy"),
-    [(0.3, 0.02, 0.002, 5, "outer", 0.023), (0.3, 0.02, 0.002, 6, "inner", 0.04),
-     *slowly((0.2, 0.04, 0.01, 6, "outer", 0.0175), (0.2, 0.04, 0.012, 6, "outer", 0.027))],
+    [(0.3, 0.02, 0.002, 5, "outer", 0.023),
+     *slowly((0.3, 0.02, 0.002, 6, "inner", 0.04), (0.2, 0.04, 0.01, 6, "outer", 0.0175),
+             (0.2, 0.04, 0.012, 6, "outer", 0.027))],
 )  # fmt: skip
 def test_horseshoes_are_proved_on_request(k, g, energy, period, side, entropy):
     exact = Surface(*map(str, (k, g, energy)))

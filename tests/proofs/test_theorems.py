@@ -24,7 +24,14 @@ ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is perio
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]
 QUICK = [n for n in THEOREMS if n not in [*CURVES, "entropy"]]  # to check
-DEAR_SEARCHES = [*CURVES, "twist-one-zero", "entropy", "entropy-lower", "horseshoe-smooth"]
+DEAR_SEARCHES = [
+    *CURVES,
+    "horseshoe-inner",
+    "twist-one-zero",
+    "entropy",
+    "entropy-lower",
+    "horseshoe-smooth",
+]
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ import subprocess
 
 import netCDF4
 import pytest
+from slowly import slowly
 
 from pipeline import config
 from pipeline.publication.article import numbers, typesetting
@@ -141,9 +142,8 @@ def edit_with_record(path):
 @pytest.mark.parametrize(
     ("file", "change"),
     [
-        ("results/paper/motion_fig3.nc", edit),
         ("results/paper/motion_fig3.nc", edit_with_record),
-        ("paper_figures/fig3.png", edit),
+        *slowly(("results/paper/motion_fig3.nc", edit), ("paper_figures/fig3.png", edit)),
     ],
 )
 def test_a_result_that_was_edited_by_hand_is_named_and_no_article_is_set(moved, file, change):

@@ -8,6 +8,7 @@ import re
 
 import pytest
 from project import ROOT
+from slowly import slowly
 
 import pseudorigid
 from pipeline.config.schema.stages import STAGES
@@ -36,7 +37,11 @@ def load(name):
         raise
 
 
-@pytest.mark.parametrize("name", MODULES)
+# Examples that take longest; the stages behind them have tests of their own.
+DEAR = {f"pseudorigid.{name}" for name in ("proofs.theorems.scenes", "study.bench", "sweep.shares")}
+
+
+@pytest.mark.parametrize("name", [*(n for n in MODULES if n not in DEAR), *slowly(*sorted(DEAR))])
 def test_examples_are_true(name):
     assert doctest.testmod(load(name), optionflags=doctest.NORMALIZE_WHITESPACE).failed == 0
 

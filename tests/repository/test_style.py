@@ -53,6 +53,7 @@ def test_snakefmt():
     succeed(*PYTHON, "snakefmt", "--check", "Snakefile", "workflow")
 
 
+@pytest.mark.slow
 def test_snakemake_lint(tree):
     result = tree.run("--lint")
     assert result.returncode == 0, result.stdout

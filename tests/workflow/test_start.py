@@ -248,6 +248,7 @@ def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
     assert not (with_uv.site / "needed").exists()
 
 
+@pytest.mark.slow
 def test_a_venv_of_somebody_else_stays(with_uv):
     venv = with_uv.venv
     line = f"reproduce: {venv} was not made by ./reproduce: please move it away\n"
