@@ -74,8 +74,9 @@ def check(
 def energy_at(k: Fraction, g: Fraction, theta: arb) -> arb:
     """Return the energy at which the fixed point's flight lasts 2 theta, theta below pi."""
     inertia, gravity = ball_of(k), ball_of(g)
-    bent = theta * theta * _bent(Jet.constant_of(algebra(1, 0), theta)).constant
-    square = (1 + inertia) * theta * theta + bent * bent - 1
+    divided = _one_minus_theta_cot(Jet.constant_of(algebra(1, 0), theta)).constant
+    one_minus_theta_cot = theta * theta * divided
+    square = (1 + inertia) * theta * theta + one_minus_theta_cot * one_minus_theta_cot - 1
     return gravity * gravity / (2 * inertia) * square
 
 
@@ -231,11 +232,11 @@ def _series(k: arb, g: arb, theta: arb, order: int) -> tuple[Jet, Jet]:
     """
     series = algebra_with_parameter(2, _ORDER, order)
     xi, eta, t = Jet.series(series, arb(0), arb(0), theta)
-    bent = t * _bent(t)
-    z = xi - bent * (g / k)
+    divided = t * _one_minus_theta_cot(t)  # (1 - theta cot(theta))/theta
+    z = xi - divided * (g / k)
     x = g / k + t * z
     speed = g + g / k
-    s = (((1 + k) * (2 * g * bent * xi - k * xi * xi) - eta * eta) / k + speed * speed).sqrt()
+    s = (((1 + k) * (2 * g * divided * xi - k * xi * xi) - eta * eta) / k + speed * speed).sqrt()
     c = -(eta + s) / (1 + k)
     tau = Jet.constant_of(series, arb(2))
     kernels = [_even_function(kind, 2 * theta, series.order) for kind in ("sine", "versine")]
@@ -255,8 +256,8 @@ def _series(k: arb, g: arb, theta: arb, order: int) -> tuple[Jet, Jet]:
     return right, up
 
 
-def _bent(t: Jet) -> Jet:
-    """Return (1 - t cot(t))/t^2."""
+def _one_minus_theta_cot(t: Jet) -> Jet:
+    """Return 1 - t cot(t) divided by t^2, which is analytic at t = 0."""
     sine, versine = (
         t.compose(_even_function(kind, t.constant, t.algebra.order)) for kind in ("sine", "versine")
     )
