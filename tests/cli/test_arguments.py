@@ -106,7 +106,7 @@ MISTAKES = {
     "help verify fig3": " help: no argument fig3",
     "variant lower-energi": ": no variant lower-energi: did you mean lower-energy?",
     "variant lower-energy fig99": f": no figure fig99: did you mean {FIGURES}?",
-    "show --help": ": no command or figure show",
+    "xyz --help": ": no command or figure xyz",
     "compare paper douled fig2": ": no variant douled: did you mean doubled?",
     "sweep plan": ": no sweep plan: did you mean plane?",
     "sweep --version": " sweep: no argument --version",
