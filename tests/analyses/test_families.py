@@ -495,6 +495,7 @@ def test_a_jump_to_the_neighbour_is_found(six):
 SMALL = {"parameter": "energy", "span": [0.005, 0.012], "period": 6, "levels": 45}
 
 
+@pytest.mark.slow
 def test_a_killed_search_continues_and_gives_the_same_dataset(tmp_path):
     whole = families(PAPER, 0.01, **SMALL)
     folder = tmp_path / "kept"

@@ -263,6 +263,7 @@ def test_a_special_file_hangs_nothing(moved, tmp_path, file, what):
         archive.write(moved.path, config.load(moved.config), tmp_path / "a.tar")
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_beside_special_files(moved):
     """The table names them, and the other figures are published."""
     for name, make in (("fig3.png", os.mkdir), ("fig4.png", os.mkfifo), ("fig7.png", os.unlink)):

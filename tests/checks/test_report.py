@@ -199,6 +199,7 @@ def article(text, name):
     return found and found.group()
 
 
+@pytest.mark.slow
 def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
     tree = reported.copy(tmp_path / "committed")
     pictures = sorted((ROOT / "more_figures").glob("*/*.png"))

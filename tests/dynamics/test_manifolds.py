@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from slowly import slowly
 
 from pseudorigid import Ball, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics import branch as rule
@@ -195,7 +196,7 @@ def test_no_jumps_below_their_onset():
     assert not np.any(np.isnan(line(orbit, energy=0.0017, side="outer", length=3.0)))
 
 
-@pytest.mark.parametrize("energy", [WEAK_ENERGY, 0.0012])
+@pytest.mark.parametrize("energy", [WEAK_ENERGY, *slowly(0.0012)])
 @pytest.mark.parametrize("side", SIDES)
 def test_a_weak_branch_has_few_vertices_and_the_documented_accuracy(energy, side):
     orbit = of_type(orbits_of(energy, 10), "hyperbolic")

@@ -67,6 +67,7 @@ def test_a_motion_follows_the_scanned_impacts():
         assert np.all(np.diff(at) > 0)
 
 
+@pytest.mark.slow
 def test_a_scan_without_an_end_raises():
     """A flight of 2e7 time units takes more steps than a scan may."""
     with pytest.raises(ArithmeticError, match="scan"):

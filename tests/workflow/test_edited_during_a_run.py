@@ -18,6 +18,7 @@ def append(path):
     return f"open(root / {path!r}, 'a').write('_UNUSED = 1\\n')"
 
 
+@pytest.mark.slow
 def test_changes_of_data_config_and_an_edit_that_is_undone_are_reported(done):
     """A job loads an edited file, which the server has loaded before, then the edit is undone."""
     data, edited = "results/paper/orbits_fig2.nc", "src/pseudorigid/figures/edited.py"

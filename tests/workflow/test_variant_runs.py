@@ -84,6 +84,7 @@ def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert [*table.values()] == ["recomputed"] * 2
 
 
+@pytest.mark.slow
 def test_a_second_run_and_one_figure_of_a_variant(done):
     again = done.run("variant", "low")
     assert again.returncode == 0
