@@ -152,7 +152,13 @@ def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
     begun = done.path / "begun"
     text = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
     replace_motion(done, f"import os, time\n    {text}")
-    run = done.start("paper_figures/fig3.png", stderr=subprocess.PIPE, text=True)
+    run = done.start(
+        "paper_figures/fig3.png",
+        stderr=subprocess.PIPE,
+        text=True,
+        # A run under nohup would ignore SIGHUP.
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
+    )
     wait_for(lambda: begun.exists() and begun.read_text())
     run.send_signal(number)
     _, output = run.communicate(timeout=30)
