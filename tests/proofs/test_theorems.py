@@ -9,6 +9,8 @@ from independent_solver import exact_map
 from project import ROOT
 from slowly import slowly
 
+from pipeline import config
+from pipeline.config import build_specs
 from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.fixed_point import half_time
 from pseudorigid.dynamics.variables import chart, states_of
@@ -18,6 +20,7 @@ from pseudorigid.proofs.enclosure.fixed_point import energy_at, slope_at, trace_
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search.periodic import polished
 from pseudorigid.proofs.search.twist import estimate
+from pseudorigid.proofs.theorems.verdict import theorem_verdict
 
 BALL = Ball(k=0.2, g=0.04)
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
@@ -242,3 +245,24 @@ def test_the_closed_formula_and_the_normal_form_give_one_twist(name):
     with ctx.workprec(160):
         points = polished(surface, approximate_orbits.points(surface, period, "elliptic"))
         assert abs(estimate(surface, points) - proved) < arb("1e-25")
+
+
+def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
+    whole = theorem_verdict("six-elliptic").attrs
+    assert whole["verdict"] == "proved"
+    assert not whole["reason"]
+    other = THEOREMS["six-inverse"].text()
+    monkeypatch.setattr(type(THEOREMS["six-elliptic"]), "text", lambda theorem: other)
+    broken = theorem_verdict("six-elliptic").attrs
+    assert broken["verdict"] == "not proved"
+    assert broken["reason"]
+
+
+def test_a_record_of_a_theorem_names_its_certificate_and_checkers():
+    specs = build_specs.of_all(config.load(ROOT / "config.yaml"))
+    for name in THEOREMS:
+        sources = specs[f"results/claims/theorem_{name}.nc"].sources
+        assert f"src/pseudorigid/proofs/certificates/{THEOREMS[name].certificate}" in sources
+        assert {f"src/pseudorigid/proofs/checks/{each}.py" for each in ("curve", "twist")} <= {
+            *sources
+        }
