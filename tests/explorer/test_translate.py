@@ -62,9 +62,8 @@ def choices(a, b):
 def loops(a, b):
     total = 0.0
     for i in range(COUNT):
-        if i == 3:
-            continue
-        total += a * i
+        if i != 3:
+            total += a * i
     for j in range(10, 0, -2):
         if total > 1e3:
             break
@@ -228,7 +227,7 @@ REFUSED = {
     "an else of a loop": ("while a < b:\n        a += 1\n    else:\n        a = b\n    return a", 1,
                           "While"),
     "a loop's variable after it": ("for i in range(3):\n        a += 1\n    return a + i", 3,
-                                   "i outside its loop"),
+                                   "the name i"),
     "several results in a condition": ("return 1.0 if other(a) > b else 2.0", 1,
                                        "other, with several results, in a condition"),
     "several results in a choice": ("b, a = other(a) if a > b else (a, b)\n    return a", 1,

@@ -34,50 +34,29 @@ const $quotient = (a, b) => (a - $modulo(a, b)) / b; // rounded down
 """
 
 
-class Translator:
-    """Translate functions of the modules in a folder, with all that they call.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the package with the functions.
-    shown : str
-        How messages call the folder.
-    fixed : set
-        Names of the parameters that are None in the translation.
-    """
+class Translator(Modules):
+    """Translate functions of the modules in a folder, with all that they call."""
 
     def __init__(self, folder: Path, shown: str, fixed: frozenset[str]) -> None:
-        self._modules = Modules(folder, shown, fixed)
-        self._functions: dict[tuple[str, str], Function | None] = {}
+        super().__init__(folder, shown, fixed)
+        self._begun: set[tuple[str, str]] = set()
+        self._done: dict[tuple[str, str], Function] = {}  # each after those that it calls
 
     def javascript(self) -> str:
         """Return constants and functions translated so far, each after those that it uses."""
-        functions = [each.code for each in self._functions.values() if each]
-        return "\n".join([PRELUDE, *self._modules.constants.values(), "", *functions])
+        functions = [function.code for function in self._done.values()]
+        return "\n".join([PRELUDE, *self.constants.values(), "", *functions])
 
     def function(self, module: str, name: str) -> Function:
         """Translate a function of a module, unless that is done, and return it."""
-        source = self._modules.module(module)
-        if name in source.aliases:
-            return self.function(*source.aliases[name])
-        if name in source.imports and source.imports[name][1]:
-            origin, original = source.imports[name]
-            return self.function(origin, str(original))
-        key = module, name
-        if key in self._functions:
-            known = self._functions[key]
-            if known is None:
-                self._modules.refuse(
-                    source, source.functions[name], f"the recursive function {name}"
-                )
-            return known
-        if name not in source.functions:
-            raise TranslationError(f"{source.shown}: there is no function {name}")
-        self._functions[key] = None
-        translated = FunctionTranslator(
-            self._modules, module, source.functions[name], self.function
-        ).translate()
-        del self._functions[key]  # so that it stands after the functions that it calls
-        self._functions[key] = translated
-        return translated
+        key = origin, original = self.definition(module, name)
+        if key not in self._done:
+            source = self.module(origin)
+            if original not in source.functions:
+                raise TranslationError(f"{source.shown}: there is no function {original}")
+            node = source.functions[original]
+            if key in self._begun:
+                self.refuse(origin, node, f"the recursive function {original}")
+            self._begun.add(key)
+            self._done[key] = FunctionTranslator(self, origin, node).translate()
+        return self._done[key]

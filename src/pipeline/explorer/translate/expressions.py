@@ -1,12 +1,12 @@
 """Expressions of a function, which become JavaScript with the same operations."""
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 from typing import NoReturn, TypeGuard
 
-from .modules import RESERVED, Modules
+from .modules import Modules, safe
 from .values import (
     AND,
     ATOM,
@@ -28,10 +28,10 @@ from .values import (
     Scalar,
     Shape,
     Value,
+    constant,
     filled,
     kinds_of,
     leaves_of,
-    literal,
     long_literal,
     phrase_of,
     shape_of,
@@ -39,6 +39,29 @@ from .values import (
 )
 
 _WIDTH = 100  # of a line
+# JavaScript's operators, and how strongly they bind.
+_ARITHMETIC: dict[type[ast.operator], tuple[str, int]] = {
+    ast.Add: ("+", SUM),
+    ast.Sub: ("-", SUM),
+    ast.Mult: ("*", PRODUCT),
+    ast.Div: ("/", PRODUCT),
+}
+_OF_LONGS: dict[type[ast.operator], tuple[str, int]] = {
+    ast.BitAnd: ("{} & {}", OR),
+    ast.BitOr: ("{} | {}", OR),
+    ast.RShift: ("{} >> {}", SHIFT),
+    ast.LShift: ("$long({} << {})", ATOM),
+    ast.FloorDiv: ("$quotient({}, {})", ATOM),
+    ast.Mod: ("$modulo({}, {})", ATOM),
+}
+_COMPARISONS: dict[type[ast.cmpop], tuple[str, int]] = {
+    ast.Lt: ("<", LESS),
+    ast.LtE: ("<=", LESS),
+    ast.Gt: (">", LESS),
+    ast.GtE: (">=", LESS),
+    ast.Eq: ("===", EQUAL),
+    ast.NotEq: ("!==", EQUAL),
+}
 
 
 class ExpressionTranslator:
@@ -48,11 +71,8 @@ class ExpressionTranslator:
     before the expression.
     """
 
-    def __init__(
-        self, modules: Modules, module: str, function: Callable[[str, str], Function]
-    ) -> None:
-        self._all, self._module, self._translated = modules, module, function
-        self._source = modules.module(module)
+    def __init__(self, modules: Modules, module: str) -> None:
+        self._modules, self._module = modules, module
         self._shapes: dict[str, Shape] = {}
         self._globals: set[str] = set()  # functions and constants that it uses
         self._reset()
@@ -63,17 +83,8 @@ class ExpressionTranslator:
         self._conditional = 0  # depth of expressions that may not be evaluated
         self._temporaries = count(1)
 
-    def _callee(self, name: str) -> Function:
-        return self._translated(self._module, name)
-
-    def _is_function(self, name: str) -> bool:
-        return self._all.has_function(self._module, name)
-
     def _refuse(self, node: ast.AST, construct: str) -> NoReturn:
-        self._all.refuse(self._source, node, construct)
-
-    def _safe(self, name: str) -> str:
-        return f"{name}_" if name in RESERVED else name
+        self._modules.refuse(self._module, node, construct)
 
     def _emit(self, line: str) -> None:
         self._lines.append("  " * self._indent + line)
@@ -87,17 +98,7 @@ class ExpressionTranslator:
             else:
                 self._emit(statement)
 
-    @contextmanager
-    def _deeper(self) -> Iterator[None]:
-        self._indent += 1
-        yield
-        self._indent -= 1
-
-    def _kept(self, scalar: Scalar) -> Scalar:
-        """Return a constant that holds a scalar."""
-        return self._all_kept([scalar])[0]
-
-    def _all_kept(self, scalars: list[Scalar]) -> list[Scalar]:
+    def _kept(self, scalars: list[Scalar]) -> list[Scalar]:
         """Return constants that hold scalars."""
         names = [f"$t{next(self._temporaries)}" for _ in scalars]
         pairs = [f"{name} = {scalar.code}" for name, scalar in zip(names, scalars, strict=True)]
@@ -108,14 +109,11 @@ class ExpressionTranslator:
         """Return the shape that holds values of both shapes."""
         if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
             return [self._joined(node, a, b) for a, b in zip(one, other, strict=True)]
-        if isinstance(one, str) and isinstance(other, str):
-            if one == other:
-                return one
-            pair = {one, other}
-            if pair == {INT, FLOAT}:
-                return FLOAT
-            if pair == {INT, LONG}:
-                return LONG
+        if one == other:
+            return one
+        for wider in (FLOAT, LONG):
+            if (one, other) in ((INT, wider), (wider, INT)):
+                return wider
         self._refuse(node, f"a variable that is both {phrase_of(one)} and {phrase_of(other)}")
 
     def _coerced(self, node: ast.AST, scalar: Scalar, kind: str) -> Scalar:
@@ -160,14 +158,12 @@ class ExpressionTranslator:
 
     def _value(self, node: ast.expr) -> Value:
         match node:
-            case ast.Constant(value=bool(truth)):
-                return Scalar(str(truth).lower(), BOOL)
-            case ast.Constant(value=int() | float() as number):
-                return Scalar(literal(number), INT if isinstance(number, int) else FLOAT)
+            case ast.Constant(value=bool() | int() | float() as number):
+                return self._literal(node, number)
             case ast.Name(name):
                 return self._name(node, name)
             case ast.Attribute(value=ast.Name("math"), attr="inf" | "nan" as name):
-                return Scalar({"inf": "Infinity", "nan": "NaN"}[name], FLOAT)
+                return self._literal(node, float(name))
             case ast.Tuple(elts=elements):
                 return self._tuple(elements)
             case ast.BinOp(left=left, op=op, right=right):
@@ -193,19 +189,19 @@ class ExpressionTranslator:
                 return self._call(node)
         self._refuse(node, type(node).__name__)
 
+    def _literal(self, node: ast.expr, number: object) -> Scalar:
+        return constant(number) or self._refuse(node, "this number")
+
     def _name(self, node: ast.expr, name: str) -> Value:
         if name in self._shapes:
             shape = self._shapes[name]
             if shape == NONE:
                 return Scalar("null", NONE)
-            variables = [
-                Scalar(self._safe(leaf.code), leaf.kind)
-                for leaf in leaves_of(variables_of(name, shape))
-            ]
-            return filled(shape, iter(variables))
-        constant = self._all.constant(self._module, name, node)
-        self._globals.add(constant.code)
-        return constant
+            leaves = leaves_of(variables_of(name, shape))
+            return filled(shape, (Scalar(safe(leaf.code), leaf.kind) for leaf in leaves))
+        value = self._modules.constant(self._module, name, node)
+        self._globals.add(value.code)
+        return value
 
     def _tuple(self, elements: list[ast.expr]) -> list[Value]:
         values: list[Value] = []
@@ -225,14 +221,11 @@ class ExpressionTranslator:
         if isinstance(op, ast.Pow):
             if not (is_number(left) and is_number(right)):
                 self._refuse(node, "a power of anything but two numbers")
-            power = ast.literal_eval(left) ** ast.literal_eval(right)
-            if not isinstance(power, int | float):
-                self._refuse(node, "this power")
-            return Scalar(literal(power), INT if isinstance(power, int) else FLOAT)
+            return self._literal(node, ast.literal_eval(left) ** ast.literal_eval(right))
         if isinstance(op, ast.BitAnd | ast.BitOr):
-            a, b = self._value(left), self._value(right)
-            if shape_of(a) == shape_of(b) == BOOL:
-                return self._joined_conditions(op, a, b)
+            one, other = self._value(left), self._value(right)
+            if shape_of(one) == shape_of(other) == BOOL:
+                return self._joined_conditions(op, one, other)
         a, b = self._number(left), self._number(right)
         kind = LONG if LONG in (a.kind, b.kind) else INT
         if FLOAT in (a.kind, b.kind) or isinstance(op, ast.Div):
@@ -240,37 +233,20 @@ class ExpressionTranslator:
         if isinstance(op, ast.Div) and LONG in (a.kind, b.kind):
             self._refuse(node, "the division of 64-bit integers")
         a, b = self._coerced(node, a, kind), self._coerced(node, b, kind)
-        symbols: dict[type[ast.operator], tuple[str, int]] = {
-            ast.Add: ("+", SUM),
-            ast.Sub: ("-", SUM),
-            ast.Mult: ("*", PRODUCT),
-            ast.Div: ("/", PRODUCT),
-        }
-        if type(op) in symbols:
-            symbol, precedence = symbols[type(op)]
+        if type(op) in _ARITHMETIC:
+            symbol, precedence = _ARITHMETIC[type(op)]
             code = f"{self._grouped(a, precedence)} {symbol} {self._grouped(b, precedence + 1)}"
             if kind == LONG:
                 return Scalar(f"$long({code})", LONG)
             if kind == INT and isinstance(op, ast.Mult):  # an integer has no -0
                 return Scalar(f"{code} + 0", INT, SUM)
             return Scalar(code, kind, precedence)
-        if kind != LONG:
+        if kind != LONG or type(op) not in _OF_LONGS:
             self._refuse(node, f"{type(op).__name__} of anything but 64-bit integers")
-        one, other = self._grouped(a, ATOM), self._grouped(b, ATOM)
-        match op:
-            case ast.BitAnd():
-                return Scalar(f"{one} & {other}", LONG, OR)
-            case ast.BitOr():
-                return Scalar(f"{one} | {other}", LONG, OR)
-            case ast.RShift():
-                return Scalar(f"{one} >> {other}", LONG, SHIFT)
-            case ast.LShift():
-                return Scalar(f"$long({one} << {other})", LONG)
-            case ast.FloorDiv():
-                return Scalar(f"$quotient({a.code}, {b.code})", LONG)
-            case ast.Mod():
-                return Scalar(f"$modulo({a.code}, {b.code})", LONG)
-        self._refuse(node, type(op).__name__)
+        template, precedence = _OF_LONGS[type(op)]
+        return Scalar(
+            template.format(self._grouped(a, ATOM), self._grouped(b, ATOM)), LONG, precedence
+        )
 
     def _joined_conditions(self, op: ast.AST, *values: Value) -> Scalar:
         """Join conditions by `&&` or `||`; without side effects, all may as well be evaluated."""
@@ -302,20 +278,12 @@ class ExpressionTranslator:
         return pairs[0] if len(pairs) == 1 else self._joined_conditions(ast.And(), *pairs)
 
     def _compared(self, node: ast.expr, left: ast.expr, op: ast.cmpop, right: ast.expr) -> Scalar:
-        symbols: dict[type[ast.cmpop], tuple[str, int]] = {
-            ast.Lt: ("<", LESS),
-            ast.LtE: ("<=", LESS),
-            ast.Gt: (">", LESS),
-            ast.GtE: (">=", LESS),
-            ast.Eq: ("===", EQUAL),
-            ast.NotEq: ("!==", EQUAL),
-        }
-        if type(op) not in symbols:
+        if type(op) not in _COMPARISONS:
             self._refuse(node, f"the comparison {type(op).__name__}")
         a, b = self._number(left), self._number(right)
         if LONG in (a.kind, b.kind):
             a, b = self._coerced(node, a, LONG), self._coerced(node, b, LONG)
-        symbol, precedence = symbols[type(op)]
+        symbol, precedence = _COMPARISONS[type(op)]
         code = f"{self._grouped(a, SHIFT)} {symbol} {self._grouped(b, SHIFT)}"
         return Scalar(code, BOOL, precedence)
 
@@ -326,7 +294,7 @@ class ExpressionTranslator:
         shape = self._joined(node, shape_of(one), shape_of(other))
         kinds = kinds_of(shape)
         if len(kinds) > 1 and condition.precedence < ATOM:
-            condition = self._kept(condition)
+            (condition,) = self._kept([condition])
         scalars = []
         for a, b, kind in zip(leaves_of(one), leaves_of(other), kinds, strict=True):
             parts = condition, self._coerced(node, a, kind), self._coerced(node, b, kind)
@@ -339,77 +307,57 @@ class ExpressionTranslator:
         return f"Number({at.code})" if at.kind == LONG else at.code
 
     def _element(self, node: ast.expr, name: str, index: ast.expr) -> Value:
-        value = self._name(node, name)
-        if isinstance(value, list):
-            match index:
-                case ast.Constant(value=int(i)) if i < len(value):
-                    return value[i]
-                case ast.Slice(lower=None | ast.Constant(), upper=None | ast.Constant(), step=None):
-                    first, last = (
-                        int(str(each.value)) if isinstance(each, ast.Constant) else None
-                        for each in (index.lower, index.upper)
-                    )
-                    return value[first:last]
-        elif value.kind == LONGS:
-            return Scalar(f"{value.code}[{self._index(index)}]", LONG)
+        match self._name(node, name), index:
+            case list(values), ast.Constant(value=int(i)) if i < len(values):
+                return values[i]
+            case Scalar(code, kind=kind), _ if kind == LONGS:
+                return Scalar(f"{code}[{self._index(index)}]", LONG)
         self._refuse(node, "this element")
 
     # Calls
 
-    def _called(self, node: ast.Call) -> str | None:
-        """Return the name of the translated function that is called, if it is one."""
-        if isinstance(node.func, ast.Name) and self._is_function(node.func.id):
-            return node.func.id
+    def _called(self, node: ast.expr | None) -> Function | None:
+        """Return the translated function that an expression calls, if it is such a call."""
+        match node:
+            case ast.Call(func=ast.Name(name)) if self._modules.has_function(self._module, name):
+                return self._modules.function(self._module, name)
         return None
 
     def _call(self, node: ast.Call, keep: bool = True) -> Value:
         """Translate a call; several results are kept in constants, or read by the caller."""
-        if called := self._called(node):
-            function = self._callee(called)
+        if function := self._called(node):
             code = self._call_code(function, node)
             if isinstance(function.result, str):
                 return Scalar(code, function.result)
             if self._conditional:
+                called = ast.unparse(node.func)
                 self._refuse(node, f"{called}, with several results, in a condition or a choice,")
             self._emit(f"{code};")
             kinds = kinds_of(function.result)
             read = [Scalar(f"$out[{i}]", kind) for i, kind in enumerate(kinds)]
-            if keep:
-                read = self._all_kept(read)
-            return filled(function.result, iter(read))
+            return filled(function.result, iter(self._kept(read) if keep else read))
         if node.keywords:
             self._refuse(node, "a keyword argument")
-        match node.func, node.args:
-            case ast.Name("abs"), [a]:
+        match ast.unparse(node.func), node.args:
+            case "abs", [a]:
                 return Scalar(f"Math.abs({self._number(a, FLOAT).code})", FLOAT)
-            case ast.Name("max" | "min" as name), [a, b]:
+            case "max" | "min" as name, [a, b]:
                 one, other = self._number(a, INT, FLOAT), self._number(b, INT, FLOAT)
                 kind = INT if one.kind == other.kind == INT else FLOAT
                 return Scalar(f"${name}({one.code}, {other.code})", kind)
-            case ast.Name("float"), [a]:
+            case "float", [a]:
                 return self._coerced(node, self._number(a), FLOAT)
-            case ast.Attribute(value=ast.Name("math" | "np"), attr="sqrt"), [a]:
+            case "math.sqrt" | "np.sqrt", [a]:
                 return Scalar(f"Math.sqrt({self._number(a, INT, FLOAT).code})", FLOAT)
-            case ast.Attribute(value=ast.Name("math"), attr="isnan"), [a]:
-                return Scalar(f"Number.isNaN({self._number(a, FLOAT).code})", BOOL)
-            case (
-                ast.Attribute(value=ast.Name("np"), attr="zeros"),
-                [size, ast.Attribute(value=ast.Name("np"), attr="int64")],
-            ):
+            case "np.zeros", [size, ast.Attribute(value=ast.Name("np"), attr="int64")]:
                 return Scalar(f"new BigInt64Array({self._number(size, INT).code})", LONGS)
-            case (
-                ast.Attribute(
-                    value=ast.Call(
-                        func=ast.Attribute(value=ast.Name("np"), attr=origin), args=[a], keywords=[]
-                    ),
-                    attr="view",
-                ),
-                [ast.Attribute(value=ast.Name("np"), attr=target)],
-            ):
-                if (origin, target) == ("float64", "int64"):
-                    return Scalar(f"$bitsOf({self._number(a, FLOAT).code})", LONG)
-                if (origin, target) == ("int64", "float64"):
-                    return Scalar(f"$floatOf({self._number(a, LONG).code})", FLOAT)
+        match node:
+            case ast.Call(ast.Attribute(ast.Call(origin, [a]), "view"), [target]):
+                match ast.unparse(origin), ast.unparse(target):
+                    case "np.float64", "np.int64":
+                        return Scalar(f"$bitsOf({self._number(a, FLOAT).code})", LONG)
+                    case "np.int64", "np.float64":
+                        return Scalar(f"$floatOf({self._number(a, LONG).code})", FLOAT)
         self._refuse(node, f"the call of {ast.unparse(node.func)}")
 
     def _call_code(self, function: Function, node: ast.Call) -> str:

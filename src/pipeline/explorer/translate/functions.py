@@ -3,10 +3,9 @@
 import ast
 import json
 import re
-from collections.abc import Callable
 
 from .expressions import ExpressionTranslator, is_number
-from .modules import Modules
+from .modules import Modules, safe
 from .values import (
     FLOAT,
     INT,
@@ -29,14 +28,8 @@ _CALL = re.compile(r"(?<![\w$.])(?!(?:Number|BigInt)\()[A-Za-z_]\w*\(")  # of a 
 class FunctionTranslator(ExpressionTranslator):
     """Translate one function. The shapes of its variables are inferred first, by repetition."""
 
-    def __init__(
-        self,
-        modules: Modules,
-        module: str,
-        node: ast.FunctionDef,
-        function: Callable[[str, str], Function],
-    ) -> None:
-        super().__init__(modules, module, function)
+    def __init__(self, modules: Modules, module: str, node: ast.FunctionDef) -> None:
+        super().__init__(modules, module)
         body = _without_fixed(node.body, modules.fixed)
         self._node = ast.FunctionDef(node.name, node.args, body, [], lineno=node.lineno)
         self._result: Shape | None = None
@@ -48,42 +41,35 @@ class FunctionTranslator(ExpressionTranslator):
 
     def translate(self) -> Function:
         """Return the translated function."""
-        node = self._node
-        arguments = node.args
+        node, arguments = self._node, self._node.args
         if arguments.defaults or arguments.kwonlyargs or arguments.vararg or arguments.kwarg:
             self._refuse(node, "a default, keyword or variable argument")
         names = [each.arg for each in arguments.args]
         widths = self._tuple_parameters(names)
         for name in names:
-            if name in self._all.fixed:
+            self._shapes[name] = [FLOAT] * widths[name] if name in widths else FLOAT
+            if name in self._modules.fixed:
                 self._shapes[name] = NONE
-            else:
-                self._shapes[name] = [FLOAT] * widths[name] if name in widths else FLOAT
         self._parameters = {*names}
-        while True:
+        before = ""
+        while repr((self._shapes, self._result)) != before:
             before = repr((self._shapes, self._result))
             self._reset()
             self._block(node.body)
-            if repr((self._shapes, self._result)) == before:
-                break
         if self._result is None:
             self._refuse(node, f"{node.name}, which returns nothing,")
-        variables = [
-            leaf.code
-            for name, shape in self._shapes.items()
-            if shape != NONE
-            for leaf in leaves_of(variables_of(name, shape))
-        ]
+        every = [leaf for pair in self._shapes.items() for leaf in leaves_of(variables_of(*pair))]
+        variables = [leaf.code for leaf in every if leaf.kind != NONE]
         for variable in variables:  # `a_0` may be a part of `a`, or a function that is called
             if variables.count(variable) > 1 or variable in self._globals:
                 self._refuse(node, f"{node.name}, in which {variable} has two meanings,")
         parameters = [(name, self._shapes[name]) for name in names]
-        name = self._all.unique(self._module, node.name)
+        name = self._modules.unique(self._module, node.name)
         return Function(name, parameters, self._result, self._text(name, parameters))
 
     def _text(self, name: str, parameters: list[tuple[str, Shape]]) -> str:
         leaves = [leaf for each in parameters for leaf in leaves_of(variables_of(*each))]
-        given = [self._safe(leaf.code) for leaf in leaves if leaf.kind != NONE]
+        given = [safe(leaf.code) for leaf in leaves if leaf.kind != NONE]
         summary = (ast.get_docstring(self._node) or "").partition("\n")[0]
         head = [f"// {summary}"] if summary else []
         head.append(f"function {name}({', '.join(given)}) {{")
@@ -106,8 +92,8 @@ class FunctionTranslator(ExpressionTranslator):
                 case ast.Assign(targets=[ast.Tuple(elts=targets)], value=ast.Name(name)):
                     if name in names:
                         widths[name] = len(targets)
-                case ast.Call(func=ast.Name(called), args=args) if self._is_function(called):
-                    expected = [shape for _, shape in self._callee(called).parameters]
+                case ast.Call(args=args) if called := self._called(node):
+                    expected = [shape for _, shape in called.parameters]
                     at = 0
                     for given in args:
                         match given:
@@ -127,6 +113,13 @@ class FunctionTranslator(ExpressionTranslator):
         for node in body:
             self._statement(node)
 
+    def _braced(self, head: str, body: list[ast.stmt]) -> None:
+        """Write a head that ends in a brace, and its body."""
+        self._emit(head)
+        self._indent += 1
+        self._block(body)
+        self._indent -= 1
+
     def _statement(self, node: ast.stmt) -> None:
         match node:
             case ast.Expr(value=ast.Constant(value=str())):
@@ -139,80 +132,53 @@ class FunctionTranslator(ExpressionTranslator):
                 self._assign([target], ast.copy_location(combined, node))
             case ast.Return(value=value):
                 self._return(node, value)
-            case ast.If():
-                self._if(node)
+            case ast.If(test=test, body=body, orelse=orelse):
+                self._braced(f"if ({self._condition(test).code}) {{", body)
+                if orelse:
+                    self._braced("} else {", orelse)
+                self._emit("}")
             case ast.While(test=test, body=body, orelse=[]):
                 with self._unevaluated():
                     condition = self._condition(test)
-                self._emit(f"while ({condition.code}) {{")
-                with self._deeper():
-                    self._block(body)
+                self._braced(f"while ({condition.code}) {{", body)
                 self._emit("}")
             case ast.For(target=ast.Name(name), iter=over, body=body, orelse=[]):
-                self._for(node, name, over, body)
+                self._for(name, over, body)
             case ast.Break():
                 self._emit("break;")
-            case ast.Continue():
-                self._emit("continue;")
-            case ast.Raise(
-                exc=ast.Call(func=ast.Name("ArithmeticError"), args=[ast.Constant(value=str(text))])
-            ):
+            case ast.Raise(exc=ast.Call(ast.Name("ArithmeticError"), [ast.Constant(str(text))])):
                 self._emit(f"throw new Error({json.dumps(text)});")
             case _:
                 self._refuse(node, type(node).__name__)
 
-    def _if(self, node: ast.If) -> None:
-        condition = self._condition(node.test)
-        self._emit(f"if ({condition.code}) {{")
-        with self._deeper():
-            self._block(node.body)
-        if node.orelse:
-            self._emit("} else {")
-            with self._deeper():
-                self._block(node.orelse)
-        self._emit("}")
-
-    def _for(self, node: ast.For, name: str, over: ast.expr, body: list[ast.stmt]) -> None:
+    def _for(self, name: str, over: ast.expr, body: list[ast.stmt]) -> None:
         match over:
             case ast.Call(func=ast.Name("range"), args=[_, *_] as args, keywords=[]):
-                numbers = [ast.literal_eval(a) if is_number(a) else None for a in args]
+                step = 1 if len(args) < 3 else is_number(args[2]) and ast.literal_eval(args[2])
             case _:
                 self._refuse(over, "a loop over anything but range")
-        inside = {id(each) for each in ast.walk(node)}
-        for each in ast.walk(self._node):
-            if isinstance(each, ast.Name) and each.id == name and id(each) not in inside:
-                loops = [n for n in ast.walk(self._node) if isinstance(n, ast.For) and n != node]
-                if not any(id(each) in {id(n) for n in ast.walk(loop)} for loop in loops):
-                    self._refuse(each, f"{name} outside its loop")
-        step = numbers[2] if len(args) == 3 else 1
         if not isinstance(step, int) or step == 0:
             self._refuse(over, "a step that is no number")
         start = self._number(args[0], INT).code if len(args) > 1 else "0"
         stop = self._number(args[1] if len(args) > 1 else args[0], INT).code
-        self._shapes[name] = INT
-        variable = self._safe(name)
+        i = safe(name)
         sign, change = ("<", f"+= {step}") if step > 0 else (">", f"-= {-step}")
-        self._emit(
-            f"for (let {variable} = {start}; {variable} {sign} {stop}; {variable} {change}) {{"
-        )
-        with self._deeper():
-            self._block(body)
+        self._shapes[name] = INT
+        self._braced(f"for (let {i} = {start}; {i} {sign} {stop}; {i} {change}) {{", body)
+        del self._shapes[name]  # after the loop, JavaScript does not know it
         self._emit("}")
 
     def _return(self, node: ast.stmt, value: ast.expr | None) -> None:
         if value is None:
             self._refuse(node, "a return of nothing")
-        if isinstance(value, ast.Call) and (called := self._called(value)):
-            function = self._callee(called)
-            if isinstance(function.result, list):
-                self._join_result(node, function.result)
-                if self._result == function.result:  # its results are already in place
-                    self._emit(f"return {self._call_code(function, value)};")
-                    return
+        if (called := self._called(value)) and isinstance(called.result, list):
+            self._join_result(node, called.result)
+            if self._result == called.result:  # its results are already in place
+                assert isinstance(value, ast.Call)
+                self._emit(f"return {self._call_code(called, value)};")
+                return
         result = self._value(value)
-        self._join_result(node, shape_of(result))
-        assert self._result is not None
-        kinds = kinds_of(self._result)
+        kinds = kinds_of(self._join_result(node, shape_of(result)))
         if isinstance(result, Scalar):
             self._emit(f"return {self._coerced(node, result, kinds[0]).code};")
             return
@@ -220,14 +186,14 @@ class FunctionTranslator(ExpressionTranslator):
             self._refuse(node, "a 64-bit integer among several results")
         scalars = leaves_of(result)
         if any(_CALL.search(scalar.code) for scalar in scalars):
-            scalars = self._all_kept(scalars)  # a call may overwrite `$out`
-        stores = [f"$out[{i}] = {scalar.code};" for i, scalar in enumerate(scalars)]
-        self._emit_joined(stores)
+            scalars = self._kept(scalars)  # a call may overwrite `$out`
+        self._emit_joined([f"$out[{i}] = {scalar.code};" for i, scalar in enumerate(scalars)])
         self._emit("return;")
 
-    def _join_result(self, node: ast.AST, shape: Shape) -> None:
-        known = self._result
-        self._result = shape if known is None else self._joined(node, known, shape)
+    def _join_result(self, node: ast.AST, shape: Shape) -> Shape:
+        """Return the shape that holds this result and those before it."""
+        self._result = self._joined(node, shape if self._result is None else self._result, shape)
+        return self._result
 
     # Assignments
 
@@ -253,8 +219,7 @@ class FunctionTranslator(ExpressionTranslator):
                     if self._shapes.get(name) != LONGS or not isinstance(result, Scalar):
                         self._refuse(target, "an assignment to an element")
                     code = self._coerced(target, result, LONG).code
-                    at = self._index(index)
-                    self._emit(f"{self._safe(name)}[{at}] = {code};")
+                    self._emit(f"{safe(name)}[{self._index(index)}] = {code};")
                 case _:
                     self._refuse(target, type(target).__name__)
 
@@ -264,29 +229,27 @@ class FunctionTranslator(ExpressionTranslator):
         for name, value in pairs:
             if name == "_":
                 continue
-            if name in self._all.fixed:
+            if name in self._modules.fixed:
                 self._refuse(node, f"an assignment to {name}")
             shape = shape_of(value)
-            known = self._shapes.get(name)
-            self._shapes[name] = shape if known is None else self._joined(node, known, shape)
+            self._shapes[name] = self._joined(node, self._shapes.get(name, shape), shape)
             variables = leaves_of(variables_of(name, self._shapes[name]))
             for variable, scalar in zip(variables, leaves_of(value), strict=True):
-                code = self._safe(variable.code)
-                moves.append((code, self._coerced(node, scalar, variable.kind)))
-        for i, (variable_code, _) in enumerate(moves):
-            later = [scalar for _, scalar in moves[i + 1 :]]
-            if any(_mentions(scalar.code, variable_code) for scalar in later):
-                kept = self._all_kept([scalar for _, scalar in moves])
-                moves = [(name, scalar) for (name, _), scalar in zip(moves, kept, strict=True)]
-                break
+                moves.append((safe(variable.code), self._coerced(node, scalar, variable.kind)))
+        names, scalars = [name for name, _ in moves], [scalar for _, scalar in moves]
+        if any(_mentions(s.code, name) for i, name in enumerate(names) for s in scalars[i + 1 :]):
+            scalars = self._kept(scalars)
         self._emit_joined(
-            [f"{self._declaration(code)}{code} = {scalar.code};" for code, scalar in moves]
+            [
+                f"{self._declaration(name)}{name} = {scalar.code};"
+                for name, scalar in zip(names, scalars, strict=True)
+            ]
         )
 
     def _declaration(self, variable: str) -> str:
         """Return `let ` where a variable is declared: at its first assignment, or at the top."""
         parameters = {
-            self._safe(leaf.code)
+            safe(leaf.code)
             for name in self._parameters
             for leaf in leaves_of(variables_of(name, self._shapes[name]))
         }
@@ -311,10 +274,7 @@ def _without_fixed(body: list[ast.stmt], fixed: frozenset[str]) -> list[ast.stmt
     for node in body:
         match node:
             case ast.If(
-                test=ast.Compare(
-                    left=ast.Name(name), ops=[ast.Is()], comparators=[ast.Constant(value=None)]
-                ),
-                body=inner,
+                test=ast.Compare(ast.Name(name), [ast.Is()], [ast.Constant(None)]), body=inner
             ) if name in fixed:
                 kept += _without_fixed(inner, fixed)
                 if isinstance(inner[-1], ast.Return):

@@ -1,11 +1,17 @@
-"""Values of translated code: expressions with their kinds, tuples of them, and literals."""
+"""Values of translated code: expressions with their kinds, tuples of them, and constants."""
 
-import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 # Kinds of scalars. An `int` may become a `float` or a `long`.
 BOOL, INT, FLOAT, LONG, LONGS, NONE = "bool", "int", "float", "long", "longs", "none"
+_PHRASES = {
+    BOOL: "a condition", INT: "an integer", FLOAT: "a number", LONG: "a 64-bit integer",
+    LONGS: "an array of integers", NONE: "None",
+}  # fmt: skip
 # Precedence of JavaScript's operators.
 TERNARY, OR, AND, EQUAL, LESS, SHIFT, SUM, PRODUCT, UNARY, ATOM = range(2, 12)
 
@@ -35,13 +41,24 @@ class Function:
     code: str
 
 
-def literal(value: int | float) -> str:
-    """Return a number as JavaScript reads it; both languages round decimals correctly."""
-    if isinstance(value, int):
-        return str(value)
-    if math.isnan(value):
-        return "NaN"
-    return repr(value).replace("inf", "Infinity")
+def constant(value: Any) -> Scalar | None:
+    """Return a constant as JavaScript reads it, None if its type has no translation.
+
+    Both languages round decimals correctly.
+    """
+    match value:
+        case bool():
+            return Scalar(str(value).lower(), BOOL)
+        case int():
+            return Scalar(str(value), INT)
+        case float():
+            code = repr(value).replace("inf", "Infinity").replace("nan", "NaN")
+            return Scalar(code, FLOAT)
+        case np.ndarray() if value.dtype == np.int64 and value.ndim == 1:
+            digits = [long_literal(int(each)) for each in value]
+            lines = [", ".join(digits[i : i + 8]) for i in range(0, len(digits), 8)]
+            return Scalar("[\n  " + ",\n  ".join(lines) + ",\n]", LONGS)
+    return None
 
 
 def long_literal(value: int) -> str:
@@ -58,9 +75,7 @@ def leaves_of(value: Value) -> list[Scalar]:
 
 def kinds_of(shape: Shape) -> list[str]:
     """Return the kinds of the scalars of a shape, in order."""
-    return (
-        [shape] if isinstance(shape, str) else [kind for each in shape for kind in kinds_of(each)]
-    )
+    return [leaf.kind for leaf in leaves_of(variables_of("", shape))]
 
 
 def shape_of(value: Value) -> Shape:
@@ -83,10 +98,4 @@ def variables_of(name: str, shape: Shape) -> Value:
 
 def phrase_of(shape: Shape) -> str:
     """Return how a message calls a shape."""
-    if isinstance(shape, list):
-        return f"{len(shape)} values"
-    names: Mapping[str, str] = {
-        BOOL: "a condition", INT: "an integer", FLOAT: "a number", LONG: "a 64-bit integer",
-        LONGS: "an array of integers", NONE: "None",
-    }  # fmt: skip
-    return names[shape]
+    return f"{len(shape)} values" if isinstance(shape, list) else _PHRASES[shape]
