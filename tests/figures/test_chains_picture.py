@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from legible import assert_text_is_whole_and_apart
 
-from pseudorigid.figures import chains
+from pseudorigid.figures import atlas, chains
 from pseudorigid.figures.axes import raster
 from pseudorigid.figures.canvas import render
 
@@ -51,8 +51,8 @@ def test_each_curve_is_drawn_where_its_data_are():
     left, right = raster.edges(np.log10(SWEEP["energy"]))[[0, -1]]
     low, high = raster.edges(np.array(SWEEP["k"]))[[0, -1]]
     for k, energy in lines.values():
-        x = chains.LEFT + (np.log10(energy) - left) / (right - left) * chains.WIDE
-        y = chains.BOTTOM + (np.array(k) - low) / (high - low) * chains.HIGH
+        x = atlas.LEFT + (np.log10(energy) - left) / (right - left) * atlas.WIDE
+        y = chains.BOTTOM + (np.array(k) - low) / (high - low) * atlas.HIGH
         wanted = np.column_stack([x, y])
         assert min(np.abs(places - wanted).max() for places in artists) < 0.3
 
@@ -61,7 +61,7 @@ def test_a_cell_is_darker_the_larger_its_regular_share():
     greys = []
     for share in (0.0, 0.5, 1.0):
         image = render.pixels(drawn(share)[0])[::-1]
-        r, g, b = image[chains.BOTTOM + 30, chains.LEFT + chains.WIDE - 40].tolist()[:3]
+        r, g, b = image[chains.BOTTOM + 30, atlas.LEFT + atlas.WIDE - 40].tolist()[:3]
         assert r == g == b
         greys.append(r)
     assert greys == sorted(greys, reverse=True)

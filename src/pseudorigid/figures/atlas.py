@@ -7,7 +7,7 @@ import numpy as np
 
 from ..dynamics import fixed_point
 from .axes import raster
-from .axes.panel import Axis, Panel, log10
+from .axes.panel import Axis, Panel, Window, corner, log10, title, upright
 from .canvas import style
 from .canvas.ragged_rows import pieces
 from .canvas.sheet import POINT, Sheet
@@ -35,36 +35,48 @@ def draw(sweep, data):
 @style.pinned()
 def plane(sweep, data):
     """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k."""
-    wide, high = (
-        count * max(1, most // count)  # whole pixels for each cell
-        for count, most in ((len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH))
-    )
     lower = 320
-    upper = lower + high + 195
-    sheet = Sheet(style.COLUMN, 75 * -(-(upper + high + 105) // 75))
+    upper = lower + pixels(sweep)[1] + 195
+    sheet = sheet_above(upper, sweep)
     share, exponent = data["regular"].values, data["exponent"].values
     largest = float(np.nanmax(exponent, initial=0.05))
     panels = (
         (upper, "Regular share of the section", share, 1.0, "viridis"),
         (lower, "Lyapunov exponent of the sea, an impact", exponent, largest, "magma"),
     )
-    for bottom, title, values, most, table in panels:
-        frame = (LEFT, bottom, LEFT + wide, bottom + high)
-        across = energy_axis(sweep["energy"], r"$E/g^2$")
-        up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
-        panel = Panel(sheet, frame, across, up, grid=False)
-        raster.minor(panel)
-        raster.cells(panel, sweep, values / most, table)
-        raster.scale(sheet, frame, most, table)
-        sheet.text(frame[2], frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
+    for bottom, text, values, most, table in panels:
+        panel = cells(sheet, bottom, sweep, values, most, table, text)
         _resonances(panel, named=bottom == upper)
         _onset_of_jumps(panel)
         for energy in PAPER_ENERGIES.values():
-            if _within(across, energy) and _within(up, PAPER_K):
-                panel.dots(energy, PAPER_K, "white", size=5.0, hollow=True)
-                panel.dots(energy, PAPER_K, style.BLACK, size=2.5)
+            panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
+            panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
     _plane_key(sheet, 170)
     return sheet.figure
+
+
+def pixels(sweep):
+    """Return width and height of a plane, with whole pixels for each cell."""
+    sizes = (len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH)
+    return tuple(count * max(1, most // count) for count, most in sizes)
+
+
+def sheet_above(bottom, sweep):
+    """Return a sheet whose upper panel is a plane that begins at the height `bottom`."""
+    return Sheet(style.COLUMN, 75 * -(-(bottom + pixels(sweep)[1] + 105) // 75))
+
+
+def cells(sheet, bottom, sweep, values, most, table, text):
+    """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
+    wide, high = pixels(sweep)
+    frame = (LEFT, bottom, LEFT + wide, bottom + high)
+    up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
+    panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
+    raster.minor(panel)
+    raster.cells(panel, sweep, values / most, table)
+    raster.scale(sheet, frame, most, table)
+    corner(sheet, frame, text, rise=13)
+    return panel
 
 
 def _plane_key(sheet, top):
@@ -101,22 +113,21 @@ def line(sweep, data):
     exponent = raster.linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
     below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
-    for panel, title, bars, rise in (
+    for panel, text, bars, rise in (
         (above, "Regular share of the section", "bars: 95 %", 14),
         (below, "Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles", 4),
     ):
         raster.minor(panel)
-        up = panel.frame[3] + rise * POINT
-        sheet.text(110, up, title, ha="left", va="bottom", size=7.0)
-        sheet.text(1010, up, bars, ha="right", va="bottom", size=_SIZE)
+        title(sheet, panel.frame, text, rise)
+        corner(sheet, panel.frame, bars, rise, _SIZE)
     _upright_lines((above, below), k, energy[0], unit)
     error = _NORMAL * data["exponent_error"].values[0]
     quartiles = data["exponent_low"].values[0], data["exponent_high"].values[0]
     mean = data["exponent"].values[0]
     regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
-    _bars(above, energy, style.BLUE, *regular)
-    _bars(below, energy, style.pale(style.VERMILION), np.full(energy.size, np.nan), *quartiles)
-    _bars(below, energy, style.VERMILION, mean, mean - error, mean + error)
+    above.estimates(energy, *regular, style.BLUE)
+    below.bars(energy, *quartiles, color=style.pale(style.VERMILION), lw=0.7, zorder=2)
+    below.estimates(energy, mean, mean - error, mean + error, style.VERMILION)
     for i, text in enumerate(QUOTATION if "g" in sweep else ()):
         sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
     for name, scaled in PAPER_ENERGIES.items():
@@ -133,13 +144,13 @@ def _upright_lines(panels, k, first, unit):
     sheet, last = panels[0].sheet, panels[0].across.limits[1]
     energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
     energies = [(name, energy) for name, energy in energies if first < energy < last]
-    lines = [_upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
+    lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
     for (name, _), x in zip(energies, _apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
     onset = (1.0 + 0.5 * k) * unit
     if first < onset < last:
-        x = _upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
+        x = upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
         up = panels[1].frame[3] - 8
         sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
 
@@ -154,43 +165,31 @@ def _apart(centres):
     return moved
 
 
-def _upright(panels, at, **line_style):
-    """Draw a line through the panels at a value of the abscissa and return its x in pixels."""
-    x = float(panels[0].place(at, 0)[0][0])
-    for panel in panels:
-        _, low, _, high = panel.frame
-        panel.sheet.draw([x, x], [low, high], zorder=0.8, **line_style)
-    return x
-
-
-def _bars(panel, x, color, values, low, high):
-    """Draw a dot for each cell, joined by a line, with its bar from low to high."""
-    panel.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
-    panel.bars(x, low, high, color=color, lw=0.7, zorder=2)
-    known = ~np.isnan(values)
-    panel.dots(x[known], values[known], color, size=1.7)
-
-
 def _resonances(panel, named):
-    """Draw the curves of the fixed point's resonances, named where they leave the frame."""
+    """Draw the curves of the fixed point's resonances, with their names."""
     ks = _k_values(panel)
     for turns, impacts in RESONANCES:
         energy = np.array([fixed_point.resonance(float(k), turns, impacts) for k in ks])
-        visible = np.array([_within(panel.across, value) for value in energy])
+        visible = _is_between(panel.across, energy)
         _curve(panel, np.where(visible, energy, np.nan), ks)
-        if named and visible.any():
-            last = int(np.flatnonzero(visible)[-1])
-            x, y = (float(pixel[0]) for pixel in panel.place(energy[last], ks[last]))
-            x = max(x, panel.frame[0] + 12 * POINT)
-            text = f"{turns}/{impacts}"
-            panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+        if named:
+            name_curve(panel, visible, energy, ks, f"{turns}/{impacts}")
+
+
+def name_curve(panel, visible, energy, k, text):
+    """Name a curve where its visible part leaves the frame at the top or at the left."""
+    if visible.any():
+        last = int(np.flatnonzero(visible)[-1])
+        x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
+        x = max(x, panel.frame[0] + 12 * POINT)
+        panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
 def _onset_of_jumps(panel):
     """Draw E/g^2 = 1 + k/2, above which the map jumps."""
     ks = _k_values(panel)[[0, -1]]
     energy = 1.0 + 0.5 * ks
-    if all(_within(panel.across, value) for value in energy):
+    if _is_between(panel.across, energy).all():
         _curve(panel, energy, ks, dashed=True)
 
 
@@ -213,9 +212,9 @@ def _stroke(sheet, x, y, dashed=False):
     sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
-def energy_axis(values, name):
+def _energy_axis(values):
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
-    values = np.array(values)
+    values, name = np.array(values), r"$E/g^2$"
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
         return raster.linear(*raster.edges(values)[[0, -1]], 5, name)
     low, high = raster.edges(log10(values))[[0, -1]].tolist()
@@ -223,6 +222,7 @@ def energy_axis(values, name):
     return Axis((low, high), ticks, name, True, [f"{10.0**tick:g}" for tick in ticks])
 
 
-def _within(axis, value):
-    """Return whether a value lies within the limits of an axis."""
-    return 0.0 <= float(axis.fraction(value)[0]) <= 1.0
+def _is_between(axis, values):
+    """Return whether each value lies within the limits of an axis."""
+    fractions = axis.fraction(values)
+    return (fractions >= 0.0) & (fractions <= 1.0)

@@ -2,14 +2,11 @@
 
 from itertools import cycle
 
-import numpy as np
-
-from .atlas import HIGH, LEFT, PAPER_ENERGIES, PAPER_K, WIDE, energy_axis
+from . import atlas
+from .atlas import LEFT
 from .axes import raster
-from .axes.panel import Window
 from .canvas import style
 from .canvas.ragged_rows import rows
-from .canvas.sheet import POINT, Sheet
 
 _SIZE = 6.0  # points: text beside lines
 BOTTOM = 395  # pixels below the frame
@@ -34,20 +31,9 @@ _HUES = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, s
 @style.pinned()
 def draw(sweep, data, curves):
     """Draw the curves of chains over a plane of k and E/g^2 in shades of grey."""
-    wide, high = (
-        count * max(1, most // count)  # whole pixels for each cell
-        for count, most in ((len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH))
-    )
-    sheet = Sheet(style.COLUMN, 75 * -(-(BOTTOM + high + 105) // 75))
-    frame = (LEFT, BOTTOM, LEFT + wide, BOTTOM + high)
-    up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
-    panel = Window(sheet, frame, energy_axis(sweep["energy"], r"$E/g^2$"), up, grid=False)
-    panel.size = panel.small = _SIZE
-    raster.minor(panel)
-    raster.cells(panel, sweep, data["regular"].values, raster.GREYS)
-    raster.scale(sheet, frame, 1.0, raster.GREYS)
-    title = "Births of the chains 1/q, and their ends, over the regular share"
-    sheet.text(frame[2], frame[3] + 13 * POINT, title, ha="right", va="bottom", size=7.0)
+    sheet = atlas.sheet_above(BOTTOM, sweep)
+    text = "Births of the chains 1/q, and their ends, over the regular share"
+    panel = atlas.cells(sheet, BOTTOM, sweep, data["regular"].values, 1.0, raster.GREYS, text)
     hues = dict(zip(sweep["chains"], cycle(_HUES), strict=False))
     for order, kind, part in zip(
         curves["order"].values.tolist(), curves["kind"].values.tolist(), rows(curves), strict=True
@@ -56,22 +42,12 @@ def draw(sweep, data, curves):
         color = hues.get(order, style.BLACK)
         panel.line(energy, k, color=color, zorder=2.0, **_STYLES[kind])
         if kind == "resonance":
-            _name(panel, energy, k, f"1/{order}")
-    for energy in PAPER_ENERGIES.values():
-        panel.dots([energy], [PAPER_K], "white", size=5.0)
-        panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
+            atlas.name_curve(panel, panel.within(energy, k), energy, k, f"1/{order}")
+    for energy in atlas.PAPER_ENERGIES.values():
+        panel.dots([energy], [atlas.PAPER_K], "white", size=5.0)
+        panel.dots([energy], [atlas.PAPER_K], style.BLACK, size=2.5)
     _key(sheet, hues)
     return sheet.figure
-
-
-def _name(panel, energy, k, text):
-    """Name a curve where it leaves the frame at the top or at the left."""
-    inside = panel.within(energy, k)
-    if inside.any():
-        last = int(np.flatnonzero(inside)[-1])
-        x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
-        x = max(x, panel.frame[0] + 12 * POINT)
-        panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
 def _key(sheet, hues):

@@ -113,6 +113,13 @@ class Panel:
         for at, *span in zip(x, low, high, strict=True):
             self.line([at, at], span, **line_style)
 
+    def estimates(self, x, values, low, high, color):
+        """Draw a dot for each value, joined by a line, with its bar from low to high."""
+        self.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
+        self.bars(x, low, high, color=color, lw=0.7, zorder=2)
+        known = ~np.isnan(values)
+        self.dots(x[known], values[known], color, size=1.7)
+
     def dots(self, x, y, color, size=3.2, hollow=False, marker="o"):
         """Draw marks of `size` points, filled or hollow."""
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
@@ -180,19 +187,33 @@ def _fits(at, shift, side, size, low, high):
     return low + POINT <= start and start + size <= high - POINT
 
 
+def upright(panels, at, **line_style):
+    """Draw a line through panels at a value of the abscissa and return its x in pixels."""
+    x = float(panels[0].place(at, 0.0)[0][0])
+    for panel in panels:
+        _, low, _, high = panel.frame
+        panel.sheet.draw([x, x], [low, high], zorder=0.8, **line_style)
+    return x
+
+
 def vacant(sheet, frame, text):
     """Write in the middle of a frame why nothing is drawn there."""
     middle = 0.5 * (frame[0] + frame[2]), 0.5 * (frame[1] + frame[3])
     sheet.text(*middle, text, ha="center", va="center", size=_SMALL)
 
 
-def corner(sheet, frame, text):
-    """Write `text` above a frame's right end."""
-    sheet.text(frame[2], frame[3] + 4 * POINT, text, ha="right", va="bottom", size=_SMALL)
+def title(sheet, frame, text, rise=4, size=_SMALL):
+    """Write `text` above a frame's left end, `rise` points away."""
+    sheet.text(frame[0], frame[3] + rise * POINT, text, ha="left", va="bottom", size=size)
+
+
+def corner(sheet, frame, text, rise=4, size=_SMALL):
+    """Write `text` above a frame's right end, `rise` points away."""
+    sheet.text(frame[2], frame[3] + rise * POINT, text, ha="right", va="bottom", size=size)
 
 
 def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SIZE):
-    """Draw a key of entries (text, colour, marker, hollow[, size]) in rows from the top left.
+    """Draw a key of entries (text, colour[, marker, hollow, size]) in rows from the top left.
 
     An entry without a marker is a line, full or (hollow) dashed. Its size is that of the mark or
     the width of the line in points. None leaves a cell empty.
@@ -200,14 +221,15 @@ def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SI
     for i, entry in enumerate(entries):
         if entry is None:
             continue
-        text, color, marker, hollow, *points = entry
+        text, color, *mark = entry
+        marker, hollow, points = (*mark, *("", False, None)[len(mark) :])
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * size * POINT
         if marker:
-            _mark(sheet, [x + 6], [y], color, *(points or [3.2]), hollow, marker)
+            _mark(sheet, [x + 6], [y], color, points or 3.2, hollow, marker)
         else:
-            (thick,) = points or [0.9]
-            sheet.draw([x - 8, x + 20], [y, y], lw=thick, color=color, ls="--" if hollow else "-")
+            dashes = "--" if hollow else "-"
+            sheet.draw([x - 8, x + 20], [y, y], lw=points or 0.9, color=color, ls=dashes)
         sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=size)
 
 

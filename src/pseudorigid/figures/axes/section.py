@@ -4,12 +4,16 @@ import math
 
 import numpy as np
 
+from ...dynamics.variables import chart, states_of
 from ...kernel.arithmetic import sincos_each
 from ..canvas import style
+from ..canvas.ragged_rows import rows
 from .panel import Panel
 from .raster import linear
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
+SEA = "#d4d4d4"  # of dots beside proved or computed curves
+LEFT, SIDE = 150, 825  # pixels: left and width of a large panel
 _SIDES = 720  # of the rim
 _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
@@ -17,7 +21,7 @@ _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 class Section(Panel):
     """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis."""
 
-    def __init__(self, sheet, frame, ball, radius, room, ticks=0, names=("", "")):
+    def __init__(self, sheet, frame, ball, radius, room=1.06, ticks=5, names=("$x$", NAME)):
         self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius
         self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
         half = room * radius
@@ -26,8 +30,22 @@ class Section(Panel):
         axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
         super().__init__(sheet, frame, *axes, grid=False)
 
+    def orbits(self, orbits, sea):
+        """Draw orbits as dots, first and paler those whose indices are in `sea`."""
+        x, y = chart(self.k, *states_of(orbits))
+        spans = rows(orbits)
+        for index in sorted(range(len(spans)), key=lambda i: (i not in sea, i)):
+            hue, size = (SEA, 0.7) if index in sea else (style.BACKDROP, 0.9)
+            self.dots(x[spans[index]], y[spans[index]], hue, size=size)
+
     def rim(self, **line_style):
         """Draw the rim."""
         sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
         x = self.centre + self.radius * cosine
         self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, **line_style)
+
+
+def at_top(sheet, ball, radius):
+    """Return a large panel of the section at the top of a sheet."""
+    top = sheet.high - 75
+    return Section(sheet, (LEFT, top - SIDE, LEFT + SIDE, top), ball, radius)

@@ -2,44 +2,38 @@
 
 import numpy as np
 
-from ...dynamics.variables import chart, states_of
+from ..axes import section
 from ..axes.panel import corner, key
-from ..axes.section import NAME, Section
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
 
-_LEFT, _SIDE = 150, 825  # pixels: left and width of the panel
 _HATCH = 400  # lines of the shading across the section
-_SEA, _SHADE = "#d4d4d4", "#f0c3a6"
+_SHADE = "#f0c3a6"
 
 
 @style.pinned()
 def draw(scene, curves, orbits):
     """Draw orbits on the section, the proved curves, and the area inside them, shaded."""
     sheet = Sheet(style.COLUMN, 1125)
-    top = sheet.high - 75
-    frame = (_LEFT, top - _SIDE, _LEFT + _SIDE, top)
-    radius = float(curves["radius"])
-    panel = Section(sheet, frame, curves.attrs, radius, 1.06, 5, ("$x$", NAME))
+    panel = section.at_top(sheet, curves.attrs, float(curves["radius"]))
     polygons = _polygons(curves)
-    height = panel.high * radius
+    height = panel.high * panel.radius
     for y in np.linspace(-height, height, _HATCH):
         for polygon in polygons:
             for ends in _inside(polygon, y):
                 panel.line(ends, [y, y], color=_SHADE, lw=0.8)
-    _orbits(panel, orbits, set(scene["sea"]))
+    panel.orbits(orbits, scene["sea"])
     panel.rim(zorder=4.5)
     for polygon in polygons:
         panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
     entries = [
-        ("proved curve", style.VERMILION, "", False),
-        ("no orbit enters or leaves", _SHADE, "", False),
-        ("regular orbits", style.BACKDROP, "o", False),
-        ("chaotic orbit", _SEA, "o", False),
+        ("proved curve", style.VERMILION),
+        ("no orbit enters or leaves", _SHADE),
+        ("regular orbits", style.BACKDROP, "o"),
+        ("chaotic orbit", section.SEA, "o"),
     ]
-    key(sheet, entries, frame[1] - 110, 2, _LEFT, _SIDE)
-    corner(sheet, frame, style.setting(scene))
+    key(sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    corner(sheet, panel.frame, style.setting(scene))
     return sheet.figure
 
 
@@ -58,11 +52,3 @@ def _inside(polygon, level):
     at = np.flatnonzero(above[1:] != above[:-1])
     crossings = np.sort(x[at] + (x[at + 1] - x[at]) * (level - y[at]) / (y[at + 1] - y[at]))
     return crossings.reshape(-1, 2)
-
-
-def _orbits(panel, orbits, sea):
-    x, y = chart(panel.k, *states_of(orbits))
-    spans = rows(orbits)
-    for index in sorted(range(len(spans)), key=lambda i: (i not in sea, i)):
-        hue, size = (_SEA, 0.7) if index in sea else (style.BACKDROP, 0.9)
-        panel.dots(x[spans[index]], y[spans[index]], hue, size=size)

@@ -4,13 +4,12 @@ import numpy as np
 
 from ...analyses.flux import SIDES
 from ...dynamics.ball import Ball
-from ..axes.panel import Panel, corner, key, vacant
+from ..axes import section
+from ..axes.panel import Panel, corner, key, title, vacant
 from ..axes.raster import linear, wider
-from ..axes.section import NAME, Section
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet, width
 
-_LEFT, _WIDE = 150, 825  # pixels
 _SIDES = (1, style.ORANGE), (0, style.PURPLE)  # index in SIDES: outer and inner
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
@@ -19,26 +18,17 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 def draw(scene, flux):
     """Draw regions and lobes of the inner and the outer branches, and both crossings."""
     sheet = Sheet(style.COLUMN, 1725)
-    top = sheet.high - 75
-    above = _LEFT, top - _WIDE, _LEFT + _WIDE, top
-    _regions(sheet, above, flux)
-    corner(sheet, above, style.setting(scene))
-    edges = [(_edge_name(flux, side), hue, "", False) for side, hue in reversed(_SIDES)]
-    entries = [
-        *edges,
-        ("grazing rim", style.BLACK, "", False),
-        ("crossing, and its lobe's area", style.FRAME, "o", False),
-    ]
-    key(sheet, entries, top - _WIDE - 130, 2, _LEFT + 10, _WIDE)
-    entries = [
-        ("stable branch", style.STABLE, "", False),
-        ("unstable branch", style.UNSTABLE, "", False),
-    ]
-    key(sheet, entries, 568, 2, _LEFT + 10, _WIDE)
-    for side, frame in ((1, (_LEFT, 105, 505, 405)), (0, (680, 105, 1005, 405))):
+    frame = _regions(sheet, flux)
+    corner(sheet, frame, style.setting(scene))
+    entries = [(_edge_name(flux, side), hue) for side, hue in reversed(_SIDES)]
+    entries.append(("grazing rim", style.BLACK))
+    entries.append(("crossing, and its lobe's area", style.FRAME, "o"))
+    key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
+    entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
+    key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
+    for side, frame in ((1, (section.LEFT, 105, 505, 405)), (0, (680, 105, 1005, 405))):
         branch = flux["branch_x"].values[side], flux["branch_y"].values[side]
-        title = _lobe(sheet, frame, side, *branch)
-        sheet.text(frame[0], frame[3] + 18 * POINT, title, ha="left", va="bottom", size=7.0)
+        title(sheet, frame, _lobe(sheet, frame, side, *branch), rise=18)
     return sheet.figure
 
 
@@ -52,11 +42,11 @@ def _edge_name(flux, side):
     return f"edge of the {name} region"
 
 
-def _regions(sheet, frame, flux):
-    """Draw the section with the regions, their crossings, and the areas of their lobes."""
+def _regions(sheet, flux):
+    """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
     k, g, energy = (float(flux.attrs[name]) for name in ("k", "g", "energy"))
     radius = Ball(k, g).section(energy)[1]
-    panel = Section(sheet, frame, flux.attrs, radius, 1.06, 5, ("$x$", NAME))
+    panel = section.at_top(sheet, flux.attrs, radius)
     panel.rim()
     for side, hue in _SIDES:
         if np.isnan(flux["area"].values[side]):
@@ -74,10 +64,11 @@ def _regions(sheet, frame, flux):
         if abs(end - dot) > width(text, panel.small) + 8.0 * POINT:
             panel.note(crossing, 0.0, text, ha=ha, shift=(sign * 4.0, 0.0))
         else:  # no room inside the rim or the region: outside, in a corner
-            left, _, right, top = frame
+            left, _, right, top = panel.frame
             across, ha = (right, "right") if side else (left, "left")
             across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
             sheet.text(across, up, f"{SIDES[side]}: {text}", ha=ha, va="top", size=panel.small)
+    return panel.frame
 
 
 def _lobe(sheet, frame, side, x, y):

@@ -2,25 +2,20 @@
 
 import numpy as np
 
-from ...dynamics.variables import chart, states_of
+from ..axes import section
 from ..axes.panel import corner, key
-from ..axes.section import NAME, Section
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
-_LEFT, _SIDE = 150, 825  # pixels: left and width of the panel
-_SEA, _LINK = "#d4d4d4", "#8fb8d8"
+_LINK = "#8fb8d8"
 
 
 @style.pinned()
 def draw(scene, graph, orbits):
     """Draw an orbit of the sea, the sets, and a line for each connection between two of them."""
     sheet = Sheet(style.COLUMN, 1125)
-    top = sheet.high - 75
-    frame = (_LEFT, top - _SIDE, _LEFT + _SIDE, top)
-    panel = Section(sheet, frame, graph.attrs, float(graph["radius"]), 1.06, 5, ("$x$", NAME))
-    x, y = chart(panel.k, *states_of(orbits))
-    panel.dots(x, y, _SEA, size=0.7)
+    panel = section.at_top(sheet, graph.attrs, float(graph["radius"]))
+    panel.orbits(orbits, range(orbits.sizes["orbit"]))
     panel.rim(zorder=4.5)
     corners = np.stack([graph["corner_x"].values, graph["corner_y"].values], axis=1)
     centres = corners.mean(axis=2)
@@ -31,11 +26,11 @@ def draw(scene, graph, orbits):
         for outline in corners[sets]:
             panel.line(*np.hstack([outline, outline[:, :1]]), color=hue, lw=wide, zorder=6)
     entries = [
-        ("sets at the saddles", style.VERMILION, "", False),
-        ("connections", _LINK, "", False),
-        ("sets on the way", style.BLUE, "", False),
-        ("chaotic orbit", _SEA, "o", False),
+        ("sets at the saddles", style.VERMILION),
+        ("connections", _LINK),
+        ("sets on the way", style.BLUE),
+        ("chaotic orbit", section.SEA, "o"),
     ]
-    key(sheet, entries, frame[1] - 110, 2, _LEFT, _SIDE)
-    corner(sheet, frame, style.setting(scene))
+    key(sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    corner(sheet, panel.frame, style.setting(scene))
     return sheet.figure
