@@ -2,15 +2,16 @@
 
 import numpy as np
 
-from ..axes.panel import Axis, Window, key, log10
+from ..axes.panel import Axis, Window, key, log10, title
 from ..axes.raster import linear, minor
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
 _CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.SEA))
+_UNCHANGED = "the impact map"
+# The changed maps, in the order of their rows in the data.
 _MAPS = {
-    "none": ("the impact map", style.FRAME, "o"),
     "both": ("area and reversor", style.BLACK, "o"),
     "area": ("area alone", style.PURPLE, "s"),
     "reversor": ("reversor alone", style.GREEN, "D"),
@@ -32,8 +33,8 @@ def draw(scene, control):
     sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
     _portraits(sheet, control)
     _charts(sheet, control)
-    entries = [(text, hue, mark, False, 3.4) for text, hue, mark in list(_MAPS.values())[1:]]
-    entries.append((_MAPS["none"][0], style.BACKDROP, "", True, 1.2))
+    entries = [(text, hue, mark, False, 3.4) for text, hue, mark in _MAPS.values()]
+    entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
     key(sheet, entries, 105, 3, _LEFT - 30, 900, 7.0)
     text = "in rates filled: the fixed point, open: the longer orbit; bars: 95 %"
     sheet.text(_LEFT - 30, 25, text, ha="left", va="center", size=7.0)
@@ -42,31 +43,22 @@ def draw(scene, control):
 
 def _portraits(sheet, control):
     """Draw the orbits of each panel, chaotic ones first."""
-    shown = style.number(control.attrs["shown"])
+    from ...kernel.arithmetic import sincos_each
+
     for i, name in enumerate(control["panel"].values.tolist()):
         left = 45 + (i % 3) * (_SIDE + 40)
         bottom = sheet.high - 110 - (i // 3) * (_SIDE + 62) - _SIDE
-        frame = left, bottom, left + _SIDE, bottom + _SIDE
         unit = Axis((-1.04, 1.04), ())
-        panel = Window(sheet, frame, unit, unit)
-        angle = np.arange(181) * (np.pi / 90.0)
-        panel.line(*_circle(angle), color=style.RIM, lw=0.5)
+        panel = Window(sheet, (left, bottom, left + _SIDE, bottom + _SIDE), unit, unit)
+        sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
+        panel.line(cosine, sine, color=style.RIM, lw=0.5)
         kinds = control["kind"].values[i]
         for kind in (2, 1, 0):
             a, b = (control[axis].values[i][kinds == kind].ravel() for axis in "ab")
             panel.dots(a, b, _CLASSES[kind][1], 0.35 if kind == 2 else 0.7)
-        text = _MAPS[name][0]
-        sheet.text(left, bottom + _SIDE + 4 * POINT, text, ha="left", va="bottom", size=7.0)
-    text = rf"the five changed maps at strength $\epsilon$ = {shown}"
+        title(sheet, panel.frame, _MAPS[name][0] if name in _MAPS else _UNCHANGED)
+    text = rf"the five changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
     sheet.text(_RIGHT, bottom - 4 * POINT, text, ha="right", va="top", size=7.0)
-
-
-def _circle(angle):
-    """Return the points of the unit circle."""
-    from ...kernel.arithmetic import sincos_each
-
-    sine, cosine = sincos_each(angle)
-    return cosine, sine
 
 
 def _charts(sheet, control):
@@ -80,48 +72,46 @@ def _charts(sheet, control):
     ticks = range(int(np.ceil(low - 1e-9)), int(np.floor(high + 1e-9)) + 1)
     across = Axis((low - room, high + room), tuple(ticks), r"Strength $\epsilon$", True)
     blank = across.blank()
-    share = linear(0.0, 1.0, 5)
     left, right = ((at, at + _HALF) for at in (_LEFT, _RIGHT - _HALF))
     frames = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in (left, right)]
-    regular = _values(control, "regular")
-    panel = _chart(sheet, frames[0], blank, _share_axis(regular), "Regular share")
-    _against(panel, strength, *regular)
-    panel = _chart(sheet, frames[1], blank, share, "Share of spirals")
-    _against(panel, strength, *_values(control, "spiral"))
-    exponent = [control[f"exponent{end}"].values for end in ("", "_low", "_high")]
-    panel = _chart(sheet, frames[2], blank, _axis(0.0, exponent[2]), "Exponent of chaotic orbits")
-    _against(panel, strength, *exponent)
-    attraction = [-control[f"attraction{end}"].values for end in ("", "_low", "_high")]
-    panel = _chart(sheet, frames[3], across, _axis(0.0, attraction[1]),
-                   r"Contraction of area on spirals")  # fmt: skip
-    _against(panel, strength, *attraction)
+    last = control.isel(length=-1)
+    regular, spiral = (
+        [last[f"class_{name}"].sel({"class": kind}).values for name in ("share", "low", "high")]
+        for kind in ("regular", "spiral")
+    )
+    exponent, attraction = (
+        [control[f"{name}{end}"].values for end in ("", "_low", "_high")]
+        for name in ("exponent", "attraction")
+    )
+    attraction = [-values for values in attraction]
+    for frame, axis, up, text, estimate in (
+        (frames[0], blank, _share_axis(regular[2]), "Regular share", regular),
+        (frames[1], blank, linear(0.0, 1.0, 5), "Share of spirals", spiral),
+        (frames[2], blank, _axis_to(exponent[2]), "Exponent of chaotic orbits", exponent),
+        (frames[3], across, _axis_to(attraction[1]), "Contraction of area on spirals", attraction),
+    ):
+        _against(_chart(sheet, frame, axis, up, text), strength, *estimate)
     _rates(sheet, frames[4], across, control)
     _lengths(sheet, frames[5], control)
 
 
-def _chart(sheet, frame, across, up, text):
+def _chart(sheet, frame, across, up, text, minor_across=True):
     """Return a chart with its title above it."""
     panel = Window(sheet, frame, across, up)
-    minor(panel)
-    sheet.text(frame[0], frame[3] + 4 * POINT, text, ha="left", va="bottom", size=7.0)
+    minor(panel, minor_across)
+    title(sheet, frame, text)
     return panel
 
 
-def _values(control, kind):
-    """Return a class's shares after all impacts with the ends of their intervals."""
-    last = control.isel(length=-1).sel({"class": kind})
-    return [last[f"class_{name}"].values for name in ("share", "low", "high")]
-
-
-def _axis(low, values):
-    """Return an axis from `low` to above the largest of some values."""
+def _axis_to(values):
+    """Return an axis from 0 to above the largest of some values."""
     finite = values[np.isfinite(values)]
-    return linear(low, 1.08 * float(finite.max()) if finite.size and finite.max() > low else 1.0, 4)
+    return linear(0.0, 1.08 * float(finite.max()) if finite.size and finite.max() > 0.0 else 1.0, 4)
 
 
 def _share_axis(values):
     """Return an axis from 0 to above the largest share."""
-    return linear(-0.01, min(1.03, 1.1 * float(values[2].max()) + 0.02), 5)
+    return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
 
 
 def _against(panel, strength, value, low, high):
@@ -129,33 +119,34 @@ def _against(panel, strength, value, low, high):
     if np.isfinite(value[0, 0]):
         limits = [10.0 ** panel.across.limits[0], 10.0 ** panel.across.limits[1]]
         panel.line(limits, [value[0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
-    for i, (_, hue, mark) in enumerate(list(_MAPS.values())[1:]):
+    for i, (_, hue, mark) in enumerate(_MAPS.values()):
         at = strength * 1.06 ** (i - 2.0)
         panel.line(at, value[i, 1:], color=style.pale(hue), lw=0.8)
-        panel.bars(at, low[i, 1:], high[i, 1:], color=hue, lw=0.7)
-        shown = np.isfinite(value[i, 1:])
-        panel.dots(at[shown], value[i, 1:][shown], hue, 3.0, marker=mark)
+        _marks(panel, at, value[i, 1:], low[i, 1:], high[i, 1:], hue, mark)
+
+
+def _marks(panel, at, value, low, high, hue, mark, hollow=False):
+    """Draw marks at the values that there are, with their intervals."""
+    panel.bars(at, low, high, color=hue, lw=0.7)
+    shown = np.isfinite(value)
+    panel.dots(at[shown], value[shown], hue, 3.0, hollow, mark)
 
 
 def _rates(sheet, frame, across, control):
     """Draw the rates at the fixed point and at the other orbit, divided by the strength."""
     strength = control["strength"].values[1:]
-    scaled = control["rate"].values[:, 1:] / strength[:, None]
-    finite = np.abs(scaled[np.isfinite(scaled)])
-    most = 1.15 * float(finite.max()) if finite.size else 1.0
-    panel = _chart(
-        sheet, frame, across, linear(-most, most, 5), r"Rate of the spiral, / $\epsilon$"
+    value, low, high = (
+        control[f"rate{end}"].values[:, 1:] / strength[:, None] for end in ("", "_low", "_high")
     )
+    finite = np.abs(value[np.isfinite(value)])
+    most = 1.15 * float(finite.max()) if finite.size else 1.0
+    up = linear(-most, most, 5)
+    panel = _chart(sheet, frame, across, up, r"Rate of the spiral, / $\epsilon$")
     panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
-    for i, (_, hue, mark) in enumerate(list(_MAPS.values())[1:]):
+    for i, (_, hue, mark) in enumerate(_MAPS.values()):
         at = strength * 1.06 ** (i - 2.0)
-        for island in (0, 1):
-            shown = np.isfinite(scaled[i, :, island])
-            ends = (
-                control[f"rate_{end}"].values[i, 1:, island] / strength for end in ("low", "high")
-            )
-            panel.bars(at, *ends, color=hue, lw=0.7)
-            panel.dots(at[shown], scaled[i, shown, island], hue, 3.0, island == 1, mark)
+        for j in (0, 1):  # the fixed point and the other orbit
+            _marks(panel, at, value[i, :, j], low[i, :, j], high[i, :, j], hue, mark, j == 1)
 
 
 def _lengths(sheet, frame, control):
@@ -165,23 +156,14 @@ def _lengths(sheet, frame, control):
     texts = [style.number(int(n)) for n in lengths]
     if len(texts[-1]) > _LONG:
         texts[1:-1] = [""] * (len(texts) - 2)
-    across = Axis(
-        (float(logs[0]) - 0.1, float(logs[-1]) + 0.1),
-        logs.tolist(),
-        "Number of impacts",
-        True,
-        texts,
-    )
+    limits = float(logs[0]) - 0.1, float(logs[-1]) + 0.1
+    across = Axis(limits, logs.tolist(), "Number of impacts", True, texts)
     at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
     kind = control.sel({"class": "regular"})
     value, low, high = (kind[f"class_{n}"].values[:, at] for n in ("share", "low", "high"))
-    panel = Window(sheet, frame, across, _share_axis([0.0, 0.0, high]))
-    minor(panel, across=False)
-    shown = style.number(control.attrs["shown"])
-    text = rf"Regular share, $\epsilon$ = {shown}"
-    sheet.text(frame[0], frame[3] + 4 * POINT, text, ha="left", va="bottom", size=7.0)
-    for i, (_, hue, mark) in enumerate(list(_MAPS.values())[1:]):
+    text = rf"Regular share, $\epsilon$ = {style.number(control.attrs['shown'])}"
+    panel = _chart(sheet, frame, across, _share_axis(high), text, minor_across=False)
+    for i, (_, hue, mark) in enumerate(_MAPS.values()):
         beside = lengths * 1.025 ** (i - 2.0)
         panel.line(beside, value[i], color=style.pale(hue), lw=0.8)
-        panel.bars(beside, low[i], high[i], color=hue, lw=0.7)
-        panel.dots(beside, value[i], hue, 3.0, marker=mark)
+        _marks(panel, beside, value[i], low[i], high[i], hue, mark)
