@@ -7,7 +7,7 @@ has the same bytes wherever the same results are archived. Times and machines ar
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import version
 from pathlib import PurePosixPath
 from typing import Any
@@ -18,15 +18,15 @@ from . import metadata
 FILE = "ro-crate-metadata.json"
 WORKFLOW = "Snakefile"
 _RO_CRATE = "https://w3id.org/ro/crate/1.1"
-_TERMS = "https://w3id.org/ro/terms/workflow-run"
+_WORKFLOW_CRATE = "https://w3id.org/workflowhub/workflow-ro-crate/1.0"
+_RUN_CRATE = "https://w3id.org/ro/wfrun"
 _PROFILES = {
-    f"https://w3id.org/ro/wfrun/{name}/0.5": title
-    for name, title in {
-        "process": "Process Run Crate",
-        "workflow": "Workflow Run Crate",
-        "provenance": "Provenance Run Crate",
-    }.items()
-} | {"https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate"}
+    f"{_RUN_CRATE}/process/0.5": "Process Run Crate",
+    f"{_RUN_CRATE}/workflow/0.5": "Workflow Run Crate",
+    f"{_RUN_CRATE}/provenance/0.5": "Provenance Run Crate",
+    _WORKFLOW_CRATE: "Workflow RO-Crate",
+}
+_SNAKEMAKE = "https://snakemake.readthedocs.io"
 _TYPES = {
     ".nc": "application/x-netcdf",
     ".png": "image/png",
@@ -42,15 +42,12 @@ Entity = dict[str, Any]
 
 def crate(archived: Mapping[str, bytes]) -> bytes:
     """Return the description of an archive with these files, CITATION.cff among them."""
-    graph = json.dumps(
-        {
-            "@context": [f"{_RO_CRATE}/context", {"sha256": f"{_TERMS}#sha256"}],
-            "@graph": [_plain(entity) for entity in _entities(archived)],
-        },
-        indent=1,
-        ensure_ascii=False,
-    )
-    return f"{graph}\n".encode()
+    terms = {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"}
+    graph = {
+        "@context": [f"{_RO_CRATE}/context", terms],
+        "@graph": [_plain(entity) for entity in _entities(archived)],
+    }
+    return f"{json.dumps(graph, indent=1, ensure_ascii=False)}\n".encode()
 
 
 def _plain(entity: Entity) -> Entity:
@@ -62,157 +59,125 @@ def _plain(entity: Entity) -> Entity:
     }
 
 
+def _entity(identifier: str, kind: str | list[str], name: str, /, **properties: Any) -> Entity:
+    return {"@id": identifier, "@type": kind, "name": name, **properties}
+
+
+def _ref(identifier: str) -> Entity:
+    """Return a reference to an entity."""
+    return {"@id": identifier}
+
+
+def _refs(identifiers: Iterable[str], form: str = "{}") -> list[Entity]:
+    return [_ref(form.format(identifier)) for identifier in identifiers]
+
+
 def _entities(archived: Mapping[str, bytes]) -> Iterator[Entity]:
     facts = metadata.parsed(archived[metadata.CITATION].decode())
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
     records = _records(archived)
-    steps = {step for _, step, _ in records}
-    yield {
-        "@id": FILE,
-        "@type": "CreativeWork",
-        "about": {"@id": "./"},
-        "conformsTo": [
-            {"@id": _RO_CRATE},
-            {"@id": "https://w3id.org/workflowhub/workflow-ro-crate/1.0"},
-        ],
-    }
-    authors = [{"@id": f"#author-{i}"} for i in range(len(facts["authors"]))]
-    yield {
-        "@id": "./",
-        "@type": "Dataset",
-        "name": facts["title"],
-        "description": facts["abstract"],
-        "datePublished": str(facts.get("date-released", metadata.DESCRIBED)),
-        "license": {"@id": f"https://spdx.org/licenses/{facts['license']}"},
-        "author": authors,
-        "keywords": ", ".join(facts["keywords"]),
-        "mainEntity": {"@id": WORKFLOW},
-        "conformsTo": [{"@id": profile} for profile in _PROFILES],
-        "hasPart": [{"@id": path} for path in archived],
-        "mentions": [{"@id": "#run"}, *({"@id": f"#action-{path}"} for path, _, _ in records)],
-    }
-    for profile, title in _PROFILES.items():
-        number = profile.rpartition("/")[2]
-        yield {"@id": profile, "@type": "CreativeWork", "name": title, "version": number}
-    for i, author in enumerate(facts["authors"]):
+    steps = sorted({step for _, step, _ in records})
+    title, license_page = facts["title"], f"https://spdx.org/licenses/{facts['license']}"
+    authors = _refs(range(len(facts["authors"])), "#author-{}")
+    profiles = _refs((_RO_CRATE, _WORKFLOW_CRATE))
+    yield {"@id": FILE, "@type": "CreativeWork", "about": _ref("./"), "conformsTo": profiles}
+    yield _entity(
+        "./",
+        "Dataset",
+        title,
+        description=facts["abstract"],
+        datePublished=str(facts.get("date-released", metadata.DESCRIBED)),
+        license=_ref(license_page),
+        author=authors,
+        keywords=", ".join(facts["keywords"]),
+        mainEntity=_ref(WORKFLOW),
+        conformsTo=_refs(_PROFILES),
+        hasPart=_refs(archived),
+        mentions=[_ref("#run"), *_refs((path for path, _, _ in records), "#action-{}")],
+    )
+    for profile, name in _PROFILES.items():
+        yield _entity(profile, "CreativeWork", name, version=profile.rpartition("/")[2])
+    for reference, author in zip(authors, facts["authors"], strict=True):
         kind = "Person" if "family-names" in author else "Organization"
-        yield {"@id": f"#author-{i}", "@type": kind, "name": metadata.name_of(author)}
-    yield {
-        "@id": f"https://spdx.org/licenses/{facts['license']}",
-        "@type": "CreativeWork",
-        "name": facts["license"],
-    }
+        yield _entity(reference["@id"], kind, metadata.name_of(author))
+    yield _entity(license_page, "CreativeWork", facts["license"])
     for path, data in archived.items():
-        entity: Entity = {"@id": path, "@type": "File", "name": path, "sha256": hashes[path]}
-        entity |= {"contentSize": str(len(data)), "encodingFormat": _format(path)}
+        encoding = _TYPES.get(PurePosixPath(path).suffix, "text/plain")
+        entity = _entity(path, "File", path, sha256=hashes[path])
+        entity |= {"contentSize": str(len(data)), "encodingFormat": encoding}
         if path == WORKFLOW:
-            entity |= _workflow(facts, steps, authors)
+            kinds = ["File", "SoftwareSourceCode", "ComputationalWorkflow", "HowTo"]
+            entity |= {"@type": kinds, "name": title, "author": authors}
+            entity |= {"version": facts["version"], "license": _ref(license_page)}
+            entity |= {"programmingLanguage": _ref("#snakemake-language")}
+            entity |= {"input": _refs(["#parameter-config"])}
+            entity |= {"hasPart": _refs(steps, "#tool-{}"), "step": _refs(steps, "#step-{}")}
         yield entity
-    yield from _engine()
-    for position, step in enumerate(sorted(steps), 1):
-        yield {
-            "@id": f"#tool-{step}",
-            "@type": "SoftwareApplication",
-            "name": step,
-            "softwareVersion": facts["version"],
-        }
-        yield {
-            "@id": f"#step-{step}",
-            "@type": "HowToStep",
-            "name": step,
-            "position": str(position),
-            "workExample": {"@id": f"#tool-{step}"},
-        }
+    doi = _ref("https://doi.org/10.1093/bioinformatics/bts480")
+    page = {"url": _ref(_SNAKEMAKE)}
+    yield _entity("#snakemake-language", "ComputerLanguage", "Snakemake", identifier=doi, **page)
+    number = version("snakemake")
+    yield _entity("#snakemake", "SoftwareApplication", "Snakemake", softwareVersion=number, **page)
+    yield _entity(
+        "#parameter-config",
+        "FormalParameter",
+        "config",
+        additionalType="File",
+        encodingFormat=_TYPES[".yaml"],
+        workExample=_ref("config.yaml"),
+    )
+    for i, step in enumerate(steps, 1):
+        tool = f"#tool-{step}"
+        yield _entity(tool, "SoftwareApplication", step, softwareVersion=facts["version"])
+        yield _entity(f"#step-{step}", "HowToStep", step, position=str(i), workExample=_ref(tool))
     by_hash = {digest: path for path, digest in hashes.items()}
-    yield from _actions(records, by_hash, facts)
-
-
-def _workflow(facts: Entity, steps: set[str], authors: list[Entity]) -> Entity:
-    """Return the properties of the workflow's file beyond those of a file."""
-    ordered = sorted(steps)
-    return {
-        "@type": ["File", "SoftwareSourceCode", "ComputationalWorkflow", "HowTo"],
-        "name": facts["title"],
-        "author": authors,
-        "version": facts["version"],
-        "license": {"@id": f"https://spdx.org/licenses/{facts['license']}"},
-        "programmingLanguage": {"@id": "#snakemake-language"},
-        "input": [{"@id": "#parameter-config"}],
-        "hasPart": [{"@id": f"#tool-{step}"} for step in ordered],
-        "step": [{"@id": f"#step-{step}"} for step in ordered],
-    }
-
-
-def _engine() -> Iterator[Entity]:
-    """Yield the language, the engine and the workflow's parameter."""
-    yield {
-        "@id": "#snakemake-language",
-        "@type": "ComputerLanguage",
-        "name": "Snakemake",
-        "identifier": {"@id": "https://doi.org/10.1093/bioinformatics/bts480"},
-        "url": {"@id": "https://snakemake.readthedocs.io"},
-    }
-    yield {
-        "@id": "#snakemake",
-        "@type": "SoftwareApplication",
-        "name": "Snakemake",
-        "softwareVersion": version("snakemake"),
-        "url": {"@id": "https://snakemake.readthedocs.io"},
-    }
-    yield {
-        "@id": "#parameter-config",
-        "@type": "FormalParameter",
-        "name": "config",
-        "additionalType": "File",
-        "encodingFormat": _TYPES[".yaml"],
-        "workExample": {"@id": "config.yaml"},
-    }
+    yield from _actions(records, by_hash, title)
 
 
 def _actions(
-    records: list[tuple[str, str, Entity]], by_hash: dict[str, str], facts: Entity
+    records: list[tuple[str, str, Entity]], by_hash: dict[str, str], title: str
 ) -> Iterator[Entity]:
     """Yield the run of the workflow, and for each record what was done and what controlled it."""
-    results = {}
+    results = []
     for path, step, record in records:
-        made = by_hash.get(str(record["output"]["sha256"]))
+        output = record["output"]
+        made = [by_hash[digest] for digest in [str(output["sha256"])] if digest in by_hash]
         digests = [str(digest) for digest in record["inputs"].values()]
         inputs = [by_hash[digest] for digest in digests if digest in by_hash]
-        if made:
-            results[path] = made
-        yield {
-            "@id": f"#action-{path}",
-            "@type": "CreateAction",
-            "name": f"{step}: {record['output']['file']}",
-            "instrument": {"@id": f"#tool-{step}"},
-            "object": [{"@id": name} for name in ("config.yaml", *inputs)],
-            "result": [{"@id": made}] if made else [],
-            "subjectOf": {"@id": path},
-            "description": "; ".join(f"{n} {v}" for n, v in record["environment"].items()),
-        }
-        yield {
-            "@id": f"#control-{path}",
-            "@type": "ControlAction",
-            "name": f"orchestrate {record['output']['file']}",
-            "instrument": {"@id": f"#step-{step}"},
-            "object": {"@id": f"#action-{path}"},
-        }
-    yield {
-        "@id": "#run",
-        "@type": "CreateAction",
-        "name": f"run of {facts['title']}",
-        "instrument": {"@id": WORKFLOW},
-        "object": [{"@id": "config.yaml"}],
-        "result": [{"@id": made} for made in dict.fromkeys(results.values())],
-    }
-    yield {
-        "@id": "#orchestration",
-        "@type": "OrganizeAction",
-        "name": "execution by Snakemake",
-        "instrument": {"@id": "#snakemake"},
-        "object": [{"@id": f"#control-{path}"} for path, _, _ in records],
-        "result": {"@id": "#run"},
-    }
+        results += made
+        yield _entity(
+            f"#action-{path}",
+            "CreateAction",
+            f"{step}: {output['file']}",
+            instrument=_ref(f"#tool-{step}"),
+            object=_refs(("config.yaml", *inputs)),
+            result=_refs(made),
+            subjectOf=_ref(path),
+            description="; ".join(f"{n} {v}" for n, v in record["environment"].items()),
+        )
+        yield _entity(
+            f"#control-{path}",
+            "ControlAction",
+            f"orchestrate {output['file']}",
+            instrument=_ref(f"#step-{step}"),
+            object=_ref(f"#action-{path}"),
+        )
+    yield _entity(
+        "#run",
+        "CreateAction",
+        f"run of {title}",
+        instrument=_ref(WORKFLOW),
+        object=_refs(["config.yaml"]),
+        result=_refs(dict.fromkeys(results)),
+    )
+    yield _entity(
+        "#orchestration",
+        "OrganizeAction",
+        "execution by Snakemake",
+        instrument=_ref("#snakemake"),
+        object=_refs((path for path, _, _ in records), "#control-{}"),
+        result=_ref("#run"),
+    )
 
 
 def _records(archived: Mapping[str, bytes]) -> list[tuple[str, str, Entity]]:
@@ -220,16 +185,13 @@ def _records(archived: Mapping[str, bytes]) -> list[tuple[str, str, Entity]]:
     records = []
     for path, data in archived.items():
         if "/provenance/" in path and data:
-            record = json.loads(data)
-            output, inputs, packages = (record[n] for n in ("output", "inputs", "environment"))
-            named = isinstance(output, dict) and isinstance(output.get("file"), str)
-            if (
-                named
-                and "sha256" in output
-                and isinstance(inputs, dict)
-                and isinstance(packages, dict)
-            ):
-                records.append((path, _step(output["file"]), record))
+            match record := json.loads(data):
+                case {
+                    "output": {"file": str(file), "sha256": _},
+                    "inputs": dict(),
+                    "environment": dict(),
+                }:
+                    records.append((path, _step(file), record))
     return records
 
 
@@ -242,7 +204,3 @@ def _step(file: str) -> str:
         return "sweep"
     stages = [stage for stage in STAGES if path.stem.startswith(f"{stage}_")]
     return stages[0] if stages else path.stem
-
-
-def _format(path: str) -> str:
-    return _TYPES.get(PurePosixPath(path).suffix, "text/plain")
