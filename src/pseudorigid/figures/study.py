@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from .axes.panel import Axis, Panel, corner, decades, key, log10
+from .axes.panel import Axis, Panel, corner, decades, key, log10, title
 from .axes.raster import minor
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
@@ -61,7 +61,7 @@ def work(data, which, cost):
     the right roots, if at most one root in a hundred is wrong. Heavy bars are quartiles of the
     seconds. Below is the share of wrong roots. `cost` is "evaluations" or "seconds".
     """
-    entries, notes = _families(data), [("filled: the median", style.FRAME, "o", False)]
+    entries, notes = _families(data), [("filled: the median", style.FRAME, "o")]
     if (data["wrong"].values[which] <= _MAX_WRONG_SHARE).any():
         words = f"hollow: the worst right root, if at most {100 * _MAX_WRONG_SHARE:.0f} % are wrong"
         notes.append((words, style.FRAME, "o", True))
@@ -114,13 +114,13 @@ def edges(data):
         for side, text in enumerate(sides):
             left, high = _LEFT + side * (wide + gap), top - row * 480
             up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
-            panel = Panel(sheet, (left, high - 300, left + wide, high), across, up)
+            frame = left, high - 300, left + wide, high
+            panel = Panel(sheet, frame, across, up)
             if side:
                 middle = left - gap / 2, high - 300 - 16 * POINT
                 sheet.text(*middle, name, ha="center", va="top", size=8.0)
-            title = text if side else f"Share failing, {text}"
-            sheet.text(left, high + 4 * POINT, title, ha="left", va="bottom", size=8.0)
-            for (_, color, marker, _), share in zip(methods, data[variable].values, strict=True):
+            title(sheet, frame, text if side else f"Share failing, {text}", size=8.0)
+            for (_, color, marker), share in zip(methods, data[variable].values, strict=True):
                 panel.line(x, share[side], color=color, lw=0.9)
                 panel.dots(x, share[side], color, size=2.6, marker=marker)
     key(sheet, methods, top - 920, 2)
@@ -144,7 +144,7 @@ def energy(data):
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
     entries = _methods_with_merged_scans(data)
-    for i, (_, color, marker, _) in enumerate(entries):
+    for i, (_, color, marker) in enumerate(entries):
         drift = data["drift"].values[i]
         upper.line(data["record"].values, _zero_at_end(drift, _ZERO), color=color, lw=0.9)
         end = drift[-1], max(float(data["missed"].values[i]), 0.1)
@@ -164,10 +164,9 @@ def separation(data):
     up = _axis_with_zero(_ZERO, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (_LEFT, top - 600, _RIGHT, top), across, up)
     entries = _methods_with_merged_scans(data)
-    for (_, color, _, _), distance in zip(entries, data["apart"].values, strict=True):
+    for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
         panel.line(data["impact"].values, _zero_at_end(distance, _ZERO), color=color, lw=0.9)
-    lines = [(name, color, "", False) for name, color, _, _ in dict.fromkeys(entries)]
-    key(sheet, lines, top - 740, 2)
+    key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740, 2)
     return sheet.figure
 
 
@@ -220,8 +219,7 @@ def verdicts(data):
         frame = (_LEFT, top - 420 - row * 500, _RIGHT, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
         minor(panel, across=False)
-        title = f"Wrong verdicts, {data['cells'].values[row]}"
-        sheet.text(_LEFT, frame[3] + 4 * POINT, title, ha="left", va="bottom", size=7.0)
+        title(sheet, frame, f"Wrong verdicts, {data['cells'].values[row]}")
         if row == 1:
             corner(sheet, frame, "bars: \N{PLUS-MINUS SIGN} one standard error")
         for i, name in enumerate(data["name"].values):
@@ -232,8 +230,7 @@ def verdicts(data):
             panel.line(cost, shown[0], color=color, lw=0.9)
             panel.bars(cost, *shown[1:], color=color, lw=0.6)
             panel.dots(cost, shown[0], color, marker=marker)
-    entries = [(name, *_VERDICTS[name], False) for name in data["name"].values]
-    key(sheet, entries, top - 1070, 2)
+    key(sheet, [(name, *_VERDICTS[name]) for name in data["name"].values], top - 1070, 2)
     return sheet.figure
 
 
@@ -258,27 +255,24 @@ def _zero_at_end(values, zero):
 def _families(data):
     """Return an entry of the key for each family of methods."""
     names = dict.fromkeys(data["family"].values)
-    return [(_printed_name(family), *_style(family), False) for family in names]
+    return [(_printed_name(family), *_style(family)) for family in names]
 
 
 def _methods(data):
     """Return an entry of the key for each method."""
     pairs = zip(data["name"].values, data["family"].values, strict=True)
-    return [(_printed_name(name), *_style(family, name), False) for name, family in pairs]
+    return [(_printed_name(name), *_style(family, name)) for name, family in pairs]
 
 
 def _methods_with_merged_scans(data):
     """Return an entry for each method; scans of one tolerance look alike and share theirs."""
-    entries, names, scans = _methods(data), data["name"].values.tolist(), {}
+    entries, names = _methods(data), data["name"].values.tolist()
     for i, name in enumerate(names):
-        if name.startswith("scan "):
-            scans.setdefault(name.partition(", ")[2], []).append(i)
-    for tolerance, indices in scans.items():
-        if len(indices) > 1:
-            first, last = (_scan_step(names[i]) for i in (indices[0], indices[-1]))
-            text = _printed_name(f"scan {first} to {last}, {tolerance}")
-            for i in indices:
-                entries[i] = (text, style.BLUE, "o", False)
+        tolerance = name.partition(", ")[2]
+        steps = [_scan_step(n) for n in names if re.fullmatch(rf"scan .*, {tolerance}", n)]
+        if name.startswith("scan ") and len(steps) > 1:
+            text = _printed_name(f"scan {steps[0]} to {steps[-1]}, {tolerance}")
+            entries[i] = (text, style.BLUE, "o")
     return entries
 
 

@@ -33,7 +33,7 @@ class Box:
         self.seen_from = scene["view"]
         self.view = Projection(self.spans, self.seen_from)
         self.surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
-        cells = [None, None, *entries, ("grazing rim", style.RIM, "", False)]
+        cells = [None, None, *entries, ("grazing rim", style.RIM)]
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
         self.figure = self.sheet.figure
         self._key(style.setting(scene), cells)

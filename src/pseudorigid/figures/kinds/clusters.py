@@ -37,8 +37,10 @@ def draw(scene, clusters):
         up = linear(min(0.0, _ROOM * float(np.min(shares))), most, 5, name)
         panel = _panel_by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
         _marks(panel, clusters, [values[..., i] for values in shares])
-    names = [f"cut at {style.number(float(cut))}" for cut in clusters["cut"].values]
-    entries = [(name, style.HUES[i], _MARKS[i % 4], False) for i, name in enumerate(names)]
+    entries = [
+        (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4])
+        for i, cut in enumerate(clusters["cut"].values)
+    ]
     key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
 

@@ -56,10 +56,10 @@ def _sets(panel, horseshoe):
     entries = (
         ("at the saddles", style.VERMILION, "o", False, 3.6),
         ("middle set", style.BLACK, "o", False, 3.6),
-        ("stable", style.pale(style.STABLE), "", False),
+        ("stable", style.pale(style.STABLE)),
         ("on the way out", style.BLUE, "o", False, 2.6),
         ("on the way back", style.GREEN, "o", False, 2.6),
-        ("unstable", style.pale(style.UNSTABLE), "", False),
+        ("unstable", style.pale(style.UNSTABLE)),
     )
     left, _, right, _ = panel.frame
     key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)

@@ -21,8 +21,9 @@ def draw(scene, last_curve):
     extra = 75 * -(-48 * (rows - 1) // 75)
     sheet = Sheet(style.COLUMN, 1575 + 2 * extra)
     _residues(sheet, (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), last_curve)
-    _orbits(sheet, (_LEFT, 105, _RIGHT, 760), last_curve)
-    corner(sheet, (_LEFT, 105, _RIGHT, 760), style.setting(scene))
+    below = _LEFT, 105, _RIGHT, 760
+    _orbits(sheet, below, last_curve)
+    corner(sheet, below, style.setting(scene))
     names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
     _key(sheet, names, sheet.high - 29)
     periods = last_curve["period"].values[:, -1]
@@ -31,7 +32,7 @@ def draw(scene, last_curve):
 
 
 def _key(sheet, names, top):
-    entries = [(name, hue, "o", False) for name, hue in zip(names, _HUES, strict=False)]
+    entries = [(name, hue, "o") for name, hue in zip(names, _HUES, strict=False)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 

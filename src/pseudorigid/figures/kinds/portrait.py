@@ -20,7 +20,7 @@ def draw(scene, orbits):
     sea = set(scene["sea"])
     if not sea <= set(range(len(spans))):
         raise ValueError(f"sea {sorted(sea)}: the scene has orbits 0 to {len(spans) - 1}")
-    box = Box(scene, [("chaotic orbit", style.SEA, "o", False)] if sea else [])
+    box = Box(scene, [("chaotic orbit", style.SEA, "o")] if sea else [])
     box.refuse_hidden(*(orbits[name].values for name in style.NAMES))
     regular = [index for index in range(len(spans)) if index not in sea]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}

@@ -20,9 +20,9 @@ def draw(scene, rotation):
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
     sheet = Sheet(style.COLUMN, 2025)
     entries = [
-        ("regular", style.BLUE, "o", False),
-        ("chaotic", style.SEA, "o", False),
-        ("fixed point", style.VERMILION, "o", False),
+        ("regular", style.BLUE, "o"),
+        ("chaotic", style.SEA, "o"),
+        ("fixed point", style.VERMILION, "o"),
         ("islands", style.VERMILION, "", False, 1.6),
     ]
     key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)

@@ -34,13 +34,11 @@ def _lengths(sheet, frame, spread, paper):
     low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
     across = Axis((low - 0.1, high + 0.1), tuple(range(low, high + 1)), "Length in impacts", True)
     shortest = stretches(spread, first)
-    least = float(shortest.min())
-    ticks = tuple(0.01 * (4 * i) for i in range(int(least / 0.04), 7))
-    limits = (*ticks[:1], 0.27)
-    if not (paper and least >= 0.0 and float(shortest.max()) < 0.27):
-        limits, ticks = _round_axis(shortest)
-    up = Axis(limits, ticks, "Largest exponent in the sea")
-    panel = Panel(sheet, frame, across, up)
+    axis, least = of_data(shortest), float(shortest.min())
+    if paper and least >= 0.0 and float(shortest.max()) < 0.27:
+        ticks = [0.01 * (4 * i) for i in range(int(least / 0.04), 7)]
+        axis = {"limits": (ticks[0], 0.27), "ticks": ticks}
+    panel = Panel(sheet, frame, across, Axis(**axis, name="Largest exponent in the sea"))
     if paper:
         panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
         panel.note(lengths[-1], EXPONENT, f"the paper: {EXPONENT}", ha="right", shift=(0, 5))
@@ -53,12 +51,6 @@ def _lengths(sheet, frame, spread, paper):
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
-def _round_axis(*values):
-    """Return round limits and ticks around data."""
-    axis = of_data(*values)
-    return tuple(axis["limits"]), tuple(axis["ticks"])
-
-
 def _short_runs(sheet, frame, spread, lyapunov, paper):
     """Draw the histogram of short runs, with their mean and the marked orbits."""
     marked = final_exponents(lyapunov)[:, 0]
@@ -67,16 +59,16 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
     short = block * min(max(int(lyapunov["impact"].values[-1]) // block, 1), blocks)
     runs = stretches(spread, short)
     paper = paper and short == 200_000
+    axis = of_data(runs, marked)
     if paper:
-        (low, high), ticks, bar = (0.205, 0.255), (0.21, 0.22, 0.23, 0.24, 0.25), _BAR
-    else:
-        (low, high), ticks = _round_axis(runs, marked)
-        bar = (high - low) / 50
+        axis = {"limits": (0.205, 0.255), "ticks": (0.21, 0.22, 0.23, 0.24, 0.25)}
+    low, high = axis["limits"]
+    bar = _BAR if paper else (high - low) / 50
     edges = low + bar * np.arange(round((high - low) / bar) + 1)
     share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
     room = 1.0 if paper else 1.2  # for the mean's name
     highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
-    across = Axis((low, high), ticks, f"Exponent of {short:,} impacts")
+    across = Axis(**axis, name=f"Exponent of {short:,} impacts")
     step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
     ticks = tuple(step * i for i in range(int(highest / step + 1e-9) + 1))
     panel = Panel(sheet, frame, across, Axis((0.0, highest), ticks, "Share of runs"), grid=False)

@@ -30,10 +30,10 @@ def draw(scene, orbits, manifolds, periodic):
     saddles = states_of(of_type(periodic, scene["type"]))
     count = saddles.shape[1]
     entries = [
-        ("stable", style.STABLE, "", False),
-        ("unstable", style.UNSTABLE, "", False),
-        (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o", False),
-        ("sea and islands", style.BACKDROP, "o", False),
+        ("stable", style.STABLE),
+        ("unstable", style.UNSTABLE),
+        (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o"),
+        ("sea and islands", style.BACKDROP, "o"),
         ("not followed on", style.FRAME, "o", True),
         ("sharp fold", style.FRAME, "o", False, _TIP),
     ]
