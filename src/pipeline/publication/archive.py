@@ -63,13 +63,9 @@ def write(
 ) -> str:
     """Write the archive of the tree at `root`, whole or not at all, and return its sha256.
 
-    With `packages`, files of the locked packages, it also has these and the tree's sources.
-
-    Raises
-    ------
-    ArchiveError
-        Results are missing or not current, published files are not the committed ones, or `path`
-        is a file that is no archive.
+    With `packages`, files of the locked packages, it also has these and the tree's sources. Raises
+    ArchiveError if results are missing or not current, if published files are not the committed
+    ones, or if `path` is a file that is no archive.
     """
     path = Path(path)
     if os.path.isdir(path):
@@ -132,12 +128,8 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
         archived[EXPLORER] = page.render(checked, root).encode()
     except ValueError as error:
         raise ArchiveError(str(error)) from None
-    about = _ABOUT_TEXT.read_text(encoding="utf-8")
-    about = about.format(
-        certificates=CERTIFICATES,
-        sets=", ".join(datasets),
-        packages=_WITH_PACKAGES if packages else "",
-    )
+    more, about = _WITH_PACKAGES if packages else "", _ABOUT_TEXT.read_text(encoding="utf-8")
+    about = about.format(certificates=CERTIFICATES, sets=", ".join(datasets), packages=more)
     archived[ABOUT] = about.encode()
     archived = dict(sorted(archived.items()))
     archived[crate.FILE] = crate.crate(archived)
@@ -222,7 +214,7 @@ def _is_plain(name: str) -> bool:
 def _header(name: str, size: int) -> bytes:
     """Return the tar block before a file; raise ValueError for a name or size that is too long."""
     entry = tarfile.TarInfo(f"{TOP}/{name}")
-    entry.size, entry.mode = size, _mode(name)
+    entry.size, entry.mode = size, 0o755 if name in _EXECUTABLES else 0o644
     return entry.tobuf(tarfile.USTAR_FORMAT, "utf-8", "strict")
 
 
@@ -232,10 +224,6 @@ def _short(name: str) -> str:
         stem, _, platforms = name.removesuffix(".whl").rpartition("-")
         name = f"{stem}-{platforms.partition('.')[2]}.whl"
     return name
-
-
-def _mode(name: str) -> int:
-    return 0o755 if name in _EXECUTABLES else 0o644
 
 
 def _parsed(sums: bytes) -> dict[str, str]:

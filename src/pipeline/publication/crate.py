@@ -86,7 +86,7 @@ def _entities(archived: Mapping[str, bytes]) -> Iterator[Entity]:
         "Dataset",
         title,
         description=facts["abstract"],
-        datePublished=str(facts.get("date-released", metadata.DESCRIBED)),
+        datePublished=str(facts.get("date-released", metadata.OWN["described"])),
         license=_ref(license_page),
         author=authors,
         keywords=", ".join(facts["keywords"]),

@@ -22,7 +22,6 @@ from ..records.sources import ROOT
 CITATION = "CITATION.cff"
 TO_FILL_IN = "to be filled in"
 OWN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-DESCRIBED: str = OWN["described"]
 Facts = dict[str, Any]
 
 
@@ -50,10 +49,11 @@ def missing(facts: Facts) -> list[str]:
     return [words for words, given in needed.items() if not given]
 
 
-def original(facts: Facts) -> Facts:
-    """Return the reference of the paper that is replicated."""
-    reference: Facts = facts["references"][0]
-    return reference
+def _reference(facts: Facts, between: str) -> str:
+    """Return the reference of the paper that is replicated, with its authors joined."""
+    paper = facts["references"][0]
+    authors = between.join(map(name_of, paper["authors"]))
+    return f"{authors}, {paper['title']}, {paper['journal']}"
 
 
 def name_of(author: Facts) -> str:
@@ -69,42 +69,48 @@ def addresses(facts: Facts) -> list[str]:
 
 def _codemeta(facts: Facts) -> Facts:
     project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
-    paper = original(facts)
-    made = {
-        "@context": "https://w3id.org/codemeta/3.0",
-        "@type": "SoftwareSourceCode",
-        "name": facts["title"],
-        "description": facts["abstract"],
-        "version": facts["version"],
-        "license": f"https://spdx.org/licenses/{facts['license']}",
-        "keywords": facts["keywords"],
-        "author": [_agent(author) for author in facts["authors"]],
-        "programmingLanguage": OWN["language"],
-        "runtimePlatform": f"{OWN['language']} {project['requires-python']}",
-        "operatingSystem": OWN["systems"],
-        "softwareRequirements": [
-            {"@type": "SoftwareSourceCode", "name": package} for package in project["dependencies"]
-        ],
-        "referencePublication": {
-            "@type": "ScholarlyArticle",
-            "name": paper["title"],
-            "author": [_agent(author) for author in paper["authors"]],
-            "isPartOf": {"@type": "Periodical", "name": paper["journal"]},
-        },
-        "codeRepository": facts.get("repository-code"),
-        "identifier": facts.get("doi"),
-        "datePublished": facts.get("date-released"),
-    }
-    return {key: value for key, value in made.items() if value is not None}
+    paper = facts["references"][0]
+    return _given(
+        {
+            "@context": "https://w3id.org/codemeta/3.0",
+            "@type": "SoftwareSourceCode",
+            "name": facts["title"],
+            "description": facts["abstract"],
+            "version": facts["version"],
+            "license": f"https://spdx.org/licenses/{facts['license']}",
+            "keywords": facts["keywords"],
+            "author": list(map(_agent, facts["authors"])),
+            "programmingLanguage": OWN["language"],
+            "runtimePlatform": f"{OWN['language']} {project['requires-python']}",
+            "operatingSystem": OWN["systems"],
+            "softwareRequirements": [
+                {"@type": "SoftwareSourceCode", "name": package}
+                for package in project["dependencies"]
+            ],
+            "referencePublication": {
+                "@type": "ScholarlyArticle",
+                "name": paper["title"],
+                "author": list(map(_agent, paper["authors"])),
+                "isPartOf": {"@type": "Periodical", "name": paper["journal"]},
+            },
+            "codeRepository": facts.get("repository-code"),
+            "identifier": facts.get("doi"),
+            "datePublished": facts.get("date-released"),
+        }
+    )
+
+
+def _given(facts: Facts) -> Facts:
+    """Leave out what nobody has given."""
+    return {key: value for key, value in facts.items() if value is not None}
 
 
 def _agent(author: Facts) -> Facts:
     """Return an author in the terms of schema.org."""
     if "name" in author:
         return {"@type": "Organization", "name": author["name"]}
-    made = {"@type": "Person", "@id": author.get("orcid")}
-    made |= {"givenName": author["given-names"], "familyName": author["family-names"]}
-    return {key: value for key, value in made.items() if value}
+    names = {"givenName": author["given-names"], "familyName": author["family-names"]}
+    return _given({"@type": "Person", "@id": author.get("orcid"), **names})
 
 
 def _zenodo(facts: Facts) -> Facts:
@@ -112,9 +118,7 @@ def _zenodo(facts: Facts) -> Facts:
     for author in facts["authors"]:
         name = author.get("name") or f"{author['family-names']}, {author['given-names']}"
         orcid = author.get("orcid", "").rpartition("/")[2]
-        creators.append({"name": name} | ({"orcid": orcid} if orcid else {}))
-    paper = original(facts)
-    authors = " and ".join(name_of(author) for author in paper["authors"])
+        creators.append(_given({"name": name, "orcid": orcid or None}))
     return {
         "title": facts["title"],
         "description": facts["abstract"],
@@ -124,17 +128,16 @@ def _zenodo(facts: Facts) -> Facts:
         "version": facts["version"],
         "keywords": facts["keywords"],
         "creators": creators,
-        "references": [f"{authors}, {paper['title']}, {paper['journal']}"],
+        "references": [_reference(facts, " and ")],
     }
 
 
 def _rescience(facts: Facts) -> Facts:
-    paper = original(facts)
-    authors = ", ".join(name_of(author) for author in paper["authors"])
+    paper = facts["references"][0]
+    fields = {"orcid": "orcid", "email": "email", "affiliations": "affiliation"}
     of_authors = [
-        {"name": name_of(a), "orcid": a.get("orcid", ""), "email": a.get("email", "")}
-        | {"affiliations": a.get("affiliation", "")}
-        for a in facts["authors"]
+        {"name": name_of(author)} | {name: author.get(key, "") for name, key in fields.items()}
+        for author in facts["authors"]
     ]
     repository, doi = facts.get("repository-code", ""), facts.get("doi", "")
     return {
@@ -145,7 +148,7 @@ def _rescience(facts: Facts) -> Facts:
         "code": [{"url": repository}, {"doi": doi}, {"swh": ""}],
         "data": [{"url": ""}, {"doi": doi}],
         "replication": [
-            {"cite": f"{authors}, {paper['title']}, {paper['journal']}"},
+            {"cite": _reference(facts, ", ")},
             {"bib": ""},
             {"url": paper.get("url", "")},
             {"doi": paper.get("doi", "")},
@@ -171,8 +174,7 @@ def _codecheck(facts: Facts) -> Facts:
         "paper": {
             "title": OWN["article"],
             "authors": [
-                {"name": name_of(author)}
-                | ({"ORCID": author["orcid"]} if "orcid" in author else {})
+                _given({"name": name_of(author), "ORCID": author.get("orcid")})
                 for author in facts["authors"]
             ],
             "reference": facts.get("doi", ""),
