@@ -117,8 +117,7 @@ def test_derivatives_are_those_of_differences():
         near = [[arb(value) for value in row] for row in places]
         for values, system in (
             (near[0], lambda v: events.grazing(*ball, v, bounds["halves"])),
-            (near[1], lambda v: events.doubling(*ball, v, 6, 0)),
-            (near[1], lambda v: events.doubling(*ball, v, 6, 1)),
+            (near[1], lambda v: events.doubling(*ball, v, 6)),
         ):
             rows = system(values)[1]
             for i in range(2):
@@ -179,7 +178,6 @@ def test_a_resonance_of_which_theta_is_wide_or_shifted_is_refused():
     [
         ("six-birth", "rotation", Fraction(1, 7), "period 6"),
         ("six-birth", "energies", (Fraction("0.0073"), Fraction("0.007378")), "where"),
-        ("six-elliptic-doubling", "line", 1, ""),
         ("six-elliptic-doubling", "trace", 2, "-2"),
         ("six-elliptic-doubling", "positions", (Fraction("0.3"), Fraction("0.305")), "where"),
         *(

@@ -1,7 +1,7 @@
 """Certificates: TOML files whose numbers are taken as the exact decimals written there."""
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
@@ -77,12 +77,16 @@ class Certificate:
             raise NotProvedError(f"the certificate's {name} has no rows")
         return [self._row(name, row, width) for row in rows]
 
+    def radius(self, least: Fraction) -> Fraction:
+        """Return the radius, which must be at least the statement's."""
+        size = self.number("radius")
+        if not size >= least:
+            raise NotProvedError(f"the radius is {float(size):g}, not {float(least):g} as stated")
+        return size
+
     def whole(self, name: str) -> int:
         """Return a whole number."""
-        value = self._take(name, int)
-        if isinstance(value, bool):
-            raise NotProvedError(f"the certificate's {name} is missing or of another form")
-        return value
+        return self._take(name, int)
 
     def whole_numbers(self, name: str) -> list[int]:
         """Return a list of whole numbers, which may be empty."""
@@ -102,7 +106,7 @@ class Certificate:
 
     def _take(self, name, kind):
         value = self._fields.get(name)
-        if value is None or not isinstance(value, kind):
+        if value is None or kind not in (object, type(value)):
             raise NotProvedError(f"the certificate's {name} is missing or of another form")
         return value
 
@@ -115,6 +119,29 @@ class Certificate:
         if max(abs(number.numerator), number.denominator) >= 10**MOST_DIGITS:
             raise NotProvedError(f"the certificate's {name} has more than {MOST_DIGITS} digits")
         return number
+
+
+def check_stated(
+    name: str, values: Sequence[arb], stated: Sequence[Fraction], error: Fraction
+) -> None:
+    """Check that enclosed numbers are those that a certificate states, up to an error."""
+    for value, near in zip(values, stated, strict=True):
+        if not abs(value - ball_of(near)) < ball_of(error):
+            raise NotProvedError(f"the {name} is not the stated one, near {float(near):.10g}")
+
+
+def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: arb) -> bool:
+    """Return whether a property is proved on an interval, in pieces not narrower than a width."""
+    pieces = [(low, high)]
+    while pieces:
+        low, high = pieces.pop()
+        if not low < high or holds(low.union(high)):
+            continue
+        if high - low < width:
+            return False
+        middle = ((low + high) / 2).mid()
+        pieces += [(low, middle), (middle, high)]
+    return True
 
 
 def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:

@@ -32,13 +32,8 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
         stated = certificate.number("trace_above")
         if not trace <= stated:
             raise NotProvedError(f"the trace is above {float(stated):g}, not {float(trace):g}")
-        low, high = certificate.row("theta", 2)
-        if not 0 < high - low <= CLOSE:
-            raise NotProvedError("theta is not enclosed to 1e-30")
         inertia, gravity = ball_of(k), ball_of(g)
-        ends = [ball_of(end) for end in (low, high)]
-        if not (ends[0] > 0 and ends[1] < arb.pi()):
-            raise NotProvedError("theta is not proved to lie between 0 and pi")
+        ends = theta_ends(certificate)
         below, above = (energy_at(inertia, gravity, end) for end in ends)
         if not below < ball_of(highest) < above:
             raise NotProvedError("theta is not the one of the highest energy")
@@ -52,6 +47,17 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
         digits = {"energies up to": ball_of(highest), "trace": last, "rotation number": turns}
         margins = {"slope": slope, "trace": lowest(room), "elliptic": lowest(last + 2)}
         return Finding(digits, margins)
+
+
+def theta_ends(certificate: Certificate) -> list[arb]:
+    """Return the ends of the certificate's narrow interval of theta, between 0 and pi."""
+    low, high = certificate.row("theta", 2)
+    if not 0 < high - low <= CLOSE:
+        raise NotProvedError("theta is not enclosed to 1e-30")
+    ends = [ball_of(low), ball_of(high)]
+    if not (ends[0] > 0 and ends[1] < arb.pi()):
+        raise NotProvedError("theta is not proved to lie between 0 and pi")
+    return ends
 
 
 def _steepness(k: arb, end: arb, bands: int) -> float:

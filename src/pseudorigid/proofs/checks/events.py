@@ -6,16 +6,26 @@ Newton; docs/proofs.md ("Births and ends") has the equations and what follows fr
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import partial
 
 from flint import arb, arb_mat, ctx
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.flight import Gap, UndecidedError, first_root
 from ..enclosure.jets import Jet, algebra
-from ..enclosure.surface import Surface, ball_of
+from ..enclosure.surface import Surface, ball_of, fraction_of
 from . import periodic
 from .birkhoff import normal_form
-from .certificate import Certificate, Finding, NotProvedError, box, lowest
+from .certificate import (
+    Certificate,
+    Finding,
+    NotProvedError,
+    box,
+    check_stated,
+    holds_throughout,
+    lowest,
+)
+from .ellipticity import theta_ends
 from .periodic import BITS, CLOSE
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor
@@ -40,13 +50,8 @@ def check_resonance(
     with ctx.workprec(BITS):
         certificate = Certificate(text, "resonance")
         certificate.check_ball(k, g)
-        low, high = certificate.row("theta", 2)
-        if not 0 < high - low <= CLOSE:
-            raise NotProvedError("theta is not enclosed to 1e-30")
-        inertia, gravity = _constants(k, g)
-        ends = [ball_of(end) for end in (low, high)]
-        if not (ends[0] > 0 and ends[1] < arb.pi()):
-            raise NotProvedError("theta is not proved to lie between 0 and pi")
+        inertia, gravity = ball_of(k), ball_of(g)
+        ends = theta_ends(certificate)
         wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
         above, below = (trace_at(inertia, end) - wanted for end in ends)
         theta = ends[0].union(ends[1])
@@ -54,22 +59,21 @@ def check_resonance(
         if not (above > 0 and below < 0 and slope < 0):
             raise NotProvedError("the trace is not proved to fall through the resonance's")
         energy = energy_at(inertia, gravity, theta)
-        _check_stated([energy], certificate.row("event", 1))
+        check_stated("event", [energy], certificate.row("event", 1), CLOSE)
         _check_within("energy", energy, energies)
-        bottom = _fraction(energy.lower()) - CLOSE
-        band = Surface(k, g, bottom, _fraction(energy.upper()) + CLOSE - bottom)
+        bottom = fraction_of(energy.lower()) - CLOSE
+        band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
         x = gravity / inertia * theta * theta.cot()
-        orbit = periodic.prove(band, [[_fraction(x.mid()), Fraction(0)]], _RADIUS)
+        orbit = periodic.prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
         form = normal_form(band, orbit)
-        if not form.twists[0] > 0:
+        (twist,) = form.twists
+        if not twist > 0:
             raise NotProvedError("the twist is not proved to be positive")
-        digits = {"energy": energy, "x": orbit.points[0][0], "twist": form.twists[0]}
-        margins = {
-            "slope": lowest(-slope),
-            "twist": lowest(form.twists[0]),
-            "nonresonance": lowest(form.nonresonance),
-        }
-        return Finding(digits, margins)
+        margins = {"slope": -slope, "twist": twist, "nonresonance": form.nonresonance}
+        return Finding(
+            {"energy": energy, "x": orbit.points[0][0], "twist": twist},
+            {name: lowest(margin) for name, margin in margins.items()},
+        )
 
 
 def check_doubling(
@@ -78,7 +82,6 @@ def check_doubling(
     g: Fraction,
     *,
     period: int,
-    line: int,
     trace: int,
     radius: Fraction,
     energies: Range,
@@ -87,25 +90,20 @@ def check_doubling(
     """Prove that an orbit of even period doubles its period, at one energy and position.
 
     The orbit meets y = 0 in two points, the first at the position x. Of the half orbit between
-    them, the derivative of x by x (`line` 0) or of y by y (1) vanishes, so that the trace is -2.
-    Both unknowns are alone in a square of at least the radius.
+    them, the derivative of x by x vanishes, so that the trace is -2. Both unknowns are alone in a
+    square of at least the radius.
     """
     if trace != -2 or period % 2:
         raise NotProvedError("a period doubling of an even period has the trace -2")
     with ctx.workprec(BITS):
         certificate = Certificate(text, "period doubling")
         certificate.check_ball(k, g)
-
-        def system(values):
-            return doubling(k, g, values, period, line)
-
-        energy, x = _proved(certificate, system, 2, radius)
+        energy, x = _proved(certificate, partial(doubling, k, g, period=period), 2, radius)
         _check_within("energy", energy, energies)
         _check_within("position", x, positions)
-        points = _half_orbit(k, g, energy, x, period // 2)
-        if not all(_apart(a, b) for i, a in enumerate(points) for b in points[:i]):
-            raise NotProvedError("two points may be one: the period may be shorter")
-        slope = _trace_slope(k, g, (energy, x), period, line)
+        ends = (_end(k, g, (energy, x), n, order=1) for n in range(1, period // 2 + 1))
+        periodic.check_distinct([(x, arb(0)), *((a.constant, b.constant) for a, b in ends)])
+        slope = _trace_slope(k, g, (energy, x), period)
         if not slope < 0:
             raise NotProvedError("the trace is not proved to fall through -2")
         margins = {"radius": float(certificate.number("radius")), "slope": lowest(-slope)}
@@ -136,34 +134,26 @@ def check_grazing(
     with ctx.workprec(BITS):
         certificate = Certificate(text, "grazing orbit")
         certificate.check_ball(k, g)
-
-        def system(values):
-            return grazing(k, g, values, halves)
-
+        system = partial(grazing, k, g, halves=halves)
         values = _proved(certificate, system, len(halves), radius)
         _check_within("energy", values[0], energies)
-        slopes = [_slope(grazing(k, g, values, halves, by)) for by in ("speed", "gap")]
+        slopes = [_slope(system(values, by=by)) for by in ("speed", "gap")]
         for slope, sign, name in zip(slopes, sides, ("longer", "shorter"), strict=True):
             if not sign * slope > 0:
                 where = "above" if sign > 0 else "below"
                 raise NotProvedError(f"the {name} orbit is not proved to exist {where} the energy")
-        digits = {"energy": values[0]}
-        if len(values) > 1:
-            digits["y"] = values[1]
-        digits |= {"dE/ds": slopes[0], "dE/dh": slopes[1]}
-        margins = {
-            "radius": float(certificate.number("radius")),
-            **{name: lowest(abs(s)) for name, s in zip(("dE/ds", "dE/dh"), slopes, strict=True)},
-        }
-        return Finding(digits, margins)
+        named_slopes = dict(zip(("dE/ds", "dE/dh"), slopes, strict=True))
+        margins = {name: lowest(abs(slope)) for name, slope in named_slopes.items()}
+        return Finding(
+            dict(zip(("energy", "y"), values, strict=False)) | named_slopes,
+            {"radius": float(certificate.number("radius"))} | margins,
+        )
 
 
 def _proved(certificate: Certificate, system: System, unknowns: int, radius: Fraction) -> list[arb]:
     """Prove that a system has one zero in the certificate's box, and enclose it narrowly."""
-    centre, size = certificate.row("event", unknowns), certificate.number("radius")
-    if not size >= radius:
-        raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
-    values = box(centre, size + CLOSE)
+    centre = certificate.row("event", unknowns)
+    values = box(centre, certificate.radius(radius) + CLOSE)
     try:
         image = newton(system, values)
         if not all(o.contains_interior(i) for i, o in zip(image, values, strict=True)):
@@ -173,15 +163,8 @@ def _proved(certificate: Certificate, system: System, unknowns: int, radius: Fra
             image = newton(system, values)
     except (UndecidedError, ZeroDivisionError) as error:
         raise NotProvedError(f"the box around the event: {error}") from None
-    _check_stated(values, centre)
+    check_stated("event", values, centre, CLOSE)
     return values
-
-
-def _check_stated(values: Sequence[arb], event: Sequence[Fraction]) -> None:
-    """Check that enclosures are those of a certificate's event."""
-    for value, stated in zip(values, event, strict=True):
-        if not abs(value - ball_of(stated)) < ball_of(CLOSE):
-            raise NotProvedError(f"the event is not the stated one, near {float(stated):.10g}")
 
 
 def newton(system: System, values: Sequence[arb]) -> list[arb]:
@@ -202,31 +185,11 @@ def _slope(result: tuple[list[arb], list[list[arb]]]) -> arb:
     return -matrix.solve(arb_mat([[row[n]] for row in result[1]]), algorithm="precond")[0, 0]
 
 
-def _constants(k: Fraction, g: Fraction) -> tuple[arb, arb]:
-    """Return k and g in balls."""
-    return Surface(k, g, Fraction(0)).constants()[:2]
-
-
 def _check_within(name: str, value: arb, limits: Range) -> None:
     """Check that an enclosed quantity lies between exact limits."""
     low, high = limits
     if not ball_of(low) < value < ball_of(high):
         raise NotProvedError(f"the {name} is not proved to lie where the statement says")
-
-
-def _fraction(value: arb) -> Fraction:
-    """Return an exact arb as a Fraction."""
-    mantissa, exponent = value.man_exp()
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
-def _variables(values: Sequence[arb], order: int, more: int = 0) -> list[Jet]:
-    """Return jets of variables around values, and of `more` variables around exact zeros."""
-    series = algebra(len(values) + more, order)
-    jets = [Jet.constant_of(series, value) for value in [*values, *[arb(0)] * more]]
-    for i, jet in enumerate(jets, 1):
-        jet.coefficients[i] = arb(1)
-    return jets
 
 
 def _launch(k: arb, x: Jet, v: Jet, w: Jet, s: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -252,8 +215,8 @@ def grazing(
     ends with y = 0 before an impact, or at the apex of a flight with U' = 0. `by` is "speed", the
     contact speed s of the impact, or "gap", by which the flight misses the floor.
     """
-    inertia, gravity = _constants(k, g)
-    jets = _variables(values, 1, more=1)
+    inertia, gravity = ball_of(k), ball_of(g)
+    jets = Jet.series(algebra(len(values) + 1, 1), *values, arb(0))
     energy, unfold, zero = jets[0], jets[-1], 0 * jets[-1]
     speed = unfold if by == "speed" else zero
     gap = unfold if by == "gap" else zero
@@ -300,23 +263,16 @@ def _check_clear(gap: Gap, until: arb) -> None:
         first = first / 2
     else:
         raise UndecidedError("the impact may be grazing")
-    pieces = [(first.lower(), until)]
-    while pieces:
-        low, high = pieces.pop()
-        if not low < high or gap.derivatives(low.union(high))[0] < 0:
-            continue
-        if high - low < until / 10**6:
-            raise UndecidedError("an impact may come before the apex")
-        middle = ((low + high) / 2).mid()
-        pieces += [(low, middle), (middle, high)]
+    if not holds_throughout(lambda t: gap.height(t) < 0, first.lower(), until, until / 10**6):
+        raise UndecidedError("an impact may come before the apex")
 
 
 def _end(
     k: Fraction, g: Fraction, values: Sequence[arb], impacts: int, order: int
 ) -> tuple[Jet, Jet]:
     """Return (x, y) after some impacts from (x, 0), as jets in E, x and y."""
-    inertia, gravity = _constants(k, g)
-    energy, x, y = _variables(values, order, more=1)
+    inertia, gravity = ball_of(k), ball_of(g)
+    energy, x, y = Jet.series(algebra(3, order), *values, arb(0))
     square = (1 + inertia) * (2 * energy + x * (2 * gravity - inertia * x)) - y * y
     if not square.constant > 0:
         raise UndecidedError("a point is not proved to lie inside the section's rim")
@@ -328,31 +284,16 @@ def _end(
 
 
 def doubling(
-    k: Fraction, g: Fraction, values: Sequence[arb], period: int, line: int
+    k: Fraction, g: Fraction, values: Sequence[arb], period: int
 ) -> tuple[list[arb], list[list[arb]]]:
-    """Return y after half a period, the half orbit's entry, and both derivatives by E and x."""
+    """Return y and dx/dx after half a period, and the derivatives of both by E and x."""
     x, y = _end(k, g, values, period // 2, order=2)
-    along = (0, 1, 0) if line == 0 else (0, 0, 1)
-    jet = x if line == 0 else y
-    by_energy = jet[1, along[1], along[2]]
-    by_x = 2 * jet[0, 2, 0] if line == 0 else jet[0, 1, 1]
-    return [y.constant, jet[along]], [[y[1, 0, 0], y[0, 1, 0]], [by_energy, by_x]]
+    slopes = [[y[1, 0, 0], y[0, 1, 0]], [x[1, 1, 0], 2 * x[0, 2, 0]]]
+    return [y.constant, x[0, 1, 0]], slopes
 
 
-def _trace_slope(k: Fraction, g: Fraction, values: Sequence[arb], period: int, line: int) -> arb:
-    """Return the derivative by E, along the family, of the trace 4 A D - 2 where A or D is 0."""
-    x, y = _end(k, g, values, period // 2, order=1)
-    other = y[0, 0, 1] if line == 0 else x[0, 1, 0]
-    (_, _), ((h_energy, h_x), (by_energy, by_x)) = doubling(k, g, values, period, line)
-    return 4 * other * (by_energy - by_x * h_energy / h_x)
-
-
-def _half_orbit(k: Fraction, g: Fraction, energy: arb, x: arb, impacts: int) -> list[tuple]:
-    """Return the points (x, y) from the first to the second one on y = 0."""
-    ends = (_end(k, g, (energy, x), n, order=1) for n in range(1, impacts + 1))
-    return [(x, arb(0)), *((a.constant, b.constant) for a, b in ends)]
-
-
-def _apart(first: Sequence[arb], last: Sequence[arb]) -> bool:
-    """Return whether two enclosed points are proved to differ."""
-    return not all(a.overlaps(b) for a, b in zip(first, last, strict=True))
+def _trace_slope(k: Fraction, g: Fraction, values: Sequence[arb], period: int) -> arb:
+    """Return the derivative by E, along the family, of the trace 4 A D - 2 where A = dx/dx = 0."""
+    _, y = _end(k, g, values, period // 2, order=1)
+    _, ((y_energy, y_x), (by_energy, by_x)) = doubling(k, g, values, period)
+    return 4 * y[0, 0, 1] * (by_energy - by_x * y_energy / y_x)

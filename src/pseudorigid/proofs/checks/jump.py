@@ -6,6 +6,7 @@ docs/proofs.md ("Jumps") has the arguments.
 """
 
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 
 from flint import arb, ctx, fmpq, fmpq_poly
@@ -13,7 +14,14 @@ from flint import arb, ctx, fmpq, fmpq_poly
 from ..enclosure.flight import Gap, UndecidedError, fly
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import (
+    Certificate,
+    Finding,
+    NotProvedError,
+    check_stated,
+    holds_throughout,
+    lowest,
+)
 from .hsets import HSet
 
 BITS = 192  # twice what points to 1e-28 need
@@ -50,11 +58,8 @@ def check(
             raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
         digits = {}
         for name, point in points.items():
-            stated = certificate.row(name.replace(" ", "_"), 2)
-            for axis, value, near in zip("xy", point, stated, strict=True):
-                if not abs(value - ball_of(near)) < ball_of(size):
-                    raise NotProvedError(f"the {name} is not within the radius of the stated one")
-                digits[f"{name} {axis}"] = value
+            check_stated(name, point, certificate.row(name.replace(" ", "_"), 2), size)
+            digits |= {f"{name} x": point[0], f"{name} y": point[1]}
         images = zip(points["near image"], points["far image"], strict=True)
         apart = max(lowest(abs(near - far) - ball_of(jump)) for near, far in images)
         if not apart > 0:
@@ -213,15 +218,8 @@ def _check_no_second_touch(surface: Surface) -> None:
     x = _rim_x(surface, xdot)
     if not -(g + x) < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt()):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
-    intervals = [(low, high)]
-    while intervals:
-        low, high = intervals.pop()
-        if _lands(surface, low.union(high)):
-            continue
-        if high - low < fastest / 10**5:
-            raise NotProvedError("a flight from the rim may touch the floor a second time")
-        middle = ((low + high) / 2).mid()
-        intervals += [(low, middle), (middle, high)]
+    if not holds_throughout(partial(_lands, surface), low, high, fastest / 10**5):
+        raise NotProvedError("a flight from the rim may touch the floor a second time")
 
 
 def _lands(surface: Surface, xdot: arb) -> bool:

@@ -18,6 +18,7 @@ from math import comb, factorial
 
 from flint import arb, ctx
 
+from ..enclosure.fixed_point import energy_at
 from ..enclosure.jets import Jet, algebra, algebra_with_parameter
 from ..enclosure.surface import ball_of
 from .certificate import Certificate, Finding, NotProvedError, lowest
@@ -29,6 +30,7 @@ _PARAMETER_ORDER = 5  # of the remainder of its Taylor polynomials in theta
 _TERMS = 60  # of a power series, at arguments below 5
 _MORE = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
 
+PLACES = {"zero": 1, "resonance": 0}  # of the functions in what `over_band` returns
 Field = dict[tuple[int, int], Jet]  # powers of xi and eta -> coefficient, a series in theta
 
 
@@ -57,27 +59,13 @@ def check(
         edges = [theta for (theta,) in certificate.numbers("edges", 1)]
         _check_edges(k, g, edges, energy)
         digits = {"energies up to": ball_of(energy)}
-        places = ((1, "zero", zero), (0, "resonance", resonance))  # in what `over_band` returns
-        for place, name, bounds in places:
-            digits[name] = _energy_of(certificate.row(name, 2), k, g, place, bounds, name)
-        thirds, stages = [], {name: [] for _, name, _ in places}
-        for ends in pairwise(edges):
-            *pairs, third = over_band(k, g, *ends)
-            thirds.append(lowest(third))
-            for place, name, _ in places:
-                stages[name].append(_stage(*pairs[place], name))
-        margins = {"third resonance": min(thirds)}
-        margins |= {name: _falls_once(rows, name) for name, rows in stages.items()}
+        for name, bounds in (("zero", zero), ("resonance", resonance)):
+            digits[name] = _energy_of(certificate.row(name, 2), k, g, bounds, name)
+        bands = [over_band(k, g, *ends) for ends in pairwise(edges)]
+        margins = {"third resonance": min(lowest(third) for *_, third in bands)}
+        for name, place in PLACES.items():
+            margins[name] = _falls_once([_stage(*band[place], name) for band in bands], name)
         return Finding(digits, margins)
-
-
-def energy_at(k: Fraction, g: Fraction, theta: arb) -> arb:
-    """Return the energy at which the fixed point's flight lasts 2 theta, theta below pi."""
-    inertia, gravity = ball_of(k), ball_of(g)
-    divided = _one_minus_theta_cot(Jet.constant_of(algebra(1, 0), theta)).constant
-    one_minus_theta_cot = theta * theta * divided
-    square = (1 + inertia) * theta * theta + one_minus_theta_cot * one_minus_theta_cot - 1
-    return gravity * gravity / (2 * inertia) * square
 
 
 def over_band(
@@ -113,7 +101,7 @@ def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fracti
     if edges[0] != 0 or not all(a < b for a, b in pairwise(edges)):
         raise NotProvedError("the bands' edges do not rise from theta = 0")
     last = ball_of(edges[-1])
-    if not (last < arb.pi() and energy_at(k, g, last) > ball_of(energy)):
+    if not (last < arb.pi() and energy_at(ball_of(k), ball_of(g), last) > ball_of(energy)):
         raise NotProvedError("the bands are not proved to reach the statement's energy")
 
 
@@ -142,15 +130,16 @@ def _falls_once(stages: Sequence[tuple[int, float]], name: str) -> float:
     return min(margin for _, margin in stages)
 
 
-def _energy_of(row: list[Fraction], k, g, place: int, bounds, name: str) -> arb:
+def _energy_of(row: list[Fraction], k, g, bounds, name: str) -> arb:
     """Prove that a zero lies between two theta, and its energy between the bounds."""
     low, high = row
     if not 0 < low < high < Fraction("2.5"):
         raise NotProvedError(f"the certificate's {name} is no interval of theta")
-    signs = [over_band(k, g, theta, theta)[place][0] for theta in row]
+    signs = [over_band(k, g, theta, theta)[PLACES[name]][0] for theta in row]
     if not signs[0] > 0 > signs[1]:
         raise NotProvedError(f"the {name} is not proved to lie between the certificate's theta")
-    energy = energy_at(k, g, ball_of(low)).union(energy_at(k, g, ball_of(high)))
+    ends = (energy_at(ball_of(k), ball_of(g), ball_of(theta)) for theta in row)
+    energy = arb.union(*ends)
     if not ball_of(bounds[0]) < energy < ball_of(bounds[1]):
         raise NotProvedError(f"the {name} is not proved to lie between the statement's energies")
     return energy

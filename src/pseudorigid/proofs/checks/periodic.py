@@ -14,7 +14,7 @@ from flint import arb, arb_mat, ctx
 
 from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Impact, Surface, ball_of
-from .certificate import Certificate, Finding, NotProvedError, box, lowest
+from .certificate import Certificate, Finding, NotProvedError, box, check_stated, lowest
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
@@ -25,24 +25,13 @@ Points = Sequence[Sequence[arb]]  # (x, y) of each
 
 @dataclass(frozen=True)
 class Orbit:
-    """An enclosed periodic orbit.
+    """An enclosed periodic orbit."""
 
-    Attributes
-    ----------
-    points, impacts : tuple
-        The points (x, y = xdot - k udot), and the Impact after each.
-    matrix : arb_mat
-        The product of DP along the orbit, from the first point.
-    type : {"elliptic", "hyperbolic", "inverse hyperbolic"}
-    radius : Fraction
-        Of the boxes around the centres in which it is the only orbit.
-    """
-
-    points: tuple[tuple[arb, arb], ...]
-    impacts: tuple[Impact, ...]
-    matrix: arb_mat
-    type: str
-    radius: Fraction
+    points: tuple[tuple[arb, arb], ...]  # (x, y = xdot - k udot)
+    impacts: tuple[Impact, ...]  # after each point
+    matrix: arb_mat  # the product of DP along the orbit, from the first point
+    type: str  # "elliptic", "hyperbolic" or "inverse hyperbolic"
+    radius: Fraction  # of the boxes around the centres in which it is the only orbit
 
     @property
     def trace(self) -> arb:
@@ -102,18 +91,14 @@ def prove_stated(
     than the certificate's by CLOSE, so that they contain the stated boxes around the orbit's own
     points. Raises NotProvedError.
     """
-    centres, size = certificate.numbers("points", 2), certificate.number("radius")
+    centres, size = certificate.numbers("points", 2), certificate.radius(radius)
     if len(centres) != period:
         raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-    if not size >= radius:
-        raise NotProvedError(f"the radius is {float(size):g}, not {float(radius):g} as stated")
     orbit = prove(surface, centres, size + CLOSE)
     if orbit.type != type:
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
     for point, centre in zip(orbit.points, centres, strict=True):
-        for value, stated in zip(point, centre, strict=True):
-            if not abs(value - ball_of(stated)) < ball_of(CLOSE):
-                raise NotProvedError(f"a point of the orbit is not the stated {float(stated):.10g}")
+        check_stated("orbit's point", point, centre, CLOSE)
     check_window(surface, orbit, window)
     return replace(orbit, radius=size)
 
@@ -134,10 +119,15 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
         orbit = enclose(surface, _narrow(surface, image), radius)
     except (UndecidedError, ZeroDivisionError) as error:
         raise NotProvedError(f"the boxes around the orbit: {error}") from None
-    for first, second in combinations(orbit.points, 2):
+    check_distinct(orbit.points)
+    return orbit
+
+
+def check_distinct(points: Points) -> None:
+    """Check that no two of some enclosed points may be one."""
+    for first, second in combinations(points, 2):
         if all(a.overlaps(b) for a, b in zip(first, second, strict=True)):
             raise NotProvedError("two points may be one: the period may be shorter")
-    return orbit
 
 
 def prove_saddles(

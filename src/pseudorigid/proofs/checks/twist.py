@@ -9,10 +9,10 @@ from fractions import Fraction
 
 from flint import ctx
 
-from ..enclosure.surface import Surface, ball_of
+from ..enclosure.surface import Surface
 from . import periodic
 from .birkhoff import NormalForm, normal_form
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, NotProvedError, check_stated, lowest
 
 CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
@@ -20,12 +20,8 @@ CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist
 def check(text: str, surface: Surface, **bounds) -> Finding:
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
-    The bounds are those of `periodic.prove_stated`. The twist is in radians per unit of the action.
-
-    References
-    ----------
-    Moser, Nachr. Akad. Wiss. Goettingen (1962); Siegel and Moser, Lectures on Celestial Mechanics,
-    sections 32-34.
+    The bounds are those of `periodic.prove_stated`. The twist is in radians per unit of the action
+    (Siegel and Moser, Lectures on Celestial Mechanics, sections 32-34).
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "twist", surface)
@@ -33,8 +29,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
         form = normal_form(surface, orbit)
         (twist,) = form.twists
         stated = certificate.number("twist")
-        if not abs(twist - ball_of(stated)) < ball_of(CLOSE * abs(stated)):
-            raise NotProvedError(f"the twist is not the stated {float(stated):.10g}")
+        check_stated("twist", [twist], [stated], CLOSE * abs(stated))
         if not abs(twist) > 0:
             raise NotProvedError("the twist may be zero")
         margins = {"twist": lowest(abs(twist)), "nonresonance": lowest(form.nonresonance)}
@@ -47,11 +42,8 @@ def check_zero(
     """Prove that the fixed point's twist changes from positive to negative in a band of energies.
 
     The fixed point must be the only one within the radius, and `width` is the largest width of the
-    certificate's band. The digits are the band, and the second twist over it.
-
-    References
-    ----------
-    Dullin, Meiss and Sterling, Generic twistless bifurcations, Nonlinearity 13 (2000).
+    certificate's band. The digits are the band, and the second twist over it (Dullin, Meiss and
+    Sterling, Generic twistless bifurcations, Nonlinearity 13, 2000).
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "zero of the twist")
@@ -62,9 +54,9 @@ def check_zero(
                 f"the band is {float(band):g} wide, not {float(width):g} as stated"
             )
         periodic.prove_stated(certificate, low, period=1, type="elliptic", radius=radius)
-        centres, size = certificate.numbers("points", 2), certificate.number("radius")
         between = Surface(k, g, low.energy, band)
-        forms = falling_twist(between, centres, size, order=5)
+        centres = certificate.numbers("points", 2)
+        forms = falling_twist(between, centres, certificate.number("radius"), order=5)
         second = forms[2].twists[1]
         if not second < 0:
             raise NotProvedError("the second twist is not proved to be negative in the band")

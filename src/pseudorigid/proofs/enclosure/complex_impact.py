@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 from flint import acb, arb
 
-from .flight import Gap, UndecidedError
+from .flight import Gap, UndecidedError, expand
 from .jets import Jet
 from .surface import Surface
 
 _ATTEMPTS = 8  # at a set that contains its Newton image, each one wider
+_LEAST_RADIUS = arb(2) ** -40  # of a set, before it is made wider
 _WIDER = 1.2  # factor between the Newton image and the next set that is tried
 _REFINEMENTS = 3
 
@@ -132,16 +133,8 @@ def point_root(gap: Gap, root: Root) -> acb:
 
 def impact(surface: Surface, x: acb | Jet, y: acb | Jet, root: acb) -> tuple:
     """Return the next impact's x and y, or their jets, from the root of every point of a box."""
-    gap = gap_at(surface, x, y)
-    k = surface.constants()[0]
-    tau = root
-    if isinstance(x, Jet):
-        tau, order = Jet.constant_of(x.algebra, root), 0
-        while order < x.algebra.order:  # as flight.first_root does
-            height, slope = gap.height_and_slope(tau)
-            height.coefficients[0] = acb(0)
-            tau = tau - height / slope
-            order = 2 * order + 1
+    gap, k = gap_at(surface, x, y), surface.constants()[0]
+    tau = expand(gap, root) if isinstance(x, Jet) else root
     sine, cosine = tau.sin_cos()
     b = -gap.s - gap.c
     after = x * cosine - gap.c * sine
@@ -155,9 +148,5 @@ def _intersection(a: acb, b: acb) -> acb:
 
 def _wider(value: acb) -> acb:
     """Return a set around another one."""
-    least = arb(2) ** -40
-    parts = [
-        arb(part.mid(), ((part.rad() + least) * _WIDER).upper())
-        for part in (value.real, value.imag)
-    ]
-    return acb(*parts)
+    parts = value.real, value.imag
+    return acb(*(arb(a.mid(), ((a.rad() + _LEAST_RADIUS) * _WIDER).upper()) for a in parts))

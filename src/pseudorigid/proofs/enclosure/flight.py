@@ -8,7 +8,7 @@ parabolas that lie above f, as docs/proofs.md explains ("The map over a ball").
 import math
 from dataclasses import dataclass
 
-from flint import arb, ctx
+from flint import acb, arb, ctx
 
 from .jets import Jet
 
@@ -40,31 +40,26 @@ class Gap:
     def derivatives(self, t: arb | Jet) -> tuple:
         """f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
-        versine, x, c = 1 - cosine, self.x, self.c
-        height, slope = self._height(t, sine, versine), self._slope(t, sine, versine)
-        return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
+        x, c = self.x, self.c
+        first_two = self._height_and_slope(t, sine, cosine)
+        return *first_two, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
     def height_and_slope(self, t: arb | Jet) -> tuple:
         """f and f' at t."""
-        sine, cosine = t.sin_cos()
-        versine = 1 - cosine
-        return self._height(t, sine, versine), self._slope(t, sine, versine)
+        return self._height_and_slope(t, *t.sin_cos())
 
     def height(self, t: arb | Jet) -> arb | Jet:
         """f at t."""
-        sine, cosine = t.sin_cos()
-        return self._height(t, sine, 1 - cosine)
+        return self.height_and_slope(t)[0]
 
     def slope(self, t: arb | Jet) -> arb | Jet:
         """f' at t."""
-        sine, cosine = t.sin_cos()
-        return self._slope(t, sine, 1 - cosine)
+        return self.height_and_slope(t)[1]
 
-    def _height(self, t, sine, versine):
-        return t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
-
-    def _slope(self, t, sine, versine):
-        return self.g * t - self.s - self.c * versine + self.x * sine
+    def _height_and_slope(self, t, sine, cosine):
+        versine = 1 - cosine
+        height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
+        return height, self.g * t - self.s - self.c * versine + self.x * sine
 
     def rounded(self) -> "Gap":
         """The same flights in balls of the context's precision."""
@@ -100,7 +95,7 @@ def first_root(
     """
     gap = Gap(x, c, s, g)
     if isinstance(x, Jet):
-        return _expand(gap, first_root(x.constant, c.constant, s.constant, g, start))
+        return expand(gap, first_root(x.constant, c.constant, s.constant, g, start))
     return _refine(gap, *_isolate(gap, start))
 
 
@@ -142,12 +137,12 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
     return root
 
 
-def _expand(gap: Gap, root: arb) -> Jet:
-    """Expand the root in a series: Newton steps on jets, whose constant term solves f = 0."""
+def expand(gap: Gap, root: arb | acb) -> Jet:
+    """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
     time, order = Jet.constant_of(gap.x.algebra, root), 0
     while order < gap.x.algebra.order:
         height, slope = gap.height_and_slope(time)
-        height.coefficients[0] = arb(0)
+        height.coefficients[0] = 0 * root
         time = time - height / slope
         order = 2 * order + 1
     return time

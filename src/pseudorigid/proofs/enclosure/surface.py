@@ -48,6 +48,12 @@ def ball_of(fraction: Fraction) -> arb:
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
 
+def fraction_of(value: arb) -> Fraction:
+    """Return the midpoint of a ball, which is exact, as a Fraction."""
+    mantissa, exponent = value.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
 class Impact(NamedTuple):
     """The next impact of a point: its x and y, the time of flight tau, and s = xdot + udot."""
 

@@ -1,6 +1,7 @@
 """Formatting of certificates as text."""
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 from flint import arb
 
@@ -8,11 +9,16 @@ from ..enclosure.surface import Surface
 
 
 def header(kind: str, surface: Surface) -> str:
-    """Return the first lines of a certificate."""
+    """Return the first lines of a certificate at one energy."""
+    return ball_header(kind, surface.k, surface.g) + f'energy = "{surface.energy}"\n'
+
+
+def ball_header(kind: str, k: Fraction, g: Fraction) -> str:
+    """Return the first lines of a certificate at more than one energy."""
     return (
         "# Proposed by a search in floating point; "
         "every number is meant as the exact decimal that it is.\n"
-        f'kind = "{kind}"\nk = "{surface.k}"\ng = "{surface.g}"\nenergy = "{surface.energy}"\n'
+        f'kind = "{kind}"\nk = "{k}"\ng = "{g}"\n'
     )
 
 
@@ -20,6 +26,11 @@ def decimal(value: arb, digits: int) -> str:
     """Format the midpoint of a ball with this many significant digits."""
     text = value.mid().str(digits, radius=False)
     return text if "." in text or "e" in text else text + ".0"
+
+
+def fixed(value: Fraction, decimals: int) -> str:
+    """Format a number with this many decimals."""
+    return f"{round(value * 10**decimals)}e-{decimals}"
 
 
 def row(values: Iterable[arb], digits: int) -> str:

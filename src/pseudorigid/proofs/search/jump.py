@@ -6,7 +6,7 @@ from flint import ctx
 
 from ..checks.jump import BITS, stated_points
 from ..enclosure.surface import Surface, ball_of
-from .certificate_text import header, row
+from .certificate_text import ball_header, header, row
 
 _DIGITS = 30  # points are to be good to 1e-28
 
@@ -24,10 +24,7 @@ def propose(surface: Surface, speed: str, radius: str) -> str:
     return header("jump set", surface) + f"radius = {radius}\nspeed = {speed}\n" + "".join(lines)
 
 
-def propose_smooth(k: Fraction, g: Fraction) -> str:
-    """Return the certificate that no flight touches the floor at low energies."""
-    threshold = g * g * (1 + k / 2)
-    return (
-        f'kind = "no touch"\nk = "{k}"\ng = "{g}"\n'
-        f'energy_below = "{threshold}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'
-    )
+def propose_smooth(k: Fraction, g: Fraction, energy: Fraction) -> str:
+    """Return the certificate that no flight touches the floor below an energy."""
+    fields = f'energy_below = "{energy}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'
+    return ball_header("no touch", k, g) + fields

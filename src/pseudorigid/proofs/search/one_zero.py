@@ -5,33 +5,36 @@ from fractions import Fraction
 from flint import ctx
 
 from ..checks.certificate import NotProvedError
-from ..checks.one_zero import BITS, energy_at, over_band
+from ..checks.one_zero import BITS, PLACES, over_band
+from ..enclosure.fixed_point import energy_at
 from ..enclosure.surface import ball_of
+from .certificate_text import ball_header, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]
 _LAST = Fraction("2.4")  # theta beyond which no band is tried
 _DECIMALS = 22  # of theta at a zero
 
 
-def propose(k: Fraction, g: Fraction, energy: Fraction) -> str:
+def propose(k: Fraction, g: Fraction, *, energy: Fraction, **_: object) -> str:
     """Return a certificate of the bands of theta up to an energy.
 
     Each band is the widest of a list over which the signs are decided. Raises ValueError where
     there is none.
     """
     with ctx.workprec(BITS):
-        edges, zeros = [Fraction(0)], {}
-        while not energy_at(k, g, ball_of(edges[-1])) > ball_of(energy):
+        edges = [Fraction(0)]
+        while not energy_at(ball_of(k), ball_of(g), ball_of(edges[-1])) > ball_of(energy):
             edges.append(edges[-1] + _widest(k, g, edges[-1]))
-        for place, name in ((1, "zero"), (0, "resonance")):
-            zeros[name] = _bisected(k, g, place, edges[1], edges[-1])
-    lines = [
-        'kind = "one zero of the twist"', f'k = "{k}"', f'g = "{g}"',
-        f'energy_up_to = "{energy}"',
-        *(f"{name} = [{', '.join(_decimal(a) for a in row)}]" for name, row in zeros.items()),
-        "edges = [", *(f"  [{float(edge):.3f}]," for edge in edges), "]",
-    ]  # fmt: skip
-    return "\n".join(lines) + "\n"
+        zeros = {
+            name: _bisected(k, g, place, edges[1], edges[-1]) for name, place in PLACES.items()
+        }
+    return (
+        ball_header("one zero of the twist", k, g)
+        + f'energy_up_to = "{energy}"\n'
+        + "".join(f"{name} = [{fixed(a, _DECIMALS)}, {fixed(b, _DECIMALS)}]\n"
+                  for name, (a, b) in zeros.items())
+        + rows("edges", (f"[{float(edge):.3f}]" for edge in edges))
+    )  # fmt: skip
 
 
 def _widest(k: Fraction, g: Fraction, low: Fraction) -> Fraction:
@@ -58,8 +61,3 @@ def _bisected(k: Fraction, g: Fraction, place: int, low: Fraction, high: Fractio
         else:
             high = middle
     return [low, high]
-
-
-def _decimal(value: Fraction) -> str:
-    digits = f"{int(value * 10**_DECIMALS):0{_DECIMALS + 1}d}"
-    return f'"{digits[:-_DECIMALS]}.{digits[-_DECIMALS:]}"'

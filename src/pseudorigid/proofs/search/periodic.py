@@ -9,7 +9,7 @@ from flint import arb, ctx
 
 from ..checks.periodic import newton_image
 from ..enclosure.surface import Surface
-from .certificate_text import header, row, rows
+from .certificate_text import ball_header, header, row, rows
 
 BITS = 160
 DIGITS = 36  # the checker compares thirty of them with the orbit
@@ -60,7 +60,5 @@ def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -
 def propose_only_fixed_point(k: Fraction, g: Fraction, energy: Fraction) -> str:
     """Return the certificate that there is one fixed point at each energy up to this one."""
     theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
-    return (
-        f'kind = "only fixed point"\nk = "{k}"\ng = "{g}"\n'
-        f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
-    )
+    fields = f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
+    return ball_header("only fixed point", k, g) + fields

@@ -17,20 +17,13 @@ _LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was t
 Impacts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def prove_impacts(
-    k: Exact,
-    g: Exact,
-    before: np.ndarray,
-    after: np.ndarray,
-    tau: np.ndarray,
-    name: str = "impacts",
-) -> Result:
+def prove_impacts(k: Exact, g: Exact, *impacts: np.ndarray, name: str = "impacts") -> Result:
     """Prove that each of many impacts is the first one; arguments as for `impact_errors`.
 
-    The Result has the margin worst error.
+    The impacts are `before`, `after` and `tau`. The Result has the margin worst error.
     """
     begin = time.perf_counter()
-    errors = impact_errors(k, g, before, after, tau)
+    errors = impact_errors(k, g, *impacts)
     worst, reason = float(np.max(errors, initial=0.0)), ""
     if not errors.size:
         reason = "there are no impacts"

@@ -1,6 +1,8 @@
 """Proofs on request: of symmetric orbits, horseshoes on these, and invariant curves."""
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
 
@@ -57,11 +59,9 @@ def prove_orbit(
     name = f"the {kind} orbit of period {len(points)} at {surface}"
     bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
     theorem = Theorem(name, name, periodic.check, bounds)
-    try:
+    with _reported(name):
         text = orbit_search.propose(surface, points, theorem.holds_for_any_radius)
         return theorem.prove(text).parts["orbit"]
-    except (NotProvedError, ArithmeticError) as error:
-        raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
 def prove_horseshoe(
@@ -99,22 +99,14 @@ def prove_horseshoe(
     surface, points, kind = _request(ball, orbit, energy)
     if kind != "hyperbolic":
         raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
-    bounds = {
-        "surface": surface,
-        "period": len(points),
-        "radius": prove_orbit(ball, orbit, energy).radius,
-        "window": None,
-        "crossing": None,
-        "entropy": Fraction(0),
-    }
+    radius = prove_orbit(ball, orbit, energy).radius
+    bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
     name = f"the horseshoe at {surface}"
     theorem = Theorem(name, name, horseshoe.check, bounds)
-    try:
+    with _reported(name):
         sign = 1 if side == "outer" else -1
         text = horseshoe_search.search(surface, points, sign, theorem.prove)
         return text, theorem.prove(text)
-    except (NotProvedError, ValueError, ArithmeticError) as error:
-        raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
 def prove_curve(
@@ -168,15 +160,19 @@ def prove_curve(
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
     surface = Surface(k, g, exact_energy)
     name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
-    bounds = {
-        "surface": surface, "period": 1, "radius": Fraction(0), "window": None, "rotation": None,
-        "share": Fraction(0), "error": Fraction(1),
-    }  # fmt: skip
-    theorem = Theorem(name, name, curve.check, bounds)
-    try:
+    bounds = {"radius": Fraction(0), "share": Fraction(0), "error": Fraction(1)}
+    theorem = Theorem(name, name, curve.check, bounds | {"surface": surface, "period": 1})
+    with _reported(name):
         quotients = curve_search.quotients_near(rotation)
         points = approximate_orbits.points(surface, 1, "elliptic")
         return curve_search.search(surface, points, quotients, theorem.prove)
+
+
+@contextmanager
+def _reported(name: str) -> Iterator[None]:
+    """Raise ValueError, with the name of what was to be proved, where a proof fails."""
+    try:
+        yield
     except (NotProvedError, ValueError, ArithmeticError) as error:
         raise ValueError(f"{name} cannot be proved: {error}") from None
 

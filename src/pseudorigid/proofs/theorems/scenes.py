@@ -8,7 +8,7 @@ import xarray as xr
 from flint import arb, ctx
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import ENERGY, LENGTH, SPEED, described, of_type
+from ...dynamics.variables import ENERGY, LENGTH, SPEED, of_type
 from ..checks import horseshoe
 from ..checks.birkhoff import normal_form
 from ..checks.certificate import NotProvedError
@@ -20,6 +20,7 @@ from ..search import approximate_orbits
 from ..search.twist import bisect_zero
 from .requests import prove_horseshoe
 from .statements import THEOREMS
+from .tables import corners, dataset, doubles, surface_of
 
 _EDGE_POINTS = 33  # along each edge of a set whose image is drawn
 _RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at every energy
@@ -30,40 +31,12 @@ def scene_horseshoe(
 ) -> xr.Dataset:
     """Prove a horseshoe on an orbit, by one of its connections, and tabulate its sets.
 
-    The certificate is that of the theorem about this connection, if there is one; otherwise it is
-    searched.
+    The certificate is that of the theorem about this connection, "outer" or "inner", if there is
+    one; otherwise it is searched. The variable chain is the index along the chain, from -K to K,
+    NaN at the saddles. The image is that of the set before the middle one, in units of the middle
+    one's half widths, its two exit edges first. ValueError is raised if there is no such orbit, or
+    `prove_horseshoe` cannot prove the horseshoe.
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        This, k and g are taken as the decimals that they print as.
-    periodic : xarray.Dataset
-        Orbits of this period, as from `symmetric_orbits`.
-    period : int
-    type : {"hyperbolic"}
-    connection : {"outer", "inner"}
-
-    Returns
-    -------
-    xarray.Dataset
-        x, y (set): centres; corner_x, corner_y (set, corner): around each; chain (set): the index
-        along the chain, from -K to K, NaN at the saddles; image_p, image_q (edge, point): the image
-        of the set before the middle one, in units of the middle one's half widths, its two exit
-        edges first.
-
-    Raises
-    ------
-    ValueError
-        There is no such orbit, or `prove_horseshoe` cannot prove the horseshoe.
-
-    References
-    ----------
-    Kanso and Papadopoulos, section 4.1: "a formal proof of the existence of such a set is currently
-    unavailable".
-
-    Examples
-    --------
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.3, g=0.02)
     >>> five = symmetric_orbits(ball, 0.002, 5)
@@ -71,7 +44,7 @@ def scene_horseshoe(
     4
     """
     orbit = of_type(periodic, type, period)
-    surface = Surface(*_exact(ball.k, ball.g, energy))
+    surface = surface_of(ball, energy)
     theorem = THEOREMS[f"horseshoe-{connection}"]
     if (surface, period) == (theorem.bounds["surface"], theorem.bounds["period"]):
         finding = theorem.prove(theorem.text())
@@ -81,27 +54,21 @@ def scene_horseshoe(
     sets, steps = [*saddles, *chain], len(chain) // 2
     index = [np.nan] * len(saddles) + [float(n) for n in range(-steps, steps + 1)]
     with ctx.workprec(horseshoe.BITS):
-        signs = [(1, 1), (1, -1), (-1, -1), (-1, 1)]
-        corners = _doubles([[hset.box(arb(p), arb(q)) for p, q in signs] for hset in sets])
-        image = _doubles(_image_of_edges(surface, *chain[steps - 1 : steps + 1]))
-        centres = _doubles([hset.centre for hset in sets])
+        corner_x, corner_y = corners(sets)
+        image = doubles(_image_of_edges(surface, *chain[steps - 1 : steps + 1]))
+        x, y = doubles([hset.centre for hset in sets]).T
     corner, edge = ("set", "corner"), ("edge", "point")
     across = "image of a set, across the next one's"
-    data = {
-        "x": ("set", centres[:, 0], "centre of the set, position at impact", LENGTH),
-        "y": ("set", centres[:, 1], "centre of the set, y = xdot - k udot", SPEED),
+    table = {
+        "x": ("set", x, "centre of the set, position at impact", LENGTH),
+        "y": ("set", y, "centre of the set, y = xdot - k udot", SPEED),
         "chain": ("set", np.array(index), "index along the chain; NaN at the saddles"),
-        "corner_x": (corner, corners[:, :, 0], "corners of the set, x", LENGTH),
-        "corner_y": (corner, corners[:, :, 1], "corners of the set, y", SPEED),
+        "corner_x": (corner, corner_x, "corners of the set, x", LENGTH),
+        "corner_y": (corner, corner_y, "corners of the set, y", SPEED),
         "image_p": (edge, image[:, :, 0], f"{across} expanding direction"),
         "image_q": (edge, image[:, :, 1], f"{across} contracting direction"),
     }
-    return _dataset(data, surface)
-
-
-def _doubles(balls: list) -> np.ndarray:
-    """Round nested lists of balls to an array of doubles."""
-    return np.array(balls, dtype=object).astype(float)
+    return dataset(table, surface)
 
 
 def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list:
@@ -118,39 +85,17 @@ def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list:
 def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     """Prove and tabulate twists of the elliptic fixed point at some energies.
 
-    Parameters
-    ----------
-    ball : Ball
-        Its k and g are taken as the decimals that they print as.
-    energy : float
-        Not used.
-    energies : list of float
-        In rising order, taken as the decimals that they print as. The fixed point must be elliptic
-        there, and no power of its multiplier up to the fourth be 1.
+    The argument `energy` is not used. The `energies` rise, the fixed point must be elliptic there,
+    and no power of its multiplier up to the fourth be 1; else ValueError is raised. `zero` is the
+    middle of a band of width 1e-13 in which the twist is proved to fall through zero, NaN without
+    one between two of the energies.
 
-    Returns
-    -------
-    xarray.Dataset
-        energy, twist (energy) and zero, the middle of a band of width 1e-13 in which the twist is
-        proved to fall through zero, NaN without one between two of the energies.
-
-    Raises
-    ------
-    ValueError
-        The twist is not proved at one of the energies.
-
-    References
-    ----------
-    Kanso and Papadopoulos, section 4.2 and section 5, of KAM theory for the islands.
-
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> twist = scene_twist(Ball(k=0.3, g=0.02), 0.002, [0.001, 0.002])["twist"].values
     >>> bool(twist[0] > twist[1] > 0)
     True
     """
-    surfaces = [Surface(*_exact(ball.k, ball.g, energy)) for energy in energies]
+    surfaces = [surface_of(ball, energy) for energy in energies]
     twists, points = [], []
     for surface in surfaces:
         try:
@@ -169,12 +114,12 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     with ctx.workprec(64):
         axis = np.array([float(ball_of(surface.energy)) for surface in surfaces])
     zero = next((zero for zero in zeros if zero is not None), float("nan"))
-    data = {
+    table = {
         "energy": ("energy", axis, "total energy", ENERGY),
         "twist": ("energy", np.array(twists), "twist of the elliptic fixed point", "1/(omega R^2)"),
         "zero": ((), zero, "energy at which the twist vanishes", ENERGY),
     }
-    return _dataset(data, surfaces[0])
+    return dataset(table, surfaces[0])
 
 
 def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None:
@@ -187,12 +132,3 @@ def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None
         except (NotProvedError, ArithmeticError):
             return None
         return float(band.constants()[2])
-
-
-def _exact(*values: float) -> list[Fraction]:
-    """Convert floats to the decimals that they print as."""
-    return [Fraction(str(value)) for value in values]
-
-
-def _dataset(variables: dict, surface: Surface) -> xr.Dataset:
-    return xr.Dataset(described(variables), attrs={"k": float(surface.k), "g": float(surface.g)})

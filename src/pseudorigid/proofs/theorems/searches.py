@@ -1,6 +1,7 @@
 """The search for a certificate of each theorem, by the theorem's checker."""
 
 from fractions import Fraction
+from functools import partial
 
 from ..checks import (
     curve,
@@ -73,10 +74,6 @@ def _zero(theorem) -> str:
     return twist_search.propose_zero(*ball, *_ZERO, start, theorem.holds_for_any_radius)
 
 
-def _one_zero(theorem) -> str:
-    return one_zero_search.propose(*(theorem.bounds[name] for name in ("k", "g", "energy")))
-
-
 def _horseshoe(theorem) -> str:
     near = _near(theorem, "hyperbolic")
     if theorem.name in _PLANS:
@@ -92,26 +89,9 @@ def _curve(theorem) -> str:
     return curve_search.propose(surface, points, quotients, strips, error=error, **bounds)
 
 
-def _doubling(theorem) -> str:
+def _event(propose, theorem) -> str:
     near = _EVENTS[theorem.name]
-    return event_search.propose_doubling(near, theorem.holds_for_any_radius, **theorem.bounds)
-
-
-def _grazing(theorem) -> str:
-    near = _EVENTS[theorem.name]
-    return event_search.propose_grazing(near, theorem.holds_for_any_radius, **theorem.bounds)
-
-
-def _graph(theorem) -> str:
-    return graph_search.propose(theorem.bounds["surface"], _GRAPHS[theorem.name])
-
-
-def _no_circle(theorem) -> str:
-    return circle_search.propose(*_near(theorem, "hyperbolic"), **_JUMP_CROSSING)
-
-
-def _jump(theorem) -> str:
-    return jump_search.propose(theorem.bounds["surface"], _SPEED, _JUMP_RADIUS)
+    return propose(near, theorem.holds_for_any_radius, **theorem.bounds)
 
 
 SEARCHES = {
@@ -119,15 +99,15 @@ SEARCHES = {
     periodic.check_only_fixed_point: lambda it: orbit_search.propose_only_fixed_point(**it.bounds),
     ellipticity.check: lambda it: ellipticity_search.propose(**it.bounds),
     events.check_resonance: lambda it: event_search.propose_resonance(**it.bounds),
-    events.check_doubling: _doubling,
-    events.check_grazing: _grazing,
+    events.check_doubling: partial(_event, event_search.propose_doubling),
+    events.check_grazing: partial(_event, event_search.propose_grazing),
     twist.check: _twist,
     twist.check_zero: _zero,
-    one_zero.check: _one_zero,
+    one_zero.check: lambda it: one_zero_search.propose(**it.bounds),
     horseshoe.check: _horseshoe,
-    graph.check: _graph,
-    no_circle.check: _no_circle,
+    graph.check: lambda it: graph_search.propose(it.bounds["surface"], _GRAPHS[it.name]),
+    no_circle.check: lambda it: circle_search.propose(*_near(it, "hyperbolic"), **_JUMP_CROSSING),
     curve.check: _curve,
-    jump.check: _jump,
-    jump.check_smooth: lambda it: jump_search.propose_smooth(it.bounds["k"], it.bounds["g"]),
+    jump.check: lambda it: jump_search.propose(it.bounds["surface"], _SPEED, _JUMP_RADIUS),
+    jump.check_smooth: lambda it: jump_search.propose_smooth(**it.bounds),
 }

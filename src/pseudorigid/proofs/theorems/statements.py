@@ -29,8 +29,9 @@ from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import Window
 from ..enclosure.surface import Surface
 
-K, G = (Fraction(str(paper.BALL[name])) for name in "kg")
-HIGH, LOW = Surface(K, G, "1/100"), Surface(K, G, "1/1000")
+BALL = {name: Fraction(str(paper.BALL[name])) for name in "kg"}
+HIGH, LOW = Surface(**BALL, energy="1/100"), Surface(**BALL, energy="1/1000")
+LIMIT = BALL["k"] / 2 - BALL["g"]  # of the energy, eq. (31)
 MOST_DIGITS = 30  # of an enclosure as text: as many as certificates state
 
 
@@ -88,18 +89,16 @@ class Theorem:
 
     def check(self, text: str | None = None) -> Result:
         """Return the verdict on a certificate, by default the package's own."""
-        begin = time.perf_counter()
-        digits, margins, reason = {}, {}, ""
+        begin, finding, reason = time.perf_counter(), Finding(), ""
         try:
             finding = self.prove(self.text() if text is None else text)
-            digits = {name: value.str(MOST_DIGITS) for name, value in finding.digits.items()}
-            margins = finding.margins
         except FileNotFoundError:
             reason = "there is no such certificate"
         except NotProvedError as error:
             reason = " ".join(str(error).split()) or "no reason is given"
-        seconds = time.perf_counter() - begin
-        return Result(self.name, self.statement, self.certificate, reason, digits, margins, seconds)
+        digits = {name: value.str(MOST_DIGITS) for name, value in finding.digits.items()}
+        about = self.name, self.statement, self.certificate, reason
+        return Result(*about, digits, finding.margins, time.perf_counter() - begin)
 
     def holds_for_any_radius(self, text: str) -> bool:
         """Whether the checker accepts a certificate whatever radius it claims."""
@@ -139,91 +138,24 @@ def search_certificate(name: str) -> str:
     return SEARCHES[theorem.checker](theorem)
 
 
+Range = tuple[Fraction, Fraction]
+
+
+def _between(low: str, high: str) -> Range:
+    return Fraction(low), Fraction(high)
+
+
+def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
+    return _between(x_low, x_high), _between(xdot_low, xdot_high)
+
+
 def _region(window: Window) -> str:
     """Format a window as inequalities of x and xdot."""
     sides = zip(("x", "xdot"), window, strict=True)
     return " and ".join(f"{float(a):g} < {name} < {float(b):g}" for name, (a, b) in sides)
 
 
-def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
-    return (Fraction(x_low), Fraction(x_high)), (Fraction(xdot_low), Fraction(xdot_high))
-
-
 _FIGURE_6 = _window(*(str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]))
-
-
-def _existence(name: str, orbit: dict) -> Theorem:
-    """State that an orbit exists, is the only one near its points, and has one in the window."""
-    kind = orbit["type"]
-    article = "an" if kind[0] in "ei" else "a"
-    statement = (
-        f"at E = {orbit['surface'].energy} there is {article} {kind} orbit of period "
-        f"{orbit['period']} with a point in {_region(orbit['window'])}; no other of this period "
-        f"has its points, in order, within {float(orbit['radius']):g} of these in x and in y"
-    )
-    return Theorem(name, statement, periodic.check, orbit)
-
-
-def _invariant_curves(name: str, orbit: dict) -> Theorem:
-    """State that invariant curves surround an elliptic orbit."""
-    period = orbit["period"]
-    kind, power = (
-        ("fixed point", "P") if period == 1 else (f"orbit of period {period}", f"P^{period}")
-    )
-    statement = (
-        f"at E = {orbit['surface'].energy} closed curves, invariant under {power}, surround the "
-        f"elliptic {kind} with a point in {_region(orbit['window'])} in each of its "
-        "neighbourhoods: it is stable for all time, and they fill a positive area"
-    )
-    bounds = {bound: value for bound, value in orbit.items() if bound != "type"}
-    return Theorem(name, statement, twist.check, bounds)
-
-
-def _horseshoe(orbit: dict, name: str, side: str, low: str, high: str, entropy: str) -> Theorem:
-    """State that there is a horseshoe whose connection passes y = 0 between two x."""
-    statement = (
-        f"at E = {orbit['surface'].energy} the hyperbolic orbit of period {orbit['period']} with a "
-        f"point in {_region(orbit['window'])} has a transversal connection, {side}, that passes "
-        f"y = 0 at {low} < x < {high}, and P has a uniformly hyperbolic invariant set that "
-        f"contains both, conjugate to a mixing subshift of entropy above {entropy}"
-    )
-    bounds = {"crossing": (Fraction(low), Fraction(high)), "entropy": Fraction(entropy)}
-    return Theorem(f"horseshoe-{name}", statement, horseshoe.check, orbit | bounds)
-
-
-def _entropy(name: str, surface: Surface, entropy: str) -> Theorem:
-    """State that the topological entropy is above a number, in nats per impact."""
-    statement = (
-        f"at E = {surface.energy} P has a compact invariant set, on a neighbourhood of which it is "
-        f"analytic, with topological entropy above {entropy}"
-    )
-    bounds = {"surface": surface, "entropy": Fraction(entropy)}
-    return Theorem(name, statement, graph.check, bounds)
-
-
-def _curve(name: str, orbit: dict, rotation: tuple[str, str], share: str) -> Theorem:
-    """State that an invariant curve encloses a share of the section."""
-    period = orbit["period"]
-    power, point, discs = ("P", "the elliptic fixed point", "the disc inside")
-    if period > 1:
-        power, point = f"P^{period}", f"a point of the elliptic orbit of period {period}"
-        discs = "the disc inside and its images, which are disjoint"
-    low, high = rotation
-    statement = (
-        f"at E = {orbit['surface'].energy} there is an analytic curve, invariant under {power}, "
-        f"around {point} with a point in {_region(orbit['window'])}; on it {power} is conjugate to "
-        f"a rotation by omega clockwise, {low} < omega < {high}; it encloses more than {share} of "
-        f"the section, and no orbit ever enters or leaves {discs}"
-    )
-    bounds = {bound: value for bound, value in orbit.items() if bound != "type"}
-    bounds |= {
-        "rotation": (Fraction(low), Fraction(high)),
-        "share": Fraction(share),
-        "error": Fraction("1e-36"),
-    }
-    return Theorem(name, statement, curve.check, bounds)
-
-
 _ORBITS = {
     name: dict(surface=surface, period=period, type=kind, radius=Fraction(radius), window=window)
     for name, surface, period, kind, radius, window in (
@@ -243,6 +175,75 @@ _ORBITS = {
 }  # fmt: skip
 
 
+def _existence(name: str, orbit: dict) -> Theorem:
+    """State that an orbit exists, is the only one near its points, and has one in the window."""
+    kind = orbit["type"]
+    article = "an" if kind[0] in "ei" else "a"
+    statement = (
+        f"at E = {orbit['surface'].energy} there is {article} {kind} orbit of period "
+        f"{orbit['period']} with a point in {_region(orbit['window'])}; no other of this period "
+        f"has its points, in order, within {float(orbit['radius']):g} of these in x and in y"
+    )
+    return Theorem(name, statement, periodic.check, orbit)
+
+
+def _invariant_curves(name: str, orbit: str) -> Theorem:
+    """State that invariant curves surround an elliptic orbit."""
+    bounds, power, point = _elliptic(orbit)
+    kind = f"orbit of period {bounds['period']}" if bounds["period"] > 1 else "fixed point"
+    statement = (
+        f"at E = {bounds['surface'].energy} closed curves, invariant under {power}, surround the "
+        f"elliptic {kind} with {point} in each of its neighbourhoods: it is stable for all time, "
+        "and they fill a positive area"
+    )
+    return Theorem(name, statement, twist.check, bounds)
+
+
+def _elliptic(name: str) -> tuple[dict, str, str]:
+    """Return the bounds of an elliptic orbit, its return map, and which point it has."""
+    bounds = {bound: value for bound, value in _ORBITS[name].items() if bound != "type"}
+    power = f"P^{bounds['period']}" if bounds["period"] > 1 else "P"
+    return bounds, power, f"a point in {_region(bounds['window'])}"
+
+
+def _curve(name: str, orbit: str, low: str, high: str, share: str) -> Theorem:
+    """State that an invariant curve encloses a share of the section."""
+    bounds, power, point = _elliptic(orbit)
+    around, discs = "the elliptic fixed point", "the disc inside"
+    if bounds["period"] > 1:
+        around = f"a point of the elliptic orbit of period {bounds['period']}"
+        discs = "the disc inside and its images, which are disjoint"
+    statement = (
+        f"at E = {bounds['surface'].energy} there is an analytic curve, invariant under {power}, "
+        f"around {around} with {point}; on it {power} is conjugate to a rotation by omega "
+        f"clockwise, {low} < omega < {high}; it encloses more than {share} of the section, and no "
+        f"orbit ever enters or leaves {discs}"
+    )
+    bounds |= {"rotation": _between(low, high), "share": Fraction(share)}
+    return Theorem(name, statement, curve.check, bounds | {"error": Fraction("1e-36")})
+
+
+def _horseshoe(orbit: dict, name: str, side: str, low: str, high: str, entropy: str) -> Theorem:
+    """State that there is a horseshoe whose connection passes y = 0 between two x."""
+    statement = (
+        f"at E = {orbit['surface'].energy} the hyperbolic orbit of period {orbit['period']} with a "
+        f"point in {_region(orbit['window'])} has a transversal connection, {side}, that passes "
+        f"y = 0 at {low} < x < {high}, and P has a uniformly hyperbolic invariant set that "
+        f"contains both, conjugate to a mixing subshift of entropy above {entropy}"
+    )
+    bounds = {"crossing": _between(low, high), "entropy": Fraction(entropy)}
+    return Theorem(f"horseshoe-{name}", statement, horseshoe.check, orbit | bounds)
+
+
+def _entropy(name: str, surface: Surface, entropy: str) -> Theorem:
+    """State that the topological entropy is above a number, in nats per impact."""
+    statement = (
+        f"at E = {surface.energy} P has a compact invariant set, on a neighbourhood of which it is "
+        f"analytic, with topological entropy above {entropy}"
+    )
+    return Theorem(name, statement, graph.check, dict(surface=surface, entropy=Fraction(entropy)))
+
+
 def _grazing(
     name: str, text: str, halves: tuple, periods: tuple[int, int], sides: tuple[int, int],
     radius: str, low: str, high: str,
@@ -257,22 +258,11 @@ def _grazing(
         f"there meet a family of symmetric orbits of {longer}, with an impact whose contact speed "
         f"tends to zero, and one without it, of {shorter}"
     )
-    bounds = {
-        "k": K, "g": G, "halves": halves, "periods": periods, "sides": sides,
-        "radius": Fraction(radius), "energies": (Fraction(low), Fraction(high)),
-    }  # fmt: skip
-    return Theorem(name, statement, events.check_grazing, bounds)
+    bounds = dict(halves=halves, periods=periods, sides=sides, radius=Fraction(radius))
+    bounds |= {"energies": _between(low, high)}
+    return Theorem(name, statement, events.check_grazing, BALL | bounds)
 
 
-_BIRTH = {
-    "k": K, "g": G, "rotation": Fraction("1/6"), "period": 6,
-    "energies": (Fraction("0.007378"), Fraction("0.007379")),
-}  # fmt: skip
-_DOUBLING = {
-    "k": K, "g": G, "period": 6, "line": 0, "radius": Fraction("2e-10"), "trace": -2,
-    "energies": (Fraction("0.010825"), Fraction("0.010826")),
-    "positions": (Fraction("0.305"), Fraction("0.306")),
-}  # fmt: skip
 _EVENTS = (
     Theorem(
         "six-birth",
@@ -280,7 +270,9 @@ _EVENTS = (
         "twist is positive there, and near the point, at energies just above and at none just "
         "below, there are two symmetric orbits of period 6, of which one meets y = 0",
         events.check_resonance,
-        _BIRTH,
+        BALL | dict(
+            rotation=Fraction("1/6"), period=6, energies=_between("0.007378", "0.007379")
+        ),
     ),
     Theorem(
         "six-elliptic-doubling",
@@ -288,7 +280,10 @@ _EVENTS = (
         "0.305 < x < 0.306, a symmetric orbit of period 6 meets y = 0 at x, and of its half orbit "
         "the derivative of x by x vanishes; along its family the trace falls through -2 as E rises",
         events.check_doubling,
-        _DOUBLING,
+        BALL | dict(
+            period=6, trace=-2, radius=Fraction("2e-10"),
+            energies=_between("0.010825", "0.010826"), positions=_between("0.305", "0.306"),
+        ),
     ),
     _grazing(
         "six-elliptic-end",
@@ -309,14 +304,14 @@ _EVENTS = (
 )  # fmt: skip
 _SADDLES = {"surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6}
 _SMOOTH_SADDLES = {
-    "surface": Surface(K, G, "3/2000"), "period": 14, "radius": Fraction("1e-6"),
+    "surface": Surface(**BALL, energy="3/2000"), "period": 14, "radius": Fraction("1e-6"),
     "window": _window("0.3821", "0.3822", "0.0384", "0.0385"),
 }  # fmt: skip
 _JUMPS = {
     "surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
     "jump": Fraction("0.27"),
 }  # fmt: skip
-_THRESHOLD = G * G * (1 + K / 2)
+_THRESHOLD = BALL["g"] ** 2 * (1 + BALL["k"] / 2)
 _TRACE = Fraction("-0.46")  # below the fixed point's at the highest energy
 _THEOREMS = (
     *(_existence(name, orbit) for name, orbit in _ORBITS.items()),
@@ -325,7 +320,7 @@ _THEOREMS = (
         "at each energy above the least, -g^2/(2k), up to k/2 - g, eq. (31), the map has exactly "
         "one fixed point",
         periodic.check_only_fixed_point,
-        {"k": K, "g": G, "energy": K / 2 - G},
+        BALL | {"energy": LIMIT},
     ),
     Theorem(
         "fixed-point-elliptic",
@@ -333,14 +328,14 @@ _THEOREMS = (
         "is elliptic; as E rises its trace falls strictly, to a value above "
         f"{float(_TRACE):g}, and its rotation number rises strictly from its limit zero",
         ellipticity.check,
-        {"k": K, "g": G, "energy": K / 2 - G, "trace": _TRACE},
+        BALL | {"energy": LIMIT, "trace": _TRACE},
     ),
     *_EVENTS,
     _horseshoe(_SADDLES, "outer", "outer", "0.326", "0.327", "0.0185"),
     _horseshoe(_SADDLES, "inner", "inner", "0.187", "0.188", "0.0083"),
     _horseshoe(_SMOOTH_SADDLES, "smooth", "outer", "0.3895", "0.3896", "0.0128"),
     _entropy("entropy", HIGH, "0.136"),
-    _entropy("entropy-lower", Surface(K, G, "1/200"), "0.05"),
+    _entropy("entropy-lower", Surface(**BALL, energy="1/200"), "0.05"),
     Theorem(
         "no-circle",
         f"at E = {HIGH.energy} the unstable manifold of the hyperbolic orbit of period 6 with a "
@@ -349,15 +344,15 @@ _THEOREMS = (
         no_circle.check,
         _SADDLES,
     ),
-    _invariant_curves("twist-fixed-point", _ORBITS["fixed-point"]),
-    _invariant_curves("twist-fixed-point-low", _ORBITS["fixed-point-low"]),
-    _invariant_curves("twist-six", _ORBITS["six-elliptic"]),
-    _invariant_curves("twist-ten", _ORBITS["ten-elliptic"]),
-    _invariant_curves("twist-twelve", _ORBITS["twelve-elliptic"]),
-    _curve("curve-fixed-point", _ORBITS["fixed-point"], ("0.1729", "0.173"), "0.117"),
-    _curve("curve-fixed-point-outer", _ORBITS["fixed-point"], ("0.1703", "0.1704"), "0.15"),
-    _curve("curve-six", _ORBITS["six-elliptic"], ("0.827", "0.8271"), "0.0011"),
-    _curve("curve-fixed-point-low", _ORBITS["fixed-point-low"], ("0.1039", "0.104"), "0.327"),
+    _invariant_curves("twist-fixed-point", "fixed-point"),
+    _invariant_curves("twist-fixed-point-low", "fixed-point-low"),
+    _invariant_curves("twist-six", "six-elliptic"),
+    _invariant_curves("twist-ten", "ten-elliptic"),
+    _invariant_curves("twist-twelve", "twelve-elliptic"),
+    _curve("curve-fixed-point", "fixed-point", "0.1729", "0.173", "0.117"),
+    _curve("curve-fixed-point-outer", "fixed-point", "0.1703", "0.1704", "0.15"),
+    _curve("curve-six", "six-elliptic", "0.827", "0.8271", "0.0011"),
+    _curve("curve-fixed-point-low", "fixed-point-low", "0.1039", "0.104", "0.327"),
     Theorem(
         "twist-zero",
         "as E rises through the band below, the fixed point's twist changes from positive to "
@@ -365,7 +360,7 @@ _THEOREMS = (
         "the normal form, truncated after it, has a circle without shear that shrinks into the "
         "point",
         twist.check_zero,
-        {"k": K, "g": G, "radius": Fraction("2e-3"), "width": Fraction("1e-13")},
+        BALL | {"radius": Fraction("2e-3"), "width": Fraction("1e-13")},
     ),
     Theorem(
         "twist-one-zero",
@@ -376,12 +371,11 @@ _THEOREMS = (
         "closed invariant curves surround the fixed point in each of its neighbourhoods, and it is "
         "stable for all time",
         one_zero.check,
-        {
-            "k": K,
-            "g": G,
-            "energy": K / 2 - G,
-            "zero": (Fraction("0.0291977581389"), Fraction("0.0291977581390")),
-            "resonance": (Fraction("0.0373951"), Fraction("0.0373952")),
+        BALL
+        | {
+            "energy": LIMIT,
+            "zero": _between("0.0291977581389", "0.0291977581390"),
+            "resonance": _between("0.0373951", "0.0373952"),
         },
     ),
     Theorem(
@@ -398,7 +392,7 @@ _THEOREMS = (
         f"at every E below g^2 (1 + k/2) = {float(_THRESHOLD):g} P is analytic on the "
         "open disk of the section, with the analytic inverse R P R",
         jump.check_smooth,
-        {"k": K, "g": G, "energy": _THRESHOLD},
+        BALL | {"energy": _THRESHOLD},
     ),
 )
 THEOREMS = {theorem.name: theorem for theorem in _THEOREMS}
