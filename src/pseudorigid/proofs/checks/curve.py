@@ -5,9 +5,10 @@ used here. For an orbit of period n the curves K_0 ... K_(n-1) around its points
 T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from functools import reduce
+from typing import NamedTuple
 
 from flint import acb, arb, ctx
 
@@ -40,27 +41,22 @@ _LAYERS = 8  # of the first pieces of the disc, from the centre outwards
 _COLUMNS_OF_PIECE = 8  # of the first pieces of the disc, around the curve
 
 Curve = tuple[list[acb], list[acb]]  # Fourier coefficients of x and of y
+Point = tuple[arb, arb]
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """Bounds for every curve near K, and on the map near it; max norms.
+class Bounds(NamedTuple):
+    """Bounds for every curve near K, and on the map near it; max norms."""
 
-    `tangent`, `normal` and `twist` are of |L|, |N| and |T|, `torsion` is a lower bound of |<T>|,
-    `first` and `second` are of |DP| and |D^2 P|. `image` is of |P(K)| and |K| on the wide strip.
-    """
-
-    tangent: arb
-    normal: arb
-    twist: arb
-    torsion: arb
-    first: arb
-    second: arb
-    image: arb
+    tangent: arb  # of |L|
+    normal: arb  # of |N|
+    twist: arb  # of |T|
+    torsion: arb  # a lower bound of |<T>|
+    first: arb  # of |DP|
+    second: arb  # of |D^2 P|
+    image: arb  # of |P(K)| and |K| on the wide strip
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(NamedTuple):
     """Numbers of a certificate: the strips, the cells and rows, and what each step loses."""
 
     strip: arb
@@ -78,10 +74,10 @@ def check(
     *,
     period: int,
     radius: Fraction,
-    window: Window | None,
-    rotation: tuple[Fraction, Fraction] | None,
     share: Fraction,
     error: Fraction,
+    window: Window | None = None,
+    rotation: tuple[Fraction, Fraction] | None = None,
 ) -> Finding:
     """Prove a certificate's invariant curve around the first point of an elliptic orbit.
 
@@ -97,8 +93,8 @@ def check(
             certificate, surface, period=period, type="elliptic", radius=radius, window=window
         )
     with ctx.workprec(BITS):
-        centres = [[ball_of(a) for a in row] for row in certificate.numbers("points", 2)]
-        omega, gamma = noble(*_quotients(certificate))
+        centres = [tuple(map(ball_of, row)) for row in certificate.numbers("points", 2)]
+        omega, gamma = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
         if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
             raise NotProvedError("the rotation number is not in the statement's interval")
         stated_error, stated_share = certificate.number("error"), certificate.number("share")
@@ -126,7 +122,7 @@ def check(
         margins, distance, slope = _theorem(ball_of(stated_error), bounds, gamma, period, plan.loss)
         area = _area(first)
         area = arb(area.mid(), area.rad() + (distance * (2 * bounds.tangent + slope)).upper())
-        part = area / _section(surface)
+        part = area / surface.area()
         if not part > ball_of(stated_share):
             raise NotProvedError(
                 f"the curve is not proved to enclose {float(stated_share):g} of the section"
@@ -136,18 +132,13 @@ def check(
         for curve, centre in zip(curves, centres, strict=True):
             _check_winding(curve, centre, plan.columns)
             polygons.append(_polygon(curve, centre, plan.columns))
-        _check_disjoint(curves, plan.columns)
-        discs = [_Disc(*pair, plan.columns) for pair in zip(curves, centres, strict=True)]
-        for disc in discs:
-            disc.check(surface)
+        all_boxes = [_real_cells(curve, plan.columns) for curve in curves]
+        _check_disjoint(all_boxes)
+        for boxes, centre in zip(all_boxes, centres, strict=True):
+            _check_disc(surface, boxes, centre)
     digits = {"rotation number": omega, "area": area, "share": part, "distance": distance.upper()}
     parts = dict(orbit=orbit, polygons=polygons, curve=first, omega=omega, area=area)
     return Finding(digits, margins, parts)
-
-
-def _quotients(certificate: Certificate) -> tuple[list[int], list[int]]:
-    """Return the partial quotients of the rotation number, and those that repeat."""
-    return certificate.whole_numbers("quotients"), certificate.whole_numbers("repeating")
 
 
 def _plan(certificate: Certificate) -> Plan:
@@ -160,10 +151,8 @@ def _plan(certificate: Certificate) -> Plan:
         raise NotProvedError("the certificate's rows or more_rows are out of range")
     if not 6 * loss < strip:
         raise NotProvedError("the strip is too narrow: its half width is at most 6 times the loss")
-    height = ball_of(strip) / rows
-    return Plan(
-        ball_of(strip), height * (rows + more), ball_of(loss), height, columns, rows, rows + more
-    )
+    height, every = ball_of(strip) / rows, rows + more
+    return Plan(ball_of(strip), height * every, ball_of(loss), height, columns, rows, every)
 
 
 def _first_curve(certificate: Certificate) -> Curve:
@@ -184,6 +173,11 @@ def _highest(plan: Plan, modes: int) -> int:
         return max(modes, int(float(17 / (plan.wide - plan.strip))))
 
 
+def _points(curve: Curve, count: int, offset: arb | int = 0) -> list[Point]:
+    """Return the real points of a curve at t = (j + offset)/count."""
+    return list(zip(*(real_values(row, count, offset) for row in curve), strict=True))
+
+
 def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int):
     """Return all curves, and the discrete Fourier coefficients of P(K_i) - K_(i+1).
 
@@ -192,18 +186,17 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
     modes = len(first[0]) - 1
     curves, errors = [first], []
     for i in range(period):
-        points = zip(*(real_values(row, count) for row in curves[i]), strict=True)
-        images = [surface.impact(x, y)[:2] for x, y in points]
-        waves = [transform([image[r] for image in images], count // 2) for r in (0, 1)]
+        images = [surface.impact(*point)[:2] for point in _points(curves[i], count)]
+        waves = [transform(row, count // 2) for row in zip(*images, strict=True)]
         if i + 1 < period:
-            curves.append(tuple(_real_on_the_circle(row[: modes + 1]) for row in waves))
-            target = curves[i + 1]
+            target = tuple(_real_on_the_circle(row[: modes + 1]) for row in waves)
+            curves.append(target)
         else:
             target = tuple(rotated(row, omega) for row in first)
-        errors.append([
-            [c - target[r][q] if q <= modes else c for q, c in enumerate(waves[r])]
-            for r in (0, 1)
-        ])  # fmt: skip
+        errors += [
+            [c - goal[q] if q <= modes else c for q, c in enumerate(row)]
+            for row, goal in zip(waves, target, strict=True)
+        ]
     return curves, errors
 
 
@@ -213,7 +206,7 @@ def _real_on_the_circle(waves: list[acb]) -> list[acb]:
     return [acb(mean.real), *others]
 
 
-def _size_of_error(errors: list, most: int, count: int, image: arb, plan: Plan) -> arb:
+def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, plan: Plan) -> arb:
     """Bound |e| on the strip, from its discrete Fourier coefficients up to frequency `most`.
 
     Coefficient q of `count` points is the sum of all e_(q + m count), and |e_q| is at most
@@ -225,15 +218,14 @@ def _size_of_error(errors: list, most: int, count: int, image: arb, plan: Plan) 
     beyond = (-turn * (plan.wide - plan.strip) * (most + 1)).exp()
     tail = 2 * crude * beyond / (1 - (-turn * (plan.wide - plan.strip)).exp())
     sizes = []
-    for rows in errors:
-        for waves in rows:
-            total = tail
-            for q in range(most + 1):
-                alias = (-turn * plan.wide * (count - q)).exp()
-                alias += (-turn * plan.wide * (count + q)).exp()
-                bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
-                total += bound if q == 0 else 2 * bound
-            sizes.append(total.upper())
+    for waves in errors:
+        total = tail
+        for q in range(most + 1):
+            alias = (-turn * plan.wide * (count - q)).exp()
+            alias += (-turn * plan.wide * (count + q)).exp()
+            bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
+            total += bound if q == 0 else 2 * bound
+        sizes.append(total.upper())
     return _most(sizes)
 
 
@@ -256,12 +248,9 @@ def _theorem(error: arb, b: Bounds, gamma: arb, period: int, d: arb) -> tuple[di
     ):
         if not value < most:
             raise NotProvedError(f"{name}: {float(value.upper()):.3g} is not below {float(most):g}")
-    margins = {
-        "contraction": lowest(1 / (2 * contraction)),
-        "distance": lowest(NEAR / distance),
-        "torsion": lowest(b.torsion),
-    }
-    return margins, distance, slope
+    margins = {"contraction": 1 / (2 * contraction), "distance": NEAR / distance}
+    margins |= {"torsion": b.torsion}
+    return {name: lowest(value) for name, value in margins.items()}, distance, slope
 
 
 def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Plan) -> Bounds:
@@ -270,31 +259,30 @@ def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Pla
     for curve, centre in zip(curves, centres, strict=True):
         known = _first_roots(surface, curve, plan.columns)
         for row in range(plan.all_rows):
-            inner = row < plan.rows
             for x, y, slopes, root in _row_of_cells(surface, curve, plan, row, known):
-                image += [_size(x), _size(y)]
-                if not inner:
-                    image += [_size(a) for a in complex_impact.impact(surface, x, y, root)]
+                image += [x, y]
+                if row >= plan.rows:
+                    image += complex_impact.impact(surface, x, y, root)
                     continue
                 jets = complex_impact.impact(surface, *Jet.plane(2, x, y), root)
-                image += [_size(jet.constant) for jet in jets]
-                first.append(_most(_size(j[1, 0]) + _size(j[0, 1]) for j in jets))
-                second.append(
-                    _most(2 * (_size(j[2, 0]) + _size(j[1, 1]) + _size(j[0, 2])) for j in jets)
-                )
+                image += [jet.constant for jet in jets]
+                sizes = [[c.abs_upper() for c in jet.coefficients] for jet in jets]
+                first.append(_most(a + b for _, a, b, *_ in sizes))
+                second.append(_most(2 * (a + b + c) for *_, a, b, c in sizes))
                 away = x - centre[0], y - centre[1]
                 area = (away[0] * slopes[1] - away[1] * slopes[0]).abs_lower()
                 if not area > 0:
                     raise NotProvedError("K - c and K' may be parallel in the strip")
-                tangent.append(_most(map(_size, slopes)))
-                lengths.append(_most(map(_size, away)))
+                tangent += [a.abs_upper() for a in slopes]
+                lengths.append(_most(a.abs_upper() for a in away))
                 areas.append(area)
                 normal.append(lengths[-1] / area)
+    image = [a.abs_upper() for a in image]
     sizes = [_most(row) for row in (tangent, normal, first, second, image)]
     twist = 2 * sizes[2] * sizes[1] ** 2
     count = _FINER * plan.columns
     ratio = (-2 * arb.pi() * plan.strip * count).exp()
-    change = _change_of_twist(sizes, _most(lengths), _least(areas))
+    change = _change_of_twist(sizes, _most(lengths), reduce(arb.min, areas))
     torsion = abs(_torsion(surface, curves, centres, omega, count))
     torsion = (torsion - 2 * twist * ratio / (1 - ratio) - change).lower()
     if not torsion > 0:
@@ -315,13 +303,9 @@ def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
 
 def _first_roots(surface: Surface, curve: Curve, columns: int) -> list[acb]:
     """Return the flight times of the cells' middles; first roots over all of the real curve."""
-    boxes = _real_cells(curve, columns)
-    middles = zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True)
-    times = []
-    for j, middle in enumerate(middles):
-        surface.impact(*boxes[j])
-        times.append(acb(surface.impact(*middle).tau))
-    return times
+    for box in _real_cells(curve, columns):
+        surface.impact(*box)
+    return [acb(surface.impact(*point).tau) for point in _points(curve, columns, arb(0.5))]
 
 
 def _real_cells(curve: Curve, columns: int) -> list[list[arb]]:
@@ -353,50 +337,46 @@ def _row_of_cells(
 
 def _torsion(surface: Surface, curves: list, centres: list, omega: arb, count: int) -> arb:
     """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points."""
+    turned = tuple(rotated(row, omega) for row in curves[0])
+    normals = [
+        _normals(*pair, count)
+        for pair in zip([*curves, turned], [*centres, centres[0]], strict=True)
+    ]
     total = arb(0)
-    for i, curve in enumerate(curves):
-        last = i + 1 == len(curves)
-        after = tuple(rotated(row, omega) for row in curves[0]) if last else curves[i + 1]
-        here = _normals(curve, centres[i], count)
-        there = _normals(after, centres[0] if last else centres[i + 1], count)
-        points = zip(*(real_values(row, count) for row in curve), strict=True)
-        for point, n, m in zip(points, here, there, strict=True):
-            rows, _ = surface.jacobian(*point)
-            pushed = [row[0] * n[0] + row[1] * n[1] for row in rows]
-            total += pushed[0] * m[1] - pushed[1] * m[0]
+    for curve, here, there in zip(curves, normals[:-1], normals[1:], strict=True):
+        for point, n, m in zip(_points(curve, count), here, there, strict=True):
+            (a, b), (c, d) = surface.jacobian(*point)[0]
+            total += (a * n[0] + b * n[1]) * m[1] - (c * n[0] + d * n[1]) * m[0]
     return total / (count * len(curves))
 
 
-def _normals(curve: Curve, centre: list[arb], count: int) -> list[tuple[arb, arb]]:
+def _normals(curve: Curve, centre: Point, count: int) -> list[Point]:
     """Enclose N = -(K - c)/det(K - c, K') at equidistant real points."""
-    points = zip(*(real_values(row, count) for row in curve), strict=True)
-    slopes = zip(*(real_values(derivative(row), count) for row in curve), strict=True)
-    out = []
-    for point, (dx, dy) in zip(points, slopes, strict=True):
-        x, y = (a - b for a, b in zip(point, centre, strict=True))
+    slopes = _points(tuple(map(derivative, curve)), count)
+    normals = []
+    for point, (dx, dy) in zip(_points(curve, count), slopes, strict=True):
+        x, y = _minus(point, centre)
         area = x * dy - y * dx
-        out.append((-x / area, -y / area))
-    return out
+        normals.append((-x / area, -y / area))
+    return normals
 
 
-def _check_winding(curve: Curve, centre: list[arb], columns: int) -> None:
+def _check_winding(curve: Curve, centre: Point, columns: int) -> None:
     """Check that every curve near K turns once, clockwise, around the centre and the orbit's point.
 
     The point is within periodic.CLOSE of the centre. det(K - c, K') is not zero (`_bounds`), so the
     curve turns one way. K - c stays, over each cell, within a right angle of its values at the
     middles of this cell and the one before, so that arguments from middle to middle are principal.
     """
-    centre = [_inflated(value, ball_of(periodic.CLOSE)) for value in centre]
-    boxes = _real_cells(curve, columns)
-    middles = list(zip(*(real_values(row, columns, arb(0.5)) for row in curve), strict=True))
+    centre = tuple(_inflated(value, ball_of(periodic.CLOSE)) for value in centre)
+    boxes = [acb(*_minus(box, centre)) for box in _real_cells(curve, columns)]
+    middles = [acb(*_minus(point, centre)) for point in _points(curve, columns, arb(0.5))]
     total = arb(0)
-    for j, (x, y) in enumerate(middles):
-        here = acb(x - centre[0], y - centre[1])
-        after = acb(*(a - b for a, b in zip(middles[(j + 1) % columns], centre, strict=True)))
-        for k in (j, (j + 1) % columns):
-            if not (acb(*(a - b for a, b in zip(boxes[k], centre, strict=True))) / here).real > 0:
-                raise NotProvedError("the cells are too wide to count the curve's turns")
-        total += (after / here).arg()
+    for j, here in enumerate(middles):
+        after = (j + 1) % columns
+        if not all((boxes[k] / here).real > 0 for k in (j, after)):
+            raise NotProvedError("the cells are too wide to count the curve's turns")
+        total += (middles[after] / here).arg()
     turns = total / (2 * arb.pi())
     if not (turns + arb(1)).contains(0) or not turns.rad() < 0.1:
         raise NotProvedError(
@@ -404,7 +384,7 @@ def _check_winding(curve: Curve, centre: list[arb], columns: int) -> None:
         )
 
 
-def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]:
+def _polygon(curve: Curve, centre: Point, columns: int) -> list[list[float]]:
     """Return a polygon inside every curve near K, with the centre inside.
 
     Vertex j is K at the left end of cell j, moved towards the centre. The curve over a cell that is
@@ -415,23 +395,22 @@ def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]
     """
     wide = arb(1) / (2 * columns)
     cells = [Cells(row, columns, wide=wide * 1.25) for row in curve]
-    ends = [real_values(row, columns) for row in curve]
-    before = [real_values(row, columns, arb(-0.125)) for row in curve]
-    after = [real_values(row, columns, arb(0.125)) for row in curve]
-    left = [[_inflated(row[j], NEAR) for row in before] for j in range(columns)]
-    right = [[_inflated(row[j], NEAR) for row in after] for j in range(columns)]
+    left, right = (
+        [[_inflated(value, NEAR) for value in point] for point in _points(curve, columns, offset)]
+        for offset in (arb(-0.125), arb(0.125))
+    )
     factor = 1 - ball_of(_SHRUNK)
     corners = [
-        [float(centre[r] + factor * (ends[r][j] - centre[r])) for r in (0, 1)]
-        for j in range(columns)
+        [float(c + factor * (value - c)) for value, c in zip(end, centre, strict=True)]
+        for end in _points(curve, columns)
     ]
-    exact = [[arb(a) for a in corner] for corner in corners]
+    exact = [tuple(map(arb, corner)) for corner in corners]
     for j, a in enumerate(exact):
         k = (j + 1) % columns
         b = exact[k]
-        side = [q - p for p, q in zip(a, b, strict=True)]
+        side = _minus(b, a)
         line = [
-            side[0] * (t[1].real) - side[1] * (t[0].real)
+            side[0] * t[1].real - side[1] * t[0].real
             for t in zip(*(cell.taylor(j) for cell in cells), strict=True)
         ]
         line[0] -= side[0] * a[1] - side[1] * a[0]
@@ -444,55 +423,48 @@ def _polygon(curve: Curve, centre: list[arb], columns: int) -> list[list[float]]
     return corners
 
 
-def _turn(centre: list[arb], a: list[arb], b: list[arb]) -> tuple[arb, arb]:
+def _turn(centre: Point, a: Point, b: Point) -> tuple[arb, arb]:
     """Return det(a - c, b - c) and the scalar product of a - c and b - c."""
-    (p, q), (u, v) = ([value - c for value, c in zip(z, centre, strict=True)] for z in (a, b))
+    (p, q), (u, v) = _minus(a, centre), _minus(b, centre)
     return p * v - q * u, p * u + q * v
 
 
-def _check_disjoint(curves: list, columns: int) -> None:
-    """Check that the discs inside the curves around different points are disjoint."""
-    hulls = []
-    for curve in curves:
-        boxes = _real_cells(curve, columns)
-        hulls.append([_hull([box[r] for box in boxes]) for r in (0, 1)])
+def _minus(a: Point, b: Point) -> Point:
+    return a[0] - b[0], a[1] - b[1]
+
+
+def _check_disjoint(all_boxes: list) -> None:
+    """Check that the discs inside curves, each in boxes (x, y), are disjoint."""
+    hulls = [[reduce(arb.union, row) for row in zip(*boxes, strict=True)] for boxes in all_boxes]
     for i, a in enumerate(hulls):
         if any(a[0].overlaps(b[0]) and a[1].overlaps(b[1]) for b in hulls[:i]):
             raise NotProvedError("the discs inside two of the curves may overlap")
 
 
-class _Disc:
-    """The closed disc inside a curve, in pieces c + l (K - c), l in an interval of [0, 1]."""
+def _check_disc(surface: Surface, boxes: list[list[arb]], centre: Point) -> None:
+    """Check that P is analytic on the closed disc in a curve: each flight's first root is simple.
 
-    def __init__(self, curve: Curve, centre: list[arb], columns: int):
-        self._boxes, self._centre = _real_cells(curve, columns), centre
-
-    def check(self, surface: Surface) -> None:
-        """Check that P is analytic on the disc: each flight's first root is simple."""
-        columns = len(self._boxes)
-        for begin in range(0, columns, _COLUMNS_OF_PIECE):
-            end = min(begin + _COLUMNS_OF_PIECE, columns)
-            for layer in range(_LAYERS):
-                low, high = Fraction(layer, _LAYERS), Fraction(layer + 1, _LAYERS)
-                self._check_piece(surface, begin, end, low, high, 0)
-
-    def _check_piece(self, surface, begin, end, low, high, depth):
-        box = []
-        for r in (0, 1):
-            away = _hull([b[r] for b in self._boxes[begin:end]]) - self._centre[r]
-            box.append(self._centre[r] + away * ball_of(low).union(ball_of(high)))
+    The disc consists of pieces c + l (K - c), K in some of the boxes and l in an interval of
+    [0, 1], which are halved where a flight is not decided.
+    """
+    pieces = [
+        (boxes[begin : begin + _COLUMNS_OF_PIECE], Fraction(layer, _LAYERS), 0)
+        for begin in range(0, len(boxes), _COLUMNS_OF_PIECE)
+        for layer in range(_LAYERS)
+    ]
+    while pieces:
+        part, low, depth = pieces.pop()
+        half = Fraction(1, 2 * _LAYERS << depth)
+        length = ball_of(low).union(ball_of(low + 2 * half))
+        hull = [reduce(arb.union, row) for row in zip(*part, strict=True)]
         try:
-            surface.impact(*box)
+            surface.impact(*(c + (a - c) * length for a, c in zip(hull, centre, strict=True)))
         except (UndecidedError, ZeroDivisionError) as reason:
             if depth == _DEPTH:
                 raise NotProvedError(f"the disc inside the curve: {reason}") from None
-            middle = (low + high) / 2
-            pieces = [(begin, end)]
-            if end - begin > 1:
-                pieces = [(begin, (begin + end) // 2), ((begin + end) // 2, end)]
-            for a, b in pieces:
-                self._check_piece(surface, a, b, low, middle, depth + 1)
-                self._check_piece(surface, a, b, middle, high, depth + 1)
+            middle = len(part) // 2
+            halves = [part[:middle], part[middle:]] if middle else [part]
+            pieces += [(some, at, depth + 1) for some in halves for at in (low, low + half)]
 
 
 def _area(curve: Curve) -> arb:
@@ -503,12 +475,6 @@ def _area(curve: Curve) -> arb:
     return -total
 
 
-def _section(surface: Surface) -> arb:
-    """Return the section's area."""
-    k, g, energy = surface.constants()
-    return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
-
-
 def _inflated(value: acb | arb, radius: arb) -> acb | arb:
     """Return the set of all numbers whose parts are within a radius of the value's."""
     if isinstance(value, acb):
@@ -516,28 +482,8 @@ def _inflated(value: acb | arb, radius: arb) -> acb | arb:
     return arb(value.mid(), (value.rad() + radius).upper())
 
 
-def _size(value: acb) -> arb:
-    return value.abs_upper()
-
-
-def _most(sizes) -> arb:
-    most = arb(0)
-    for size in sizes:
-        if not size < arb("inf"):
-            raise NotProvedError("a bound over the strip is not finite")
-        most = most.max(size)
-    return most
-
-
-def _least(sizes: list[arb]) -> arb:
-    least = sizes[0]
-    for size in sizes[1:]:
-        least = least.min(size)
-    return least
-
-
-def _hull(balls: list[arb]) -> arb:
-    total = balls[0]
-    for ball in balls[1:]:
-        total = total.union(ball)
-    return total
+def _most(sizes: Iterable[arb]) -> arb:
+    sizes = list(sizes)
+    if not all(size < arb("inf") for size in sizes):
+        raise NotProvedError("a bound over the strip is not finite")
+    return reduce(arb.max, sizes, arb(0))

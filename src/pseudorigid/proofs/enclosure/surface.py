@@ -126,6 +126,11 @@ class Surface:
         k, g, energy = self.constants()
         return ((2 * energy + g * g / k) / k).sqrt()
 
+    def area(self) -> arb:
+        """Return the section's area in (x, y)."""
+        k, g, energy = self.constants()
+        return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
+
     def speed(self, x: arb | Jet, y: arb | Jet) -> arb | Jet:
         """Return the contact speed s = xdot + udot just before the impact.
 

@@ -1,13 +1,13 @@
 """Search for invariant curves around elliptic orbits: Newton's method on Fourier coefficients.
 
 It starts from an orbit in doubles on the curve with the wanted rotation number. Everything here is
-midpoints: `checks.curve` proves the result.
+midpoints: `checks.curve` proves the result. A curve is a pair of polynomials in the form of
+`checks.circle`, of which x is even and y is odd.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 from flint import acb, arb, ctx
@@ -15,12 +15,13 @@ from flint import acb, arb, ctx
 from ...dynamics.orbits import orbit
 from ...dynamics.variables import chart, states_of
 from ..checks.certificate import Finding, NotProvedError
-from ..checks.circle import noble
+from ..checks.circle import derivative, noble, real_values, rotated, transform
+from ..checks.curve import Curve
 from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet
-from ..enclosure.surface import Surface
+from ..enclosure.surface import Surface, fraction_of
 from . import approximate_orbits
-from .certificate_text import decimal, header
+from .certificate_text import fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
 from .periodic import centre_rows, polished
 
@@ -38,52 +39,36 @@ class NoCurveError(ValueError):
     """No curve with the wanted rotation number was found."""
 
 
-@dataclass(frozen=True)
-class Strips:
-    """Sizes for the checker.
+class Strips(NamedTuple):
+    """Sizes for the checker."""
 
-    Attributes
-    ----------
-    strip, loss : str
-        Half width of the strip of the error, and what each step of the proof loses of it.
-    columns, rows, more_rows : int
-        Cells around the circle, from the real axis to the strip's edge, and beyond it.
-    modes : int
-        Fourier modes of the curve.
-    """
+    strip: str  # half width of the strip of the error
+    loss: str  # what each step of the proof loses of it
+    columns: int  # cells around the circle
+    rows: int  # cells from the real axis to the strip's edge
+    more_rows: int  # cells beyond it
+    modes: int  # Fourier modes of the curve
 
-    strip: str
-    loss: str
-    columns: int
-    rows: int
-    more_rows: int
-    modes: int
+
+class _Start(NamedTuple):
+    """What Newton's method starts from."""
+
+    points: list[list[float]]  # of the orbit, the first one on y = 0
+    quotients: Sequence[int]  # of the rotation number
+    xs: list[float]  # the curve is the sum of xs[q] cos(2 pi q t), ys[q] sin(2 pi q t)
+    ys: list[float]
 
 
 def propose(
-    surface: Surface,
-    points: Sequence,
-    quotients: Sequence[int],
-    strips: Strips,
-    *,
-    radius: str,
-    share: str,
-    error: str,
-) -> str:
+    surface: Surface, points: Sequence, quotients: Sequence[int], strips: Strips, *,
+    radius: str, share: str, error: str,
+) -> str:  # fmt: skip
     """Return a certificate for a curve around a point (x, 0) of a symmetric orbit.
 
     The rotation number is that of `checks.circle.noble`. Of the orbit's points on y = 0 the one
     with the greatest x is taken.
     """
-    points = from_symmetric_point(points)
-    with ctx.workprec(CENTRE_BITS):
-        centres = polished(surface, points)
-    with ctx.workprec(BITS):
-        omega, _ = noble(quotients)
-        start = start_on_curve(surface, points, float(omega))
-        xs, ys = coefficients_of_orbit(surface, start, len(points), float(omega))
-        x, y = newton(surface, centres[0], len(points), xs, ys, omega, strips.modes)
-        return text_of(surface, centres, quotients, strips, radius, share, error, x, y)
+    return _text(surface, _start(surface, points, quotients), strips, radius, share, error)
 
 
 def search(
@@ -97,17 +82,12 @@ def search(
     The strips follow from the decay of the coefficients of an orbit in doubles. Raises
     NoCurveError, or the checker's NotProvedError if the last sizes fail.
     """
-    points = from_symmetric_point(points)
-    with ctx.workprec(BITS):
-        omega = float(noble(quotients)[0])
-    start = start_on_curve(surface, points, omega)
-    xs, ys = coefficients_of_orbit(surface, start, len(points), omega)
+    start = _start(surface, points, quotients)
+    xs, ys = start.xs, start.ys
     decay = -math.log(_NOISE / abs(xs[1])) / len(xs)
     area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
     with ctx.workprec(64):
-        k, g, energy = (float(a) for a in surface.constants())
-    section = math.pi * (2.0 * energy + g * g / k) * math.sqrt((1.0 + k) / k)
-    share = f"{0.9999 * area / section:.5g}"  # rounding to five digits adds less than 1e-4
+        share = f"{0.9999 * area / float(surface.area()):.5g}"  # rounding adds less than 1e-4
     for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
         strip = part * decay / (2.0 * math.pi)
         loss = strip / 6.2
@@ -116,10 +96,7 @@ def search(
         columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
         rows = math.ceil(columns * strip)
         strips = Strips(f"{strip:.4g}", f"{loss:.3g}", columns, rows, math.ceil(0.6 * rows), modes)
-        text = propose(
-            surface, points, quotients, strips,
-            radius="1e-6", share=share, error=f"1e-{digits}",
-        )  # fmt: skip
+        text = _text(surface, start, strips, "1e-6", share, f"1e-{digits}")
         try:
             return text, prove(text)
         except NotProvedError as error:
@@ -133,81 +110,51 @@ def quotients_near(value: float) -> list[int]:
     They are the first ones of the value's continued fraction. Raises NoCurveError for a value so
     close to a fraction of small integers that this gives no number close to it.
     """
-    golden, rest, quotients = 0.5 * (1.0 + math.sqrt(5.0)), value, []
+    rest, quotients = value, []
     while True:
         rest = 1.0 / rest
         quotients.append(int(rest))
-        noble_value = golden
-        for a in reversed(quotients):
-            noble_value = a + 1.0 / noble_value
         rest -= int(rest)
-        if abs(1.0 / noble_value - value) < _CLOSE:
+        if abs(float(noble(quotients)[0]) - value) < _CLOSE:
             return quotients
         if rest < _CLOSE:
             raise NoCurveError(f"{value:.10g} is too close to a fraction of small integers")
 
 
-def from_symmetric_point(points: Sequence) -> list[list[float]]:
-    """Return an orbit's points from the one with y = 0 and the greatest x on.
-
-    Raises NoCurveError if there is none.
-    """
+def _start(surface: Surface, points: Sequence, quotients: Sequence[int]) -> _Start:
+    """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
     points = [[float(a) for a in point] for point in points]
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
     if not symmetric:
         raise NoCurveError("the orbit has no point on y = 0")
     first = max(symmetric, key=lambda i: points[i][0])
-    return points[first:] + points[:first]
+    points = points[first:] + points[:first]
+    with ctx.workprec(BITS):
+        omega = float(noble(quotients)[0])
+    x = _start_on_curve(surface, points, omega)
+    return _Start(points, quotients, *_coefficients_of_orbit(surface, x, len(points), omega))
 
 
-def text_of(surface, centres, quotients, strips, radius, share, error, x, y) -> str:
-    """Format a certificate; the curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t)."""
-    digits = _SPARE_DIGITS - math.log10(float(error))
-    weights = [
-        math.ceil(digits + 2.0 * math.pi * q * float(strips.strip) / math.log(10.0))
-        for q in range(len(x))
-    ]
-    lines = [
-        header("invariant curve", surface),
-        f"radius = {radius}\n",
-        centre_rows(centres),
-        "# The rotation number's partial quotients after 0, and those that repeat for ever.\n",
-        f"quotients = [{', '.join(map(str, quotients))}]\nrepeating = [1]\n",
-        f"share = {share}\nerror = {error}\nstrip = {strips.strip}\nloss = {strips.loss}\n",
-        f"columns = {strips.columns}\nrows = {strips.rows}\nmore_rows = {strips.more_rows}\n",
-        "# x_q and y_q: the curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n",
-        "coefficients = [\n",
-        *(
-            f"  [{_fixed(a, weight)}, {_fixed(b, weight)}],\n"
-            for weight, a, b in zip(weights, x, y, strict=True)
-        ),
-        "]\n",
-    ]
-    return "".join(lines)
-
-
-def _fixed(value: arb, decimals: int) -> str:
-    """Format a number with this many decimals."""
-    scaled = round(Fraction(decimal(value * arb(10) ** decimals, 90)))
-    return f"{scaled}e-{decimals}" if scaled else "0.0"
-
-
-def start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
+def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
     """Return the x > that of the first point at which y = 0 meets the curve of a rotation number.
 
     The curve nearest to the point is taken. Raises NoCurveError if there is none.
     """
-    centre, period = float(points[0][0]), len(points)
+    centre, period = points[0][0], len(points)
     with ctx.workprec(53):
         k, g, _ = surface.constants()
         rim = float(g / k + surface.radius())
     reach = rim - centre if period == 1 else 0.5 * _nearest(points)
+
+    def excess(x, impacts=_IMPACTS):
+        return turns(surface, x, points, impacts) - omega
+
     previous = None
     for i in range(1, _SCAN):
         x = centre + reach * i / _SCAN
-        value = turns(surface, x, points, 4000) - omega
+        value = excess(x, 4000)
         if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
-            return _bisect(surface, points, omega, previous[0], x)
+            return _bisect(excess, previous[0], x)
         previous = x, value
     raise NoCurveError(f"no curve with the rotation number {omega:.6g} was found on y = 0")
 
@@ -218,18 +165,15 @@ def _nearest(points: Sequence) -> float:
     return float(min(np.abs(np.array(others) - first).max(axis=1)))
 
 
-def _bisect(surface, points, omega, low, high):
-    """Return the start between two at which the rotation number is omega."""
-    sign = turns(surface, low, points, _IMPACTS) - omega
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            break
-        if (turns(surface, middle, points, _IMPACTS) - omega) * sign > 0.0:
+def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function changes its sign, to a double."""
+    sign = function(low)
+    while low < (middle := 0.5 * (low + high)) < high:
+        if function(middle) * sign > 0.0:
             low = middle
         else:
             high = middle
-    return 0.5 * (low + high)
+    return middle
 
 
 def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
@@ -237,8 +181,7 @@ def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
     z = _orbit(surface, x, len(points), impacts)
     angles = np.angle(z[0] - points[0][0] + 1j * (z[1] - points[0][1])) / (2.0 * math.pi)
     steps = np.mod(-np.diff(angles), 1.0)
-    weights = _weights(steps.size)
-    return float(weights @ steps)
+    return float(_weights(steps.size) @ steps)
 
 
 def _weights(size: int) -> np.ndarray:
@@ -260,7 +203,7 @@ def _orbit(surface: Surface, x: float, period: int, impacts: int) -> np.ndarray:
     return chart(ball.k, *states_of(data))[:, period - 1 :: period]
 
 
-def coefficients_of_orbit(
+def _coefficients_of_orbit(
     surface: Surface, x: float, period: int, omega: float
 ) -> tuple[list[float], list[float]]:
     """Return x_q and y_q of the curve through (x, 0), from averages along its orbit."""
@@ -277,63 +220,86 @@ def coefficients_of_orbit(
     return xs[:-3], ys[:-3]
 
 
-def newton(surface, centre, period, xs, ys, omega, modes) -> tuple[list[arb], list[arb]]:
-    """Improve a curve's coefficients until the error settles; returns x_q and y_q."""
-    x, y = ([arb(a) for a in row] for row in (xs, ys))
-    last = None
-    for _ in range(_STEPS):
-        most = min(modes, 2 * len(x) + 20)
-        x, y, size = _newton_step(surface, centre, period, x, y, omega, most)
-        if last is not None and not size < last * 1e-2 and most == modes:
-            break
-        last = size
-    return x, y
-
-
-def _newton_step(surface, centre, period, x, y, omega, modes):
-    """Return the coefficients after one Newton step, and the error before it."""
-    count = 1 << (3 * modes).bit_length()
-    padded = [row + [arb(0)] * (modes + 1 - len(row)) for row in (x, y)]
-    waves = [_waves(padded[0], count, even=True), _waves(padded[1], count, even=False)]
-    turn = [(2 * arb(q) * omega).cos_pi() + acb(0, 1) * (2 * arb(q) * omega).sin_pi()
-            for q in _frequencies(count)]  # fmt: skip
-    slope = [acb(0, 2 * arb.pi() * q) for q in _frequencies(count)]
-    here = [_values(row) for row in waves]
-    there = [_values(_times(row, turn)) for row in waves]
-    tangent = [_values(_times(row, slope)) for row in waves]
-    tangent_there = [_values(_times(_times(row, slope), turn)) for row in waves]
-    residual, twist, normals = ([], []), [], ([], [])
-    size = 0.0
-    for i in range(count):
-        (px, py), (lx, ly) = (here[0][i], here[1][i]), (tangent_there[0][i], tangent_there[1][i])
-        image, rows = _power(surface, px, py, period)
-        error = [(image[r] - there[r][i]).mid() for r in (0, 1)]
-        size = max(size, *(abs(float(a)) for a in error))
-        n = _normal((px, py), (tangent[0][i], tangent[1][i]), centre)
-        n_there = _normal((there[0][i], there[1][i]), (lx, ly), centre)
-        pushed = [(rows[r][0] * n[0] + rows[r][1] * n[1]).mid() for r in (0, 1)]
-        residual[0].append(_det(error, n_there))
-        residual[1].append(_det((lx, ly), error))
-        twist.append(_det(pushed, n_there))
-        for r in (0, 1):
-            normals[r].append(n[r])
-    divisor = [1 - a for a in turn]
-    second = _cohomology([-a for a in residual[1]], divisor)
-    mean = _mean([-a - t * b for a, t, b in zip(residual[0], twist, second, strict=True)])
-    mean /= _mean(twist)
-    second = [(a + mean).mid() for a in second]
-    right = [-a - t * b for a, t, b in zip(residual[0], twist, second, strict=True)]
-    first = _cohomology(right, divisor)
-    new = []
-    for r in (0, 1):
-        values = [
-            (p + t * a + n * b).mid()
-            for p, t, a, n, b in zip(here[r], tangent[r], first, normals[r], second, strict=True)
+def _text(
+    surface: Surface, start: _Start, strips: Strips, radius: str, share: str, error: str
+) -> str:
+    """Improve a curve by Newton's method until its error settles, and format the certificate."""
+    with ctx.workprec(CENTRE_BITS):
+        centres = polished(surface, start.points)
+    with ctx.workprec(BITS):
+        omega, _ = noble(start.quotients)
+        curve: Curve = (
+            [acb(a / 2 if q else a) for q, a in enumerate(start.xs)],
+            [acb(0, -a / 2) for a in start.ys],
+        )
+        last = None
+        for _ in range(_STEPS):
+            modes = min(strips.modes, 2 * len(curve[0]) + 20)
+            step = _newton_step(surface, centres[0], len(centres), curve, omega, modes)
+            curve, size = step
+            if last is not None and not size < last * 1e-2 and modes == strips.modes:
+                break
+            last = size
+        digits = _SPARE_DIGITS - math.log10(float(error))
+        decay = 2.0 * math.pi * float(strips.strip) / math.log(10.0)  # in digits per mode
+        lines = [
+            f"[{_decimals(a.real if q == 0 else 2 * a.real, math.ceil(digits + decay * q))}, "
+            f"{_decimals(-2 * b.imag, math.ceil(digits + decay * q))}]"
+            for q, (a, b) in enumerate(zip(*curve, strict=True))
         ]
-        new.append([a / count for a in acb.dft(values)])
-    x = [new[0][0].real.mid()] + [(2 * new[0][q].real).mid() for q in range(1, modes + 1)]
-    y = [arb(0)] + [(-2 * new[1][q].imag).mid() for q in range(1, modes + 1)]
-    return x, y, size
+    return (
+        header("invariant curve", surface)
+        + f"radius = {radius}\n"
+        + centre_rows(centres)
+        + "# The rotation number's partial quotients after 0, and those that repeat for ever.\n"
+        + f"quotients = [{', '.join(map(str, start.quotients))}]\nrepeating = [1]\n"
+        + f"share = {share}\nerror = {error}\nstrip = {strips.strip}\nloss = {strips.loss}\n"
+        + f"columns = {strips.columns}\nrows = {strips.rows}\nmore_rows = {strips.more_rows}\n"
+        + "# The curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n"
+        + rows("coefficients", lines)
+    )
+
+
+def _decimals(value: arb, decimals: int) -> str:
+    return fixed(fraction_of(value), decimals)
+
+
+def _newton_step(surface, centre, period, curve, omega, modes) -> tuple[Curve, float]:
+    """Return the curve after one Newton step, and the error before it."""
+    count = 1 << (3 * modes).bit_length()
+    shifted = [rotated(row, omega) for row in curve]
+    here, there, tangent, tangent_there = (
+        list(zip(*(real_values(row, count) for row in rows), strict=True))
+        for rows in (curve, shifted, map(derivative, curve), map(derivative, shifted))
+    )
+    along, across, twist, normals, size = [], [], [], [], 0.0
+    for i in range(count):
+        image, matrix = _power(surface, *here[i], period)
+        error = [a - b for a, b in zip(image, there[i], strict=True)]
+        size = max(size, *(abs(float(a)) for a in error))
+        normals.append(_normal(here[i], tangent[i], centre))
+        after = _normal(there[i], tangent_there[i], centre)
+        along.append(_det(error, after))
+        across.append(_det(tangent_there[i], error))
+        twist.append(_det([a * normals[i][0] + b * normals[i][1] for a, b in matrix], after))
+    divisors = [1 - acb(2 * q * omega).exp_pi_i() for q in range(count // 2)]
+    second = _cohomology([-a for a in across], divisors)
+    rest = [-a - t * b for a, t, b in zip(along, twist, second, strict=True)]
+    mean = sum(rest, arb(0)) / sum(twist, arb(0))
+    second = [a + mean for a in second]
+    rest = [-a - t * b for a, t, b in zip(along, twist, second, strict=True)]
+    first = _cohomology(rest, divisors)
+    x, y = (
+        transform(
+            [
+                (here[i][r] + tangent[i][r] * first[i] + normals[i][r] * second[i]).mid()
+                for i in range(count)
+            ],
+            modes,
+        )
+        for r in (0, 1)
+    )
+    return ([acb(a.real.mid()) for a in x], [acb(0, a.imag.mid()) for a in y]), size
 
 
 def _power(surface, x, y, period):
@@ -346,51 +312,19 @@ def _power(surface, x, y, period):
     return (x.constant, y.constant), (x.coefficients[1:], y.coefficients[1:])
 
 
-def _frequencies(count: int) -> list[int]:
-    return [q if q < count // 2 else q - count for q in range(count)]
-
-
-def _waves(row: list[arb], count: int, even: bool) -> list[acb]:
-    """Return complex Fourier coefficients in the order of the transform."""
-    waves = [acb(0)] * count
-    waves[0] = acb(row[0])
-    for q in range(1, len(row)):
-        half = acb(row[q] / 2) if even else acb(0, -row[q] / 2)
-        waves[q], waves[-q] = half, half.conjugate()
-    return waves
-
-
-def _times(waves: list[acb], factors: list[acb]) -> list[acb]:
-    return [a * b for a, b in zip(waves, factors, strict=True)]
-
-
-def _values(waves: list[acb]) -> list[arb]:
-    """Return the real values of a Fourier series on the grid."""
-    count = len(waves)
-    return [(a.real * count).mid() for a in acb.dft(waves, inverse=True)]
-
-
-def _cohomology(values: list[arb], divisor: list[acb]) -> list[arb]:
+def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
     """Solve u - u(t + omega) = f - <f> on the grid, with <u> = 0."""
-    waves = [a / len(values) for a in acb.dft(values)]
-    half = len(values) // 2
-    solved = [
-        acb(0) if q in (0, half) else a / b
-        for q, (a, b) in enumerate(zip(waves, divisor, strict=True))
-    ]
-    return _values([a.mid() for a in solved])
-
-
-def _mean(values: list[arb]) -> arb:
-    return (sum(values, arb(0)) / len(values)).mid()
+    waves = transform([a.mid() for a in values], len(divisors) - 1)
+    solved = [(a / b).mid() for a, b in zip(waves[1:], divisors[1:], strict=True)]
+    return real_values([acb(0), *solved], len(values))
 
 
 def _det(a, b) -> arb:
-    return (a[0] * b[1] - a[1] * b[0]).mid()
+    return a[0] * b[1] - a[1] * b[0]
 
 
 def _normal(point, tangent, centre) -> tuple[arb, arb]:
     """Return N = -(K - c)/det(K - c, L)."""
-    away = [(a - b).mid() for a, b in zip(point, centre, strict=True)]
-    size = _det(away, tangent)
-    return (-away[0] / size).mid(), (-away[1] / size).mid()
+    x, y = (a - b for a, b in zip(point, centre, strict=True))
+    size = _det((x, y), tangent)
+    return -x / size, -y / size
