@@ -11,7 +11,6 @@ from math import gcd
 
 from flint import arb, ctx
 
-from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Surface, ball_of
 from . import hsets, periodic
 from .certificate import Certificate, Finding, NotProvedError
@@ -27,9 +26,9 @@ def check(
     *,
     period: int,
     radius: Fraction,
-    window: Window | None,
-    crossing: tuple[Fraction, Fraction] | None,
     entropy: Fraction,
+    window: Window | None = None,
+    crossing: tuple[Fraction, Fraction] | None = None,
 ) -> Finding:
     """Prove a certificate's horseshoe on an orbit of a prime period, with a point in the window.
 
@@ -48,10 +47,7 @@ def check(
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
         ]
-        try:
-            margins, cone, angle = _relations(surface, edges, chain)
-        except (UndecidedError, ZeroDivisionError) as error:
-            raise NotProvedError(f"a set of the certificate: {error}") from None
+        margins, cone, angle = _relations(surface, edges, chain)
         _check_margins(certificate, edges, margins)
         middle = chain[len(chain) // 2]
         for hset in (*saddles, *chain):
@@ -98,9 +94,9 @@ def _relations(surface: Surface, edges: list[tuple[HSet, HSet]], chain: list[HSe
     margins, cone = [], float("inf")
     slope, middle = hsets.UNIT, chain[len(chain) // 2]
     for source, target in edges:
-        local = hsets.local_map(surface, source, target)
-        margins.append(hsets.covering(local, source, target))
-        cone = min(cone, hsets.cones(local, source, target))
+        margin, least, local = hsets.prove_hyperbolic(surface, source, target)
+        margins.append(margin)
+        cone = min(cone, least)
         if source is chain[0]:
             slope = hsets.UNIT
         (a, b), (c, d) = local.hull()

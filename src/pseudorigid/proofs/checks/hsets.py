@@ -113,7 +113,6 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
 
     Raises UndecidedError where a flight from the set may touch the floor earlier.
     """
-
     at_centre, over_set = (
         target.coordinates(*surface.impact(*source.box(*Jet.plane(order, value, value)))[:2])
         for order, value in ((1, arb(0)), (2, UNIT))
@@ -157,11 +156,24 @@ def cones(local: LocalMap, source: HSet, target: HSet) -> float:
     return lowest(determinant / (first + last))
 
 
+def prove_hyperbolic(
+    surface: Surface, source: HSet, target: HSet
+) -> tuple[tuple[float, float], float, LocalMap]:
+    """Prove that source covers target with the cone condition, and return both margins and P.
+
+    Raises NotProvedError.
+    """
+    try:
+        local = local_map(surface, source, target)
+    except (UndecidedError, ZeroDivisionError) as error:
+        raise NotProvedError(f"{source.name}: {error}") from None
+    return covering(local, source, target), cones(local, source, target), local
+
+
 def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
     """Prove that source covers target, on cells of the source that are halved where needed.
 
-    Returns how far beyond the target's edges the exit edges land, and how much room is left within
-    |q'| < 1, in units of the target's half widths. Raises NotProvedError.
+    Returns the margins of `covering`. Raises NotProvedError.
     """
     try:
         right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]

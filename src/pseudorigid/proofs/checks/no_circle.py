@@ -10,7 +10,6 @@ from itertools import pairwise
 
 from flint import ctx
 
-from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Surface, ball_of
 from . import hsets, jump, periodic
 from .certificate import Certificate, Finding, NotProvedError
@@ -29,35 +28,23 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
     with ctx.workprec(BITS):
-        saddles = [
-            hsets.hset(f"S_{i}", it) for i, it in enumerate(certificate.numbers("saddles", 6))
-        ]
-        chain = [
-            hsets.hset(f"M_{i}", it) for i, it in enumerate(certificate.numbers("chain", 6), 1)
-        ]
+        saddles, chain = (
+            [hsets.hset(f"{name}_{i}", it) for i, it in enumerate(certificate.numbers(field, 6), n)]
+            for name, field, n in (("S", "saddles", 0), ("M", "chain", 1))
+        )
         hsets.check_contained(saddles, orbit.points)
         leaves = certificate.whole("leaves")
         if leaves not in range(len(saddles)):
             raise NotProvedError("the certificate's chain does not begin at its saddles")
-        loop = [_round(surface, *pair) for pair in pairwise([*saddles, saddles[0]])]
+        loop = [hsets.prove_hyperbolic(surface, *it) for it in pairwise([*saddles, saddles[0]])]
         margins = [hsets.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
     with ctx.workprec(jump.BITS):
         touches = [ball_of(value) for value in certificate.row("touches", 2)]
         across = jump.prove_crossing(surface, chain[-1], *touches)
-    beyond, room = map(min, zip(*margins, *(pair[:2] for pair in loop), strict=True))
-    cone = min(least for *_, least in loop)
+    beyond, room = map(min, zip(*margins, *(pair for pair, _, _ in loop), strict=True))
+    cone = min(least for _, least, _ in loop)
     return Finding(
         {"jump set at x": chain[-1].box()[0]},
         {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
         {"saddles": saddles, "chain": chain, "leaves": leaves},
     )
-
-
-def _round(surface, source, target) -> tuple[float, float, float]:
-    """Prove a covering with its cone condition, and return beyond, room and the cone's margin."""
-    try:
-        local = hsets.local_map(surface, source, target)
-    except (UndecidedError, ZeroDivisionError) as error:
-        raise NotProvedError(f"{source.name}: {error}") from None
-    beyond, room = hsets.covering(local, source, target)
-    return beyond, room, hsets.cones(local, source, target)
