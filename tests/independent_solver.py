@@ -2,17 +2,17 @@
 
 The gap f(t) = x + b t + g t^2/2 - x cos t + c sin t has f'' = g + x cos t - c sin t, whose zeros
 are known in closed form. Between two of them f' is monotone and has at most one zero; between two
-zeros of f' the gap is monotone and has at most one root. So no candidate is missed. Doubles only
-skip pieces on which f stays below zero by more than a millionth of its largest term.
+zeros of f' the gap is monotone and has at most one root. So no candidate is missed.
 
 The doubles of a state are exact; b and c are computed from them with 60 digits.
 """
 
 import math
 from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
 
 import mpmath
-import numpy as np
 from mpmath import mp, mpf
 
 mp.dps = 60
@@ -86,92 +86,59 @@ def _solve(f, slope, low, high):
             low = t
         steep = slope(t)
         after = t - value / steep if steep != 0 else low
-        # Newton's method needs a thousand steps from 1 to a flight of 1e-300.
+        # Newton's method needs a thousand steps from 1 to a flight of 1e-300: take the mean
+        # logarithm, or where low is 0 a number that falls towards 0 by ever larger factors.
         if not low < after < high or (high > 16 * low and step % 2):
-            after = _middle(low, high)
+            far = mpmath.sqrt(low * high) if low > 0 else high * min(high, mpf(1) / 16)
+            after = far if high > 16 * low else (low + high) / 2
         if abs(after - t) <= abs(after) * mpf(10) ** -45:
             return after
         t = after
     raise AssertionError("Newton's method does not converge")
 
 
-def _middle(low, high):
-    """A number between two positive ones; if they are far apart, that of the mean logarithm.
-
-    Where low is 0 it falls towards 0 by ever larger factors.
-    """
-    if low == 0:
-        return high * min(high, mpf(1) / 16)
-    return mpmath.sqrt(low * high) if high > 16 * low else (low + high) / 2
-
-
-def _inflections(gap, until):
-    """All zeros of f'' in (0, until), in order: as doubles, and by index to 60 digits.
+def _ends_of_pieces(gap, last, clear):
+    """Yield 0, the zeros of f'' in order without most of those within `clear`, and `last`.
 
     f'' = g + A cos(t + phi), phi = atan2(c, x), so t = 2 pi n - phi -+ acos(-g/A).
     """
-    if gap.amplitude <= gap.g:
-        return np.empty(0), None
-    phi = mpmath.atan2(gap.c, gap.x)
-    angle = mpmath.acos(-gap.g / gap.amplitude)
-    turn = 2 * mpmath.pi
-    first = sorted((-phi + sign * angle) % turn for sign in (1, -1))
-
-    def exact(i):
-        return first[i % 2] + (i // 2) * turn
-
-    # If g + x = 0, one of them is 0 itself, up to the last of the 60 digits.
-    floor = mpf(10) ** -40 if gap.g + gap.x == 0 else mpf(0)
-    begin = next(i for i in range(4) if exact(i) > floor)
-    end = 2 * int(until / turn) + 4
-    while end > begin and not exact(end - 1) < until:
-        end -= 1
-    numbers = np.arange(begin, end)
-    grid = 2 * math.pi * (numbers // 2) + np.where(numbers % 2, float(first[1]), float(first[0]))
-    return grid, lambda i: exact(begin + i)
-
-
-def _float_screen(gap, edges):
-    """Whether each piece [edges[i], edges[i+1]] may hold f >= 0."""
-    x, b, c, g = (float(a) for a in (gap.x, gap.b, gap.c, gap.g))
-    amplitude = math.hypot(x, c)
-
-    def f(t):
-        return x + t * (b + 0.5 * g * t) - x * np.cos(t) + c * np.sin(t)
-
-    def slope(t):
-        return b + g * t + x * np.sin(t) + c * np.cos(t)
-
-    low, high = edges[:-1].copy(), edges[1:].copy()
-    margin = 1e-6 * (abs(x) + amplitude + (abs(b) + g * high) * (1.0 + high))
-    ends = np.maximum(f(low), f(high))
-    # If f' falls from + to - within the piece, the maximum is inside.
-    inside = (slope(low) > -margin) & (slope(high) < margin)
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        up = slope(middle) > 0.0
-        low, high = np.where(up, middle, low), np.where(up, high, middle)
-    top = np.where(inside, np.maximum(ends, f(0.5 * (low + high))), ends)
-    return top > -margin
+    yield mpf(0)
+    if gap.amplitude > gap.g:
+        turn, angle = 2 * mpmath.pi, mpmath.acos(-gap.g / gap.amplitude)
+        zeros = sorted((sign * angle - mpmath.atan2(gap.c, gap.x)) % turn for sign in (1, -1))
+        # If g + x = 0, one of them is 0 itself, up to the last of the 60 digits.
+        floor = mpf(10) ** -40 if gap.g + gap.x == 0 else mpf(0)
+        while zeros[0] < last:
+            yield from (t for t in zeros if floor < t < last)
+            turns = int((clear[1] - zeros[0]) / turn) - 1 if zeros[0] > clear[0] else 1
+            zeros = [t + max(1, turns) * turn for t in zeros]
+    yield last
 
 
 def _monotone_pieces(gap):
-    """Yield (low, high, f(low), f(high)) of monotone pieces of f that may hold a root, in order."""
-    below = gap.b * gap.b - 2 * gap.g * (gap.x - gap.amplitude)
-    last = (-gap.b + mpmath.sqrt(below)) / gap.g + 1  # f > x + b t + g t^2/2 - A > 0 after this
-    grid, exact = _inflections(gap, last)
-    edges = np.array([0.0, *grid, float(last)])
+    """Yield (low, high, f(low), f(high)) of monotone pieces of f that may hold a root, in order.
 
-    def edge(i):
-        if i == 0:
-            return mpf(0)
-        return last if i == len(edges) - 1 else exact(i - 1)
-
-    for i in np.flatnonzero(_float_screen(gap, edges)):
-        low, high = edge(int(i)), edge(int(i) + 1)
-        f_low, f_high = gap(low), gap(high)
-        d_low, d_high = gap.slope(low), gap.slope(high)
+    With h = x + b t + g t^2/2, f is between h - A and h + A. Pieces on which f is below zero by
+    more than a millionth of its largest term are left out.
+    """
+    square = gap.b * gap.b - 2 * gap.g * (gap.x - gap.amplitude)
+    last = (-gap.b + mpmath.sqrt(square)) / gap.g + 1  # f > 0 from here on
+    margin = (abs(gap.x) + gap.amplitude + (abs(gap.b) + gap.g * last) * (1 + last)) / 10**6
+    square = gap.b * gap.b - 2 * gap.g * (gap.x + gap.amplitude + margin)
+    root = mpmath.sqrt(max(square, 0))
+    clear = (-gap.b - root) / gap.g, (-gap.b + root) / gap.g  # where h + A < -margin
+    values = cache(lambda t: (gap(t), gap.slope(t)))
+    for low, high in pairwise(_ends_of_pieces(gap, last, clear)):
+        if clear[0] < low and high < clear[1]:
+            continue
+        (f_low, d_low), (f_high, d_high) = values(low), values(high)
+        if d_low < 0 < d_high and max(f_low, f_high) < 0:
+            continue  # a minimum
         if d_low * d_high < 0:
+            # the tangents at both ends meet above a maximum
+            meet = (f_high - f_low - d_high * (high - low)) / (d_low - d_high)
+            if d_low > 0 > f_low + d_low * meet + margin:
+                continue
             at = _solve(gap.slope, gap.bend, low, high)
             f_at = gap(at)
             yield low, at, f_low, f_at
@@ -265,15 +232,13 @@ def exact_map(k, g, x, v, w):
 def exact_jacobian(k, g, x, v, w, step=1e-20):
     """The rows of the Jacobian by central differences of exact_map, with an error of step^2."""
     k, g, *at = (mpf(a) for a in (k, g, x, v, w))
-    columns = []
-    for j in range(3):
-        ends = []
-        for sign in (1, -1):
-            moved = list(at)
-            moved[j] += sign * step
-            ends.append(exact_map(k, g, *moved)[:3])
-        columns.append([(p - m) / (2 * step) for p, m in zip(*ends, strict=True)])
-    return [list(row) for row in zip(*columns, strict=True)]
+
+    def column(j):
+        ends = ([a + sign * step * (i == j) for i, a in enumerate(at)] for sign in (1, -1))
+        plus, minus = (exact_map(k, g, *end)[:3] for end in ends)
+        return [(p - m) / (2 * step) for p, m in zip(plus, minus, strict=True)]
+
+    return [list(row) for row in zip(*map(column, range(3)), strict=True)]
 
 
 def periodic_point(ball, energy, state, period):

@@ -6,12 +6,13 @@ import math
 import numpy as np
 import pytest
 import scipy.integrate
+from sections import BALL
 
-from pseudorigid import Ball, orbit
+from pseudorigid import orbit
 from pseudorigid.analyses import clusters as clusters_module
 from pseudorigid.analyses.clusters import clusters
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 SEA = (0.55, 0.68)
 
 

@@ -24,16 +24,6 @@ def datasets():
     return [artifacts.load(ROOT / path) for path in paths]
 
 
-@pytest.fixture(scope="module")
-def families(datasets):
-    return datasets[0]
-
-
-@pytest.fixture(scope="module")
-def shares(datasets):
-    return datasets[1]
-
-
 def named(families, number):
     """A family as the page names it: by its period and the range of its energies."""
     period = int(families["period"].values[number])
@@ -45,7 +35,8 @@ def named(families, number):
     return f"period {period} ({energies.min():.4f} to {energies.max():.4f})"
 
 
-def test_long_numbers_are_energies_of_events_or_ends(families):
+def test_long_numbers_are_energies_of_events_or_ends(datasets):
+    families, _ = datasets
     known = np.concatenate(
         [families[name].values.ravel() for name in ("event_energy", "end_energy")]
     )
@@ -56,7 +47,8 @@ def test_long_numbers_are_energies_of_events_or_ends(families):
         assert text in {f"{value:.{digits}f}" for value in known.tolist()}, text
 
 
-def test_the_resonances_of_the_fixed_point_are_listed(families):
+def test_the_resonances_of_the_fixed_point_are_listed(datasets):
+    families, _ = datasets
     of_fixed = families["period"].values[families["event_family"].values] == 1
     chosen = of_fixed & (families["event_kind"].values == "resonance")
     assert np.sum(chosen) >= 12
@@ -65,7 +57,8 @@ def test_the_resonances_of_the_fixed_point_are_listed(families):
         assert f"| {p}/{q} | {families['event_energy'].values[i]:.12f} |" in PAGE
 
 
-def test_ends_are_counted(families):
+def test_ends_are_counted(datasets):
+    families, _ = datasets
     kinds = families["end_kind"].values
     assert families.attrs["unresolved"] == 0
     lines = families["line"].values
@@ -74,7 +67,8 @@ def test_ends_are_counted(families):
     assert np.all(np.isin(kinds, ["range", "resonance", "doubling", "pitchfork", "touch", "rim"]))
 
 
-def test_the_table_of_slopes_is_that_of_the_dataset(families, shares):
+def test_the_table_of_slopes_is_that_of_the_dataset(datasets):
+    families, shares = datasets
     for i in range(shares.sizes["slope"]):
         first, last, change = (
             float(shares[f"slope_{name}"].values[i]) for name in ("from", "to", "change")
@@ -91,7 +85,8 @@ def test_the_table_of_slopes_is_that_of_the_dataset(families, shares):
         assert f"| {first:.4f} | {last:.4f} | {change:+.4f} | {parts} |" in PAGE
 
 
-def test_the_table_of_extrema_is_that_of_the_dataset(families, shares):
+def test_the_table_of_extrema_is_that_of_the_dataset(datasets):
+    families, shares = datasets
     for i in range(shares.sizes["extremum"]):
         kind, at, cause = (
             shares[name].values[i] for name in ("extremum_kind", "extremum_at", "cause_event")
@@ -105,7 +100,8 @@ def test_the_table_of_extrema_is_that_of_the_dataset(families, shares):
             assert f"| {where} | {part:.2f} | {event} at {place:.5f} | {cause} |" in PAGE
 
 
-def test_the_table_of_the_main_island_is_that_of_the_dataset(shares):
+def test_the_table_of_the_main_island_is_that_of_the_dataset(datasets):
+    _, shares = datasets
     turns, orders = (shares[f"resonance_{name}"].values.tolist() for name in ("turns", "order"))
     ratios = list(zip(turns, orders, strict=True))
     energies, regular = shares["energy"].values, shares["regular"].values
@@ -118,7 +114,8 @@ def test_the_table_of_the_main_island_is_that_of_the_dataset(shares):
         assert f"| {p}/{q} | {cells[0]} | {cells[1]} |" in PAGE
 
 
-def test_at_the_papers_energy_regular_orbits_are_in_the_island_or_in_its_six(families, shares):
+def test_at_the_papers_energy_regular_orbits_are_in_the_island_or_in_its_six(datasets):
+    families, shares = datasets
     (row,) = np.flatnonzero(np.isclose(shares["energy"].values, 0.01))
     share = shares["share"].values[row]
     held = sorted(int(families["period"].values[i]) for i in np.flatnonzero(share))

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from mpmath import mp, mpf
+from sections import BALL
 
-from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid import symmetric_orbits, trace_manifold
 from pseudorigid.analyses import actions, polygon
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 
 
 def test_flights_in_balls_agree_with_an_independent_solver():

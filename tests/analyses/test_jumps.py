@@ -6,11 +6,12 @@ import independent_solver as judge
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from sections import BALL
 
 from pseudorigid import Ball
 from pseudorigid.analyses.jumps import jumps
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 
 
 @pytest.mark.parametrize("energy", [0.01, 0.0025])

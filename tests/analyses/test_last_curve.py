@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pytest
 from independent_solver import periodic_point
+from sections import BALL
 from slowly import slowly
 
 from pseudorigid import Ball
 from pseudorigid.analyses import last_curve
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 
 
 def test_convergents_of_noble_numbers():

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from sections import BALL
 
-from pseudorigid import Ball, symmetric_orbits
+from pseudorigid import symmetric_orbits
 from pseudorigid.analyses import rotation
 from pseudorigid.analyses.regularity import regular
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 
 
 def test_rotation_numbers_at_the_fixed_point_and_in_an_island():

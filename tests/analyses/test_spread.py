@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from sections import BALL
 
-from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid import lyapunov_spectrum, orbit
 from pseudorigid.analyses.sea import section_points
 from pseudorigid.analyses.spread import in_sea, spread, stretches
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sections import BALL
 
 from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.ensemble import ImpactMap
 
-BALL = Ball(k=0.2, g=0.04)
 METHODS = ("impact", "inverse_impact", "jacobian", "time_to_impact", "energy", "reflect")
 
 every = settings(derandomize=True, deadline=None)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from sections import BALL
 
 from pipeline.checks.compare import exponents
 from pipeline.config.schema.kinds import KINDS
@@ -12,8 +13,6 @@ from pseudorigid.dynamics import lyapunov
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents, of_type
 from pseudorigid.figures.kinds.exponents import draw
-
-BALL = Ball(0.2, 0.04)
 
 
 def bits(a):

@@ -4,14 +4,15 @@ from functools import cache
 
 import numpy as np
 import pytest
+from sections import BALL
 from slowly import slowly
 
-from pseudorigid import Ball, symmetric_orbits, trace_manifold
+from pseudorigid import symmetric_orbits, trace_manifold
 from pseudorigid.dynamics import branch as rule
 from pseudorigid.dynamics import manifolds
 from pseudorigid.dynamics.variables import of_type, states_of
 
-BALL, ENERGY = Ball(0.2, 0.04), 0.01
+ENERGY = 0.01
 RADIUS = BALL.section(ENERGY)[1]
 SIDES = "inner", "outer"
 

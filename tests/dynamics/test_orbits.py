@@ -4,13 +4,13 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from sections import BALL
 
 from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.motion import motion
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
-BALL = Ball(0.2, 0.04)
 NAMES = ("x", "xdot", "udot", "tau")
 FRACTIONS = np.array([[-0.44, -0.1, 0.142], [0.17, 0.53, 0.9]])
 

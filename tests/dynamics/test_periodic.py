@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from cycles import NAMES, PERIODS, SETTINGS, points_of
 from independent_solver import periodic_point
+from sections import BALL
 from slowly import slowly
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
-
-BALL = Ball(0.2, 0.04)
 
 
 def tolerance(multiplier):
@@ -119,13 +118,6 @@ def test_the_types_at_the_papers_energies(energy, period, types):
     check(BALL, energy, period, orbits)
 
 
-def test_the_papers_orbits_of_period_six():
-    orbits = symmetric_orbits(BALL, 0.01, 6)
-    saddle, third = (of_type(orbits, kind) for kind in ("hyperbolic", "inverse hyperbolic"))
-    assert float(saddle["multiplier"]) == pytest.approx(2.0417, abs=5e-5)
-    assert np.min(np.abs(third["x"].values - 0.387)) < 5e-4
-
-
 def test_of_type_returns_one_orbit_or_names_the_available_types():
     orbits = symmetric_orbits(BALL, 0.01, 7)
     assert of_type(orbits, "hyperbolic").sizes == {"point": 7}
@@ -170,8 +162,3 @@ def test_trace_and_points_in_sixty_digits(k, g, energy, period):
         size = max(1.0, *(abs(float(a)) for a in product))
         assert moved < 2e-15 * max(1.0, size / 50)
         assert abs(trace - float(orbits["trace"][i])) < 2e-13 * size * size
-
-
-def test_an_energy_below_the_lowest_is_rejected():
-    with pytest.raises(ValueError, match=r"^energy = -0\.0041 is not allowed"):
-        symmetric_orbits(BALL, -0.0041, 1)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sections import BALL
 
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
@@ -9,7 +10,6 @@ from pseudorigid.dynamics.motion import motion
 from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.scan import scan
 
-BALL = Ball(0.2, 0.04)
 SEA = BALL.start(0.534522, 0.01)
 
 

@@ -1,10 +1,9 @@
 """Real browsers for tests: Debian's Chromium by Selenium, Debian's Firefox by Marionette.
 
 Debian 12 has no geckodriver, so the client of Firefox's own protocol is here. Both browsers have
-the same interface: `open` a page, `click`, `run` a script, `screenshot`, `resize` and `errors`.
+the same interface: `open` a page, `click`, `run` a script, and `errors`.
 """
 
-import base64
 import json
 import shutil
 import socket
@@ -29,16 +28,11 @@ class ScriptError(Exception):
     """A script in a page ended with an exception."""
 
 
-def require(name):
-    """Skip the test if a browser is not installed."""
+def start(name, folder, width=1200, height=900):
+    """Start a browser with its profile in `folder`; skip the test if it is not installed."""
     missing = [program for program in PROGRAMS[name] if not shutil.which(program)]
     if missing:
         pytest.skip(f"{' and '.join(missing)} not installed (Debian packages, see .ci/run)")
-
-
-def start(name, folder, width=1200, height=900):
-    """Start a browser with its profile in `folder`."""
-    require(name)
     return {"chromium": Chromium, "firefox": Firefox}[name](Path(folder), width, height)
 
 
@@ -79,9 +73,6 @@ class Chromium(_Browser):
 
     def _async(self, script, args):
         return self.driver.execute_async_script(script, *args)
-
-    def screenshot(self, path):
-        self.driver.save_screenshot(str(path))
 
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
@@ -156,18 +147,11 @@ class Firefox(_Browser):
         parameters = {"script": script, "args": args, "sandbox": None}
         return self._command("WebDriver:ExecuteAsyncScript", parameters)["value"]
 
-    def screenshot(self, path):
-        data = self._command("WebDriver:TakeScreenshot", {"full": False})["value"]
-        Path(path).write_bytes(base64.b64decode(data))
-
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
         how = {"using": "css selector", "value": selector}
         (element,) = self._command("WebDriver:FindElement", how)["value"].values()
         self._command("WebDriver:ElementClick", {"id": element})
-
-    def resize(self, width, height):
-        self._command("WebDriver:SetWindowRect", {"width": width, "height": height})
 
     def errors(self):
         """Return lines about exceptions in pages since the last call.

@@ -20,7 +20,7 @@ class Person:
         from selenium.webdriver import ActionChains
         from selenium.webdriver.common.by import By
 
-        self.browser, self.driver = browser, browser.driver
+        self.browser, self.driver, self.run = browser, browser.driver, browser.run
         self.chain = lambda **how: ActionChains(self.driver, duration=20, **how)
         self.by = By.ID
 
@@ -33,7 +33,7 @@ class Person:
         return self.driver.find_element(self.by, name)
 
     def text(self, name):
-        return self.browser.run("return document.getElementById(args[0]).textContent", name)
+        return self.run("return document.getElementById(args[0]).textContent", name)
 
     def press(self, name):
         element = self.find(name)
@@ -41,8 +41,18 @@ class Person:
         element.click()
 
     def unfold(self, name):
-        if self.browser.run("return !document.getElementById(args[0]).open", name):
+        if self.run("return !document.getElementById(args[0]).open", name):
             self.driver.find_element("css selector", f"#{name} > summary").click()
+
+    def clear_disk(self):
+        """Show an empty disk."""
+        self.press("as-disk")
+        self.press("clear")
+
+    def submit(self, name, text):
+        """Type into a field and submit its form."""
+        self.type(name, text)
+        self.find(name).submit()
 
     def choose(self, name, value):
         from selenium.webdriver.support.ui import Select
@@ -60,28 +70,23 @@ class Person:
     def state(self):
         """Fields of the address."""
         time.sleep(0.5)  # the address follows the state after 0.4 s
-        text = self.browser.run("return decodeURIComponent(location.hash.slice(1))")
+        text = self.run("return decodeURIComponent(location.hash.slice(1))")
         return dict(part.split("=", 1) for part in text.split("&"))
 
     def orbits(self):
         """(start, impacts so far, exponent, rotation number, verdict) of each orbit in the list."""
-        rows = self.browser.run(
+        rows = self.run(
             "return [...document.querySelectorAll('#orbits label')].map(n =>"
             " [...n.querySelectorAll('div')].slice(1).map(d => d.textContent))"
         )
-        found = []
+        orbits = []
         for title, facts in rows:
             count, exponent, rotation, start = facts.replace("\N{MINUS SIGN}", "-").split(" · ")
-            found.append(
-                {
-                    "impacts": int(count.split()[0].replace(",", "")),
-                    "exponent": exponent.split()[1],
-                    "rotation": rotation.split()[1],
-                    "start": start.removeprefix("start "),
-                    "verdict": re.sub(r"^\d+\. ", "", title),
-                }
-            )
-        return found
+            orbit = {"impacts": int(count.split()[0].replace(",", ""))}
+            orbit |= {"exponent": exponent.split()[1], "rotation": rotation.split()[1]}
+            orbit |= {"start": start.removeprefix("start ")}
+            orbits.append(orbit | {"verdict": re.sub(r"^\d+\. ", "", title)})
+        return orbits
 
     def wait(self, condition, patience=60):
         end = time.monotonic() + patience
@@ -100,9 +105,8 @@ class Person:
 
         return [row for row in self.wait(complete) if row]
 
-    def spot(self, p, q=0.0, shape="disk"):
+    def spot(self, p, q=0.0):
         """Where a place of the section is in the whole disk, in pixels from the box's middle."""
-        assert shape == "disk"
         box = self.find("section").rect
         wide = box["width"] - 2 - MARGINS["left"] - MARGINS["right"]
         tall = box["height"] - 2 - MARGINS["top"] - MARGINS["bottom"]
@@ -111,19 +115,20 @@ class Person:
         down = MARGINS["top"] + tall / 2 - box["height"] / 2 + 1 - q * scale
         return round(across), round(down)
 
+    def pointer(self, spot, element="section"):
+        """Move the pointer to a place in pixels from an element's middle, and begin a chain."""
+        box = self.find(element)
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", box)
+        return self.chain().move_to_element_with_offset(box, *spot)
+
     def click(self, p, q=0.0):
-        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-        self.chain().move_to_element_with_offset(
-            self.find("section"), *self.spot(p, q)
-        ).click().perform()
+        self.pointer(self.spot(p, q)).click().perform()
 
     def drag(self, start, end):
-        box = self.find("section")
-        self.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-        chain = self.chain().move_to_element_with_offset(box, *start).click_and_hold()
+        chain = self.pointer(start).click_and_hold()
         for share in (0.3, 0.7, 1.0):
             at = [round(a + share * (b - a)) for a, b in zip(start, end, strict=True)]
-            chain = chain.move_to_element_with_offset(box, *at)
+            chain = chain.move_to_element_with_offset(self.find("section"), *at)
         chain.release().perform()
 
     def pixels(self):
@@ -135,7 +140,7 @@ class Person:
             "for (const layer of [first, ...rest]) d.drawImage(layer, 0, 0);"
             "return c.toDataURL().split(',')[1];"
         )
-        data = base64.b64decode(self.browser.run(url))
+        data = base64.b64decode(self.run(url))
         return np.array(Image.open(io.BytesIO(data)).convert("RGBA"))
 
     def saved(self):
@@ -145,17 +150,17 @@ class Person:
             "URL.createObjectURL = blob => {"
             " blob.text().then(t => { window.saved = t }); return make(blob) }"
         )
-        self.browser.run(catch)
+        self.run(catch)
         self.unfold("record-panel")
         self.press("csv")
-        text = self.wait(lambda: self.browser.run("return window.saved"))
+        text = self.wait(lambda: self.run("return window.saved"))
         return list(csv.DictReader(io.StringIO(text)))
 
     def every_point(self):
         """The impacts of all orbits on the page, joined as in a dataset of orbits."""
         columns = {"x": [], "xdot": [], "udot": []}
         for at in range(len(self.orbits())):
-            self.browser.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
+            self.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
             rows = self.saved()[1:]
             for name, values in columns.items():
                 values += [float(row[name]) for row in rows]

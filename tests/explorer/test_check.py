@@ -1,10 +1,8 @@
 """The page's own check of a machine, pressed in Chromium and in Firefox."""
 
-import time
-
 import browsers
 import pytest
-from project import SHIPPED
+from project import SHIPPED, wait_for
 from slowly import slowly
 
 from pipeline import config
@@ -32,15 +30,12 @@ def opened(request, tmp_path_factory):
         yield show
 
 
-def checked(browser, patience=120):
+def checked(browser):
     """Press the button, and return the answer."""
     browser.run("document.querySelectorAll('details').forEach(e => e.open = true)")
     browser.click("#check")
-    end = time.monotonic() + patience
-    while "Figure 8: " not in (note := browser.run(NOTE)):
-        assert time.monotonic() < end, (note, browser.errors())
-        time.sleep(0.1)
-    return note
+    wait_for(lambda: "Figure 8: " in browser.run(NOTE), 120)
+    return browser.run(NOTE)
 
 
 def test_the_page_says_that_the_bits_are_the_same(opened):

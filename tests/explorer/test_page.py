@@ -2,13 +2,12 @@
 
 import math
 import re
-import time
 
 import browsers
 import numpy as np
 import pytest
 from person import WHOLE
-from project import SHIPPED, shipped
+from project import SHIPPED, shipped, wait_for
 
 from pipeline import config
 from pipeline.config.schema.kinds import KINDS
@@ -26,19 +25,12 @@ K, G = BALL.k, BALL.g
 JOB = "const worker = new Computer(); const [job, values] = args; return worker.ask(job, values);"
 
 
-def test_the_first_picture_is_figure_2_and_says_what_to_do_next(person):
-    rows = person.settled()
-    assert [row["impacts"] for row in rows] == shipped()["scenes"]["fig2"]["impacts"]
-    assert "starts there" in person.text("hint")
-    assert person.state()["preset"] == "fig2"
-    assert "chaos" in person.text("see")
-
-
-def test_facts_of_figure_2_are_those_of_python(person):
+def test_the_first_picture_is_figure_2_with_python_s_facts(person):
     scene = shipped()["scenes"]["fig2"]
-    for row, start, impacts in zip(
-        person.settled(), scene["starts"], scene["impacts"], strict=True
-    ):
+    rows = person.settled()
+    assert [row["impacts"] for row in rows] == scene["impacts"]
+    assert person.state()["preset"] == "fig2"
+    for row, start, impacts in zip(rows, scene["starts"], scene["impacts"], strict=True):
         state = BALL.start(start, ENERGY)
         exponent = float(lyapunov_spectrum(BALL, state, impacts, 1)["exponent"][0, 0])
         assert float(row["exponent"]) == pytest.approx(exponent, rel=6e-4)
@@ -49,24 +41,8 @@ def test_facts_of_figure_2_are_those_of_python(person):
             assert float(row["rotation"]) == pytest.approx(turns[0], abs=2e-8)
 
 
-def test_a_new_user_makes_an_island_a_chaotic_orbit_and_the_ball_bounces(person):
-    began = time.monotonic()
-    person.press("as-disk")
-    person.click(-0.3, 0.1)
-    person.wait(lambda: "regular" in person.text("hint"))
-    assert "grey sea" in person.text("hint")
-    person.click(0.6, 0.2)
-    person.wait(lambda: "chaotic" in person.text("hint"))
-    before = person.text("moment")
-    person.wait(lambda: person.text("moment") != before)
-    assert person.text("play") == "Pause"
-    assert time.monotonic() - began < 60
-    assert [row["verdict"] for row in person.settled()][-2:] == ["regular", "chaotic"]
-
-
 def test_a_click_starts_what_the_readout_says_and_the_points_are_the_kernel_s(person):
-    person.press("as-disk")
-    person.press("clear")
+    person.clear_disk()
     person.type("impacts", "700")
     person.click(0.31, 0.22)
     person.settled()
@@ -81,8 +57,7 @@ def test_a_click_starts_what_the_readout_says_and_the_points_are_the_kernel_s(pe
 
 
 def test_a_backward_orbit_is_the_inverse_map_s(person):
-    person.press("as-disk")
-    person.press("clear")
+    person.clear_disk()
     person.type("impacts", "300")
     person.press("back")
     person.click(0.31, 0.22)
@@ -96,14 +71,11 @@ def test_a_backward_orbit_is_the_inverse_map_s(person):
     found = [[float(row[name]) for name in ("x", "xdot", "udot", "tau")] for row in rows[1:41]]
     assert np.allclose(found, reached[:40], atol=1e-10)  # chaos: rounding grows from there
     assert rows[1]["impact"] == "-1"
-    assert person.browser.run("return document.getElementById('moment').textContent").startswith(
-        "t"
-    )
+    assert person.text("moment").startswith("t")
 
 
 def test_dragging_along_the_symmetry_line_shoots_a_fan(person):
-    person.press("as-disk")
-    person.press("clear")
+    person.clear_disk()
     person.drag(person.spot(-0.4), person.spot(0.5))
     rows = person.settled()
     starts = [float(row["start"]) for row in rows]
@@ -129,36 +101,31 @@ def test_dragging_turns_the_surface_and_moves_the_disk(person):
 
 
 def test_the_wheel_zooms_without_limit_at_the_pointer(person):
+    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+
     person.press("as-disk")
-    box = person.find("section")
-    person.chain().move_to_element_with_offset(box, *person.spot(0.3, 0.2)).perform()
+    person.pointer(person.spot(0.3, 0.2)).perform()
     place = person.text("where")
-    origin = wheel_origin(box, person.spot(0.3, 0.2))
+    origin = ScrollOrigin.from_element(person.find("section"), *person.spot(0.3, 0.2))
     for _ in range(70):
         person.chain().scroll_from_origin(origin, 0, -240).perform()
     half = float(person.state()["view"].split(",")[5])
     assert half < 1e-13
-    person.chain().move_to_element_with_offset(box, 40, 40).perform()
+    person.pointer((40, 40)).perform()
     there = person.text("where")
     values = [re.findall(r"[−\d.]+", text)[:2] for text in (place, there)]
     for before, after in zip(*values, strict=True):
         number = [float(text.replace("−", "-")) for text in (before, after)]
         assert number[0] == pytest.approx(number[1], abs=3e-3)
-    person.chain().move_to_element_with_offset(box, 40, 40).click().perform()
+    person.pointer((40, 40)).click().perform()
     assert person.settled()[-1]["impacts"] == 3000
-
-
-def wheel_origin(box, spot):
-    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
-
-    return ScrollOrigin.from_element(box, *spot)
 
 
 def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
     person.press("as-disk")
     touch = person.driver.execute_cdp_cmd
-    person.browser.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-    left, top = person.browser.run(
+    person.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+    left, top = person.run(
         "const b = document.getElementById('section').getBoundingClientRect();"
         "return [b.left + b.width / 2, b.top + b.height / 2]"
     )
@@ -185,7 +152,7 @@ def test_the_keyboard_does_everything(person):
 
     person.press("clear")
     box = person.find("section")
-    person.browser.run("document.getElementById('section').focus()")
+    person.run("document.getElementById('section').focus()")
     box.send_keys(*[Keys.ARROW_RIGHT] * 3, *[Keys.ARROW_DOWN] * 2, Keys.ENTER)
     assert len(person.settled()) == 1
     person.wait(lambda: person.text("play") == "Pause")
@@ -230,11 +197,9 @@ def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
     person.settled()
     assert np.mean(np.any(before != person.pixels(), axis=2)) < 1e-3
     person.driver.find_element("css selector", "main details summary").click()
-    person.type("start-x", "3")
-    person.find("start-x").submit()
+    person.submit("start-x", "3")
     assert "outside the section" in person.text("start-error")
-    person.type("fan-count", "1")
-    person.find("fan-count").submit()
+    person.submit("fan-count", "1")
     assert "2 to 64" in person.text("fan-error")
     person.type("impacts", "0")
     assert "whole number" in person.text("impacts-error")
@@ -250,7 +215,7 @@ def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
     assert person.state()["E"] == "0.008"
     exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, 0.008), 25000, 1)["exponent"]
     assert float(rows[-1]["exponent"]) == pytest.approx(float(exponent[0, 0]), rel=6e-4)
-    person.browser.run(
+    person.run(
         "const s = document.getElementById('k-slide'); s.value = Math.sqrt(0.25);"
         "s.dispatchEvent(new Event('input', {bubbles: true}))"
     )
@@ -265,7 +230,7 @@ def test_bounds_of_the_energy_follow_k_and_g(person):
     slide = "const s = document.getElementById('E-slide'); s.value = args[0];"
     slide += "s.dispatchEvent(new Event('input', {bubbles: true}))"
     for end, bound in ((1, 0.05), (0, -0.00625)):
-        person.browser.run(slide, end)
+        person.run(slide, end)
         energy = float(person.find("E").get_attribute("value"))
         assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
         assert person.text("E-error") == ""
@@ -280,21 +245,17 @@ def test_periodic_orbits_are_those_of_python(person):
     for period in (1, 2, 5, 6):
         expected = symmetric_orbits(BALL, ENERGY, period)
         values = {"k": K, "g": G, "energy": ENERGY, "period": period}
-        found = person.browser.run(JOB, "periodic", values)
+        found = person.run(JOB, "periodic", values)
         assert [one["type"] for one in found] == expected["type"].values.tolist()
-        for name, variable in (
-            ("trace", "trace"),
-            ("rotation", "rotation_number"),
-            ("time", "total_time"),
-        ):
-            got = [one[name] for one in found]
-            if name == "rotation":
-                pairs = zip(got, expected[variable].values, expected["type"].values, strict=True)
-                got = [a if kind == "elliptic" else b for a, b, kind in pairs]
-            assert np.allclose(got, expected[variable].values, rtol=1e-9, atol=1e-9)
-        for one, row in zip(found, range(len(found)), strict=True):
+        for row, one in enumerate(found):
+            orbit = expected.isel(orbit=row)
+            names = {"trace": "trace", "time": "total_time"}
+            if one["type"] == "elliptic":
+                names["rotation"] = "rotation_number"
+            for name, variable in names.items():
+                assert one[name] == pytest.approx(float(orbit[variable]), rel=1e-9, abs=1e-9)
             xs = sorted(point[0] for point in one["points"])
-            assert np.allclose(xs, np.sort(expected["x"].values[row]), atol=1e-12)
+            assert np.allclose(xs, np.sort(orbit["x"].values), atol=1e-12)
 
 
 def test_a_person_finds_a_saddle_and_draws_its_branches(person):
@@ -307,8 +268,7 @@ def test_a_person_finds_a_saddle_and_draws_its_branches(person):
     person.press("no-branches")
     person.find("branch-length").submit()
     person.wait(lambda: "24 branches" in person.text("branch-note"))
-    person.type("branch-length", "-1")
-    person.find("branch-length").submit()
+    person.submit("branch-length", "-1")
     assert "above 0" in person.text("branch-error")
 
 
@@ -321,16 +281,10 @@ def test_branches_are_those_of_python(person, energy, period, length, side, stab
     expected = trace_manifold(BALL, energy, saddle, 1, stable=stable, side=side, length=length)
     spec = {"saddle": 1, "stable": stable, "side": side, "length": length}
     values = {"k": K, "g": G, "energy": energy, "points": points, "spec": spec}
-    line = person.browser.run(
-        JOB.replace(
-            "return worker.ask(job, values)",
-            "const line = await worker.ask(job, values);"
-            "return [line.x, line.xdot, line.udot].map(a => [...a])",
-        ),
-        "branch",
-        values,
-    )
-    found, radius = np.array(line), BALL.section(energy)[1]
+    take = "const line = await worker.ask(job, values);"
+    take += "return [line.x, line.xdot, line.udot].map(a => [...a])"
+    script = JOB.replace("return worker.ask(job, values)", take)
+    found, radius = np.array(person.run(script, "branch", values)), BALL.section(energy)[1]
     reference = np.stack([expected[name].values for name in ("x", "xdot", "udot")])
     assert found.shape == reference.shape
     assert np.allclose(found, reference, rtol=0.0, atol=1e-12 * radius)
@@ -338,7 +292,7 @@ def test_branches_are_those_of_python(person, energy, period, length, side, stab
 
 def test_the_jump_curve_has_python_s_length(person):
     expected = float(jumps(BALL, ENERGY, [0.001], 4000)["length"][0])
-    curve = person.browser.run(JOB, "jump", {"k": K, "g": G, "energy": ENERGY})
+    curve = person.run(JOB, "jump", {"k": K, "g": G, "energy": ENERGY})
     assert curve["length"] == pytest.approx(expected, rel=1e-9)
     person.unfold("periodic-panel")
     person.press("jump")
@@ -354,11 +308,11 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
     times = np.concatenate([[0.0], np.cumsum(six["tau"].values)])
     views = "return ['#ball', '#curves', '#section .cursors'].map(s => document.querySelector(s)"
     views += ".toDataURL())"
-    before = person.browser.run(views)
+    before = person.run(views)
     for when in times[1:]:
         person.press("next-impact")
         assert float(person.state()["t"]) == pytest.approx(when, abs=1e-9)
-        now = person.browser.run(views)  # one cursor in all views
+        now = person.run(views)  # one cursor in all views
         assert all(a != b for a, b in zip(before, now, strict=True))
         before = now
     person.press("back-impact")
@@ -370,9 +324,9 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
 
 
 def test_every_preset_draws_and_has_one_sentence(person):
-    assert set(person.browser.run("return Object.keys(PRESETS)")) == set(KINDS) - {*data.NO_SECTION}
+    assert set(person.run("return Object.keys(PRESETS)")) == set(KINDS) - {*data.NO_SECTION}
     options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
-    own, *names = person.browser.run(options)
+    own, *names = person.run(options)
     variants = config.load(SHIPPED)["variants"]
     published = {scene for name in ("paper", "claims", "proofs") for scene in variants[name]}
     assert own == "" and set(names) == published - {*data.NO_SECTION}
@@ -396,7 +350,7 @@ def test_the_address_holds_the_whole_state(person):
     person.settled()
     person.wait(lambda: "24 branches" in person.text("branch-note"))
     state = person.state()
-    where = person.browser.run("return location.href")
+    where = person.run("return location.href")
     picture = person.pixels()
     person.open(where)
     person.settled()
@@ -415,15 +369,9 @@ def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
     assert len(person.settled()) == 8
 
 
-def test_the_name_of_a_preset_is_an_address(person):
-    person.open(f"{person.file}#fig8")
-    person.wait(lambda: person.state().get("E") == "0.001")
-    assert person.state()["preset"] == "fig8"
-
-
-@pytest.mark.parametrize("scene", ["thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
-def test_a_scene_of_a_variant_is_an_address(person, scene):
-    variant, name = scene.split("/")
+@pytest.mark.parametrize("scene", ["fig8", "thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
+def test_the_name_of_a_scene_is_an_address(person, scene):
+    variant, name = scene.split("/") if "/" in scene else ("paper", scene)
     block = config.load(SHIPPED)["variants"][variant][name]
     person.open(f"{person.file}#{scene}")
     person.wait(lambda: person.state().get("preset") == scene)
@@ -442,7 +390,7 @@ def test_points_of_a_scene_are_places(person):
     xdot = float(BALL.state_xy(x, y, ENERGY)[1])
     starts = [{"x": x, "y": y}, {"x": x, "xdot": xdot}, 0.5]
     block = {"ball": {"k": K, "g": G}, "energy": ENERGY}
-    places = person.browser.run("return args[0].map(s => placeOf(s, args[1]))", starts, block)
+    places = person.run("return args[0].map(s => placeOf(s, args[1]))", starts, block)
     assert np.allclose(places[0], places[1], rtol=1e-9)
     assert places[2] == [0.5, 0]
 
@@ -450,9 +398,7 @@ def test_points_of_a_scene_are_places(person):
 def test_the_atlas_goes_to_a_ball_and_an_energy(person):
     person.settled()
     person.unfold("atlas-panel")
-    canvas = person.find("atlas")
-    person.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
-    person.chain().move_to_element_with_offset(canvas, 30, -20).click().perform()
+    person.pointer((30, -20), "atlas").click().perform()
     state = person.state()
     assert float(state["k"]) != 0.2
     k, g, energy = (float(state[name]) for name in ("k", "g", "E"))
@@ -474,15 +420,6 @@ def test_the_atlas_answers_to_keys(person):
     assert float(person.state()["E"]) == pytest.approx(4.96 * 0.04**2)
 
 
-def test_check_this_machine_finds_the_same_bits(person):
-    person.press("check")
-    person.wait(lambda: "Figure 8: " in person.text("check-note"))
-    assert person.text("check-note") == (
-        "Figure 2: the same bits here, in 45,000 impacts. "
-        "Figure 8: the same bits here, in 35,000 impacts."
-    )
-
-
 def test_the_view_is_saved_as_png(person):
     person.settled()
     person.unfold("record-panel")
@@ -497,24 +434,24 @@ def test_the_page_fits_and_is_legible(person, width, theme):
     person.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     try:
         person.open(person.file)
-        if theme != person.browser.run("return document.documentElement.dataset.theme"):
+        if theme != person.run("return document.documentElement.dataset.theme"):
             person.press("theme")
         for panel in ("periodic-panel", "atlas-panel", "record-panel", "keys-panel"):
             person.unfold(panel)
-        room, needed = person.browser.run(
+        room, needed = person.run(
             "const e = document.documentElement; return [e.clientWidth, e.scrollWidth]"
         )
         assert needed <= room
-        for name, ratio in person.browser.run(CONTRAST):
+        for name, ratio in person.run(CONTRAST):
             assert ratio >= 4.5, name
-        small = person.browser.run(
+        small = person.run(
             "return [...document.querySelectorAll('button, select, input:not([type=range])')]"
             ".map(n => [n.id, n.getBoundingClientRect()]).filter(([, b]) => b.width &&"
             " (b.height < 24 || b.width < 24) && !(b.width >= 20 && b.height >= 20))"
             ".map(([id]) => id)"
         )
         assert small == []
-        unnamed = person.browser.run(
+        unnamed = person.run(
             "return [...document.querySelectorAll('button, select, input, textarea, canvas[role]')]"
             ".filter(n => !(n.textContent.trim() && n.matches('button')) && !n.labels?.length"
             " && !n.getAttribute('aria-label')).map(n => n.outerHTML)"
@@ -596,10 +533,3 @@ def tap(firefox, kind, *paths):
     ]
     firefox._command("WebDriver:PerformActions", {"actions": actions})
     firefox._command("WebDriver:ReleaseActions")
-
-
-def wait_for(condition, patience=60):
-    end = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.1)

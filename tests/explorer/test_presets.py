@@ -19,7 +19,7 @@ def copied(person, kind):
     person.choose("scene-kind", kind)
     person.press("copy-scene")
     person.wait(lambda: "config.yaml" in person.text("scene-note"))
-    text = person.browser.run("return document.getElementById('scene').value")
+    text = person.run("return document.getElementById('scene').value")
     ((name, block),) = yaml.safe_load(text).items()
     assert block["picture"] == kind
     assert max(map(len, text.splitlines())) <= 100
@@ -50,8 +50,7 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
             orbits[name] = person.every_point()
         return name
 
-    person.press("as-disk")
-    person.press("clear")
+    person.clear_disk()
     person.type("impacts", "900")
     person.click(-0.2)
     person.drag(person.spot(0.1), person.spot(0.7))
@@ -88,7 +87,7 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
         for variable, values in expected.items():
             assert np.array_equal(dataset[variable].values, values), (name, variable)
 
-    found = person.browser.run(PERIODIC, values_of(scenes[motion]) | {"period": 6})
+    found = person.run(PERIODIC, values_of(scenes[motion]) | {"period": 6})
     (six,) = (one["points"] for one in found if one["type"] == "elliptic")
     times = np.cumsum(np.tile(np.array(six)[:, 3], 9))
     expected = load(results / f"motion_{motion}.nc")["impact_t"].values
@@ -101,7 +100,7 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
     rows = zip(*(branches[each].values.tolist() for each in names), strict=True)
     specs = [dict(zip(names, row, strict=True)) | {"length": lengths[row[1]]} for row in rows]
     points = [[row[0], row[1], row[2]] for row in saddle]
-    lines = person.browser.run(BRANCHES, values_of(scenes[tangle]) | {"points": points}, specs)
+    lines = person.run(BRANCHES, values_of(scenes[tangle]) | {"points": points}, specs)
     for variable, column in zip(STATE, lines, strict=True):
         drawn = np.array([np.nan if value is None else value for value in column])
         assert np.allclose(branches[variable].values, drawn, rtol=0.0, atol=1e-9, equal_nan=True)
@@ -126,14 +125,13 @@ return columns;
 def zoomed(person):
     """Zoom in until the view is a millionth of the section, and start orbits there."""
     person.press("clear")
-    person.browser.run(
+    person.run(
         "const s = document.getElementById('section'); s.scrollIntoView({block: 'center'});"
         "const b = s.getBoundingClientRect();"
         "for (let i = 0; i < 35; i++) s.dispatchEvent(new WheelEvent('wheel', {deltaY: -240,"
         " clientX: b.left + 0.4 * b.width, clientY: b.top + 0.3 * b.height, cancelable: true}))"
     )
     assert float(person.state()["view"].split(",")[5]) < 1e-6
-    box = person.find("section")
     for at in ((0, 0), (40, -30), (-60, 20)):
-        person.chain().move_to_element_with_offset(box, *at).click().perform()
+        person.pointer(at).click().perform()
     assert len(person.settled()) == 3

@@ -3,14 +3,11 @@
 import importlib.util
 import itertools
 import math
-import os
 import re
 import shutil
-import struct
-import subprocess
-import sys
 
 import doubles
+import numpy as np
 import pytest
 from project import NO_CACHES, ROOT
 from slowly import slowly
@@ -167,10 +164,6 @@ def flat(result):
     return [leaf for v in values for leaf in (flat(v) if isinstance(v, tuple) else [float(v)])]
 
 
-def canonical(values):
-    return [struct.pack("<d", math.nan if math.isnan(v) else v).hex() for v in values]
-
-
 @pytest.mark.parametrize("browser", ["chromium", *slowly("firefox")], indirect=True)
 def test_every_construct_has_the_bits_of_the_compiled_one(browser, tmp_path):
     zoo = translator(tmp_path, ZOO)
@@ -195,18 +188,13 @@ def test_every_construct_has_the_bits_of_the_compiled_one(browser, tmp_path):
           }}
           return text(Float64Array.from(all));
         }});"""
-    ours = {
-        name: [flat(getattr(module, name)(a, b)) for a, b in pairs]
-        for name in names
-    }  # fmt: skip
-    several = {name: 0 if name == "grouped" else len(ours[name][0]) for name in names}
+    ours = {name: np.array([flat(getattr(module, name)(a, b)) for a, b in pairs]) for name in names}
+    several = {name: 0 if name == "grouped" else ours[name].shape[1] for name in names}
     theirs = browser.run(script, doubles.packed(numbers), several)
     for name, text in zip(names, theirs, strict=True):
-        values = doubles.unpacked(text)
-        width = len(ours[name][0])
-        rows = [values[i : i + width].tolist() for i in range(0, len(values), width)]
-        for given, row, expected in zip(pairs, rows, ours[name], strict=True):
-            assert canonical(row) == canonical(expected), (name, given)
+        values = doubles.unpacked(text).reshape(ours[name].shape)
+        differing = (doubles.bits(ours[name]) != doubles.bits(values)).any(axis=1)
+        assert not differing.any(), (name, pairs[int(np.argmax(differing))])
 
 
 # A function's body, the line counted from its `def`, and the words of the message.
@@ -375,29 +363,3 @@ def test_comments_and_what_is_not_called_change_nothing(tmp_path):
     with (folder / "flight.py").open("a") as file:
         file.write("\n\n# A comment.\n@jit\ndef unused(a):\n    return math.sin(a)\n")
     assert kernel.javascript(folder) == kernel.javascript()
-
-
-def test_a_kernel_with_something_new_is_one_line(tmp_path):
-    folder = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=NO_CACHES)
-    text = (folder / "flight.py").read_text()
-    old = "    h4 = h2 * h2\n    versine"
-    assert text.count(old) == 1
-    (folder / "flight.py").write_text(text.replace(old, "    h4 = h2**2\n    versine"))
-    line = text[: text.index(old)].count("\n") + 1
-    with pytest.raises(TranslationError) as caught:
-        kernel.javascript(folder)
-    expected = "a power of anything but two numbers is not translated"
-    assert str(caught.value) == f"src/pseudorigid/kernel/flight.py:{line}: {expected}"
-
-
-@pytest.mark.parametrize("seed", ["1", "2"])
-def test_the_script_is_the_same_in_every_process(seed):
-    command = "from pipeline.explorer import kernel; print(kernel.javascript(), end='')"
-    result = subprocess.run(
-        [sys.executable, "-c", command],
-        env=os.environ | {"PYTHONPATH": str(ROOT / "src"), "PYTHONHASHSEED": seed, "LC_ALL": "C"},
-        capture_output=True,
-        check=True,
-        cwd="/",
-    )
-    assert result.stdout.decode() == kernel.javascript()

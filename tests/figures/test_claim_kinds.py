@@ -1,61 +1,140 @@
-"""The pictures behind the claims: each is reproducible and shows its data."""
+"""The pictures of claims, proofs and families: each is reproducible and shows its data."""
+
+from functools import cache
 
 import numpy as np
 import pytest
+from legible import assert_text_is_whole_and_apart
 from samples import module
+from sections import BALL
+from small_curve import SMALL
 
+from pseudorigid import symmetric_orbits
+from pseudorigid.analyses.families import families
+from pseudorigid.dynamics.manifolds import scene_manifolds
+from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
+from pseudorigid.proofs.theorems import curve_scene, graph_scene, scenes
+from pseudorigid.sweep.shares import shares
 
 SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
-# For each kind a variable of its first dataset, and a change of it that must show.
-CHANGES = {
-    "spread": ("exponent", lambda v: v + 0.003),
-    "clusters": ("dependence", lambda v: 0.5 * v),
-    "rotation": ("rotation", lambda v: v + 2e-3),
-    "jumps": ("y", lambda v: 0.9 * v),
-    "flux": ("branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
-    "last_curve": ("residue", lambda v: 3.0 * v),
-    "control": ("class_share", lambda v: 0.5 * v),
-}
-KINDS = list(CHANGES)
+FAMILIES = SCENE | {
+    "picture": "families", "parameter": "energy", "span": [0.004, 0.02], "period": 6, "levels": 8,
+    "drawn": 6, "step": 0.002, "starts": 40, "impacts": 1000,
+}  # fmt: skip
+AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
+SCENES = {
+    "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
+    "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
+}  # fmt: skip
+# A kind, the number of one of its datasets, a variable, and a change of it that must show.
+CHANGES = [
+    ("spread", 0, "exponent", lambda v: v + 0.003),
+    ("clusters", 0, "dependence", lambda v: 0.5 * v),
+    ("rotation", 0, "rotation", lambda v: v + 2e-3),
+    ("jumps", 0, "y", lambda v: 0.9 * v),
+    ("flux", 0, "branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
+    ("last_curve", 0, "residue", lambda v: 3.0 * v),
+    ("control", 0, "class_share", lambda v: 0.5 * v),
+    ("twist", 0, "twist", lambda v: 1.1 * v),
+    ("curves", 0, "x", lambda v: v + 0.005),
+    ("horseshoe", 1, "image_p", lambda v: 1.1 * v),
+    ("graph", 0, "corner_x", lambda v: v + 0.005),
+    ("families", 0, "x", lambda v: v + 0.02),
+    ("families", 0, "trace", lambda v: v + 0.2),
+    ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
+    ("families", 0, "event_x", lambda v: v + 0.03),
+    ("families", 0, "end_kind", lambda v: np.full(v.shape, "range", dtype=object)),
+    ("families", 1, "regular", lambda v: 0.5 * v),
+]
+KINDS = list(dict.fromkeys(kind for kind, *_ in CHANGES))
+
+
+def families_along(parameter, span, levels, step, starts, impacts):
+    held = families(BALL, 0.01, parameter, span, 6, levels)
+    return held, shares(BALL, 0.01, held, parameter, span, step, starts, impacts)
+
+
+def curves():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(curve_scene, "THEOREMS", {SMALL.name: SMALL})
+        data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
+    return data, scene_orbits(BALL, 0.01, [0.1, 0.9], [200, 800])
+
+
+def horseshoe():
+    six = symmetric_orbits(BALL, 0.01, 6)
+    saddle, both = (six, 6, "hyperbolic"), {side: {"length": 0.5} for side in ("outer", "inner")}
+    resolution = {"distance": 0.05, "bend": 40}
+    manifolds = scene_manifolds(BALL, 0.01, *saddle, resolution, branches=both)
+    return manifolds, scenes.scene_horseshoe(BALL, 0.01, *saddle, "outer")
+
+
+OTHERS = {
+    "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
+    "curves": curves,
+    "horseshoe": horseshoe,
+    "graph": lambda: [
+        graph_scene.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
+    ],
+    "families": lambda: families_along("energy", FAMILIES["span"], 8, 0.002, 40, 1000),
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
-def data(datasets):
-    """The datasets that each kind draws."""
+def data(request):
+    """(kind) -> the datasets that it draws."""
     others = {"spread": ["fig7/lyapunov"], "jumps": ["fig2/orbits"]}
-    return {
-        kind: [datasets[name] for name in (f"{kind}/{kind}", *others.get(kind, []))]
-        for kind in KINDS
-    }
+
+    @cache
+    def data(kind):
+        if kind in OTHERS:
+            return OTHERS[kind]()
+        datasets = request.getfixturevalue("datasets")
+        return [datasets[name] for name in (f"{kind}/{kind}", *others.get(kind, []))]
+
+    return data
 
 
-def draw(name, datasets):
-    return module(name).draw(SCENE, *datasets)
-
-
-def texts(name, datasets):
-    return [text.get_text() for text in draw(name, datasets).texts]
+def draw(name, datasets, **changes):
+    return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_a_picture_is_reproducible_and_fits_a_column(data, name):
-    first = draw(name, data[name])
+    first = draw(name, data(name))
     for extension in ("png", "svg"):
-        assert render(first, extension) == render(draw(name, data[name]), extension)
+        assert render(first, extension) == render(draw(name, data(name)), extension)
     image = pixels(first)
     assert image.shape[1] == style.COLUMN
     ink = np.any(image != 255, axis=2)
     assert 0.01 < ink.mean() < 0.6
     for side in (ink[0], ink[-1], ink[:, 0], ink[:, -1]):  # the sheet cuts nothing off
         assert not side.any()
-    variable, change = CHANGES[name]
-    dataset, *rest = data[name]
-    other = dataset.assign(
-        {variable: dataset[variable].copy(data=change(dataset[variable].values))}
-    )
-    assert np.any(image != pixels(draw(name, [other, *rest])))
+
+
+@pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
+def test_a_change_of_the_data_shows(data, name, index, variable, change):
+    changed = [*data(name)]
+    values = change(changed[index][variable].values)
+    changed[index] = changed[index].assign(
+        {variable: changed[index][variable].copy(data=values)}
+    )  # fmt: skip
+    assert np.any(pixels(draw(name, changed)) != pixels(draw(name, data(name))))
+
+
+@pytest.mark.parametrize(("name", "change"), [("families", {"drawn": 1}), ("twist", {"marks": []})])
+def test_a_change_of_the_scene_shows(data, name, change):
+    other = pixels(draw(name, data(name), **change))
+    assert np.any(other != pixels(draw(name, data(name))))
+
+
+def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
+    along_k = families_along("k", [0.18, 0.22], 4, 0.01, 20, 500)
+    other = draw("families", along_k, parameter="k", span=[0.18, 0.22], step=0.01)
+    for figure in (draw("families", data("families")), other):
+        assert_text_is_whole_and_apart(figure, margin=1, slack=5)
 
 
 def test_jumps_are_drawn_only_if_there_are_any(data):
@@ -63,35 +142,13 @@ def test_jumps_are_drawn_only_if_there_are_any(data):
         color = bytes.fromhex(module("jumps").MAP[1:])
         return np.sum(np.all(pixels(draw("jumps", datasets)) == [*color], axis=2))
 
-    curves, portrait = data["jumps"]
+    curves, portrait = data("jumps")
     none = curves.assign({name: np.nan * curves[name] for name in ("x", "y")})
-    assert 0 < count([none, portrait]) < 0.5 * count(data["jumps"])  # the key's remain
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("flux", {"stable branch", "unstable branch", "crossing, and its lobe's area"}),
-        ("rotation", {"regular", "chaotic", "fixed point", "islands"}),
-        ("jumps", {"regular orbits", "chaotic orbit"}),
-        ("spread", {"thin: range, thick: quartiles, dot: mean"}),
-    ],
-)
-def test_every_mark_is_in_a_key(data, name, words):
-    assert words <= set(texts(name, data[name]))
-
-
-def test_the_key_of_orbits_has_periods_and_no_rotation_numbers(data):
-    said = texts("last_curve", data["last_curve"])
-    assert not [text for text in said if "rotation number" in text]
-    (last,) = data["last_curve"]
-    for number, periods in zip(last["rotation"].values, last["period"].values, strict=True):
-        assert f"convergents of {number:.6f}" in said
-        assert f"orbit from period {periods[-1]:.0f}" in said
+    assert 0 < count([none, portrait]) < 0.5 * count(data("jumps"))  # the key's remain
 
 
 def test_eight_energies_have_eight_hues(data):
-    many = data["rotation"][0].isel(energy=[0, 1] * 4)
+    many = data("rotation")[0].isel(energy=[0, 1] * 4)
     energies = [0.001, 0.005, 0.01, 0.015, 0.02, 0.026, 0.028, 0.03]
     figure = draw("rotation", [many.assign(energy=("energy", energies))])
     inks = {line.get_color() for line in figure.artists if line.get_linewidth() == 1.0}
@@ -100,12 +157,12 @@ def test_eight_energies_have_eight_hues(data):
 
 
 def test_names_of_plateaus_lie_within_their_panel(data, monkeypatch):
-    (found,) = data["rotation"]
-    place, turns = (found[f"detail_{name}"].values for name in ("place", "rotation"))
+    (rotation,) = data("rotation")
+    place, turns = (rotation[f"detail_{name}"].values for name in ("place", "rotation"))
     last = int(np.argmax(place))
     highest = round(1e5 * turns[last]), 100_000, place[last - 1], place[last]
     monkeypatch.setattr(module("rotation"), "plateaus", lambda *_: [highest])
-    figure = draw("rotation", data["rotation"])
+    figure = draw("rotation", [rotation])
     with style.pinned():
         names = [text for text in figure.texts if "/100000" in text.get_text()]
         boxes = [text.get_window_extent() for text in names]

@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import subprocess
 import sys
 
 import mpmath
@@ -11,7 +10,8 @@ import pytest
 from flights import FAMILIES, TAU, ahead, before, by_mpmath, error
 from independent_solver import judge
 from mpmath import mpf
-from project import ROOT
+from project import ROOT, run
+from slowly import slowly
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.proofs.reference_solver import first_root
@@ -25,9 +25,12 @@ def states(family, seed, count):
     return [tuple(float(a) for a in family(rng)) for _ in range(count)]
 
 
+@pytest.mark.parametrize(
+    ("seed", "count"), [(1, 400), *slowly(*((seed, 1250) for seed in range(100, 114)))]
+)
 @pytest.mark.parametrize("family", FAMILIES)
-def test_tau_against_the_proved_root(family):
-    worst, state = max((error(state), state) for state in states(family, 1, 400))
+def test_tau_against_the_proved_root(family, seed, count):
+    worst, state = max((error(state), state) for state in states(family, seed, count))
     assert worst <= TAU, state
 
 
@@ -52,14 +55,6 @@ def test_both_reference_solvers_agree(family):
             spare = true.tau * max(1, true.condition) if true.tau else 0
             assert off <= spare * mpf(10) ** -40, state
     assert decided > 490
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(100, 114))
-@pytest.mark.parametrize("family", FAMILIES)
-def test_tau_against_the_proved_root_at_length(family, seed):
-    worst, state = max((error(state), state) for state in states(family, seed, 1250))
-    assert worst <= TAU, state
 
 
 # States for which tau was once wrong.
@@ -110,29 +105,6 @@ def test_corners(k, g, share, v):
             assert error((k, g, share * g, v, s - v)) <= TAU, s
 
 
-def test_without_vibration():
-    """k = 1, v = x = 0 leaves no strain, so that tau = 2 w/g."""
-    for g in (1e-4, 0.04, 1.0):
-        for w in (1e-12, 0.3, 7.0):
-            assert Ball(1.0, g).time_to_impact(0.0, 0.0, w) == pytest.approx(2 * w / g, rel=2e-16)
-
-
-def test_at_rest_on_the_floor():
-    assert Ball(0.2, 0.04).impact(0.04 / 0.2, 0.0, 0.0) == (0.04 / 0.2, 0.0, 0.0, 0.0)
-    assert Ball(0.2, 0.04).impact(-0.04, 0.0, 0.0)[3] == 0.0
-    assert Ball(0.2, 0.04).time_to_impact(-0.05, 0.0, 0.0) > 0.0
-
-
-def test_reference_solver_at_the_fixed_point():
-    """Check the reference solver at the fixed point, tau = 2 theta, in closed form."""
-    k, g, theta = mpf(0.2), mpf(0.04), mpf(1.25)
-    v, w = g * theta, g * theta / k
-    x = w * mpmath.cot(theta)
-    true = judge(k, g, x, v, w)
-    assert abs(true.tau - 2 * theta) < 1e-14
-    assert max(abs(a - b) for a, b in zip(true.state, (x, v, w), strict=True)) < 1e-15
-
-
 def test_frozen_bits_of_many_flights():
     """Times at 12,000 states of three balls have the same bits on every machine."""
     rng = np.random.default_rng(20)
@@ -155,9 +127,8 @@ def test_caps_raise(phase, state):
         f"try: print(Ball(0.2, 0.04).impact{state})\nexcept ArithmeticError as e: print(e)"
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}
-    command = [sys.executable, "-c", code]
-    run = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
-    assert (run.returncode, phase in run.stdout) == (0, True), run.stdout + run.stderr
+    result = run(sys.executable, "-c", code, env=environment)
+    assert (result.returncode, phase in result.stdout) == (0, True), result.stdout + result.stderr
 
 
 @pytest.mark.parametrize("exponent", [-1000, -700, 700, 1000])

@@ -13,11 +13,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from independent_solver import judge
 from mpmath import mpf
+from sections import BALL
 from slowly import slowly
 
 from pseudorigid.dynamics.ball import Ball
-
-BALL = Ball(0.2, 0.04)
 
 
 def sides(g):
@@ -97,20 +96,6 @@ def test_a_touch_to_the_last_bit(x, t):
     assert error((0.2, 0.04, x, v, w)) <= TAU
 
 
-@pytest.mark.parametrize("share", [1e-300, 1e-12, 0.1, 0.9, 1.0 - 1e-15])
-@pytest.mark.parametrize("g", [1e-4, 0.04, 1.0])
-def test_convex_gap(g, share):
-    """For A = share g < g the gap is convex."""
-    for phase in range(8):
-        angle = 0.25 * math.pi * phase + 0.1
-        x, c = share * g * math.cos(angle), share * g * math.sin(angle)
-        for offset in (1e-9, 1e-3, 1.0, 100.0):
-            v, w = before(0.2, -abs(c) - g * offset, c)
-            state = (0.2, g, x, v, w)
-            assert v + w > 0.0
-            assert error(state) <= TAU, [a.hex() for a in state]
-
-
 @pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1e-4), Ball(0.01, 0.009)])
 @pytest.mark.parametrize("off", [1e-300, 1e-15, 1e-6])
 def test_energies_at_both_bounds(ball, off):
@@ -122,17 +107,17 @@ def test_energies_at_both_bounds(ball, off):
             if state[1] + state[2] > 0.0:
                 assert error((ball.k, ball.g, *state)) <= TAU, [a.hex() for a in state]
     assert ball.start(0.3, low) == (ball.g / ball.k, 0.0, 0.0)
-    assert ball.impact(*ball.start(0.3, low))[3] == 0.0
+    assert ball.impact(ball.g / ball.k, 0.0, 0.0) == (ball.g / ball.k, 0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1.0)])
 def test_the_rim(ball):
     """At v + w = 0 the ball is pressed down above x = -g, and leaves the floor below it."""
     for x in sides(ball.g):
-        for v in (0.3, -0.3, 1e-8, -1e-8, 1e-200):
+        for v in (0.3, -0.3, 1e-8, -1e-8, 1e-200, 0.0):
             tau = ball.time_to_impact(x, v, -v)
             # At x = -g the third derivative, -c = -w, decides.
-            pressed = x > -ball.g or (x == -ball.g and v > 0.0)
+            pressed = x > -ball.g or (x == -ball.g and v >= 0.0)
             assert (tau == 0.0) == pressed, (x, v)
             assert error((ball.k, ball.g, x, v, -v)) <= TAU, (x.hex(), v.hex())
 
@@ -168,15 +153,3 @@ def test_any_state_of_any_ball(k, g, x, v, w, near):
     v, w = (v, w) if v + w >= 0.0 else (-v, -w)
     state = (k, g, x, v, w)
     assert error(state) <= TAU, [a.hex() for a in state]
-
-
-@settings(max_examples=500, derandomize=True, deadline=None)
-@given(st.floats(-2, -0.5), st.floats(0.01, 0.99), st.floats(-0.999, 0.999), st.floats(0, 1))
-def test_any_energy(k, share, fraction, height):
-    """Cover the whole section at energies between both bounds."""
-    k = 10.0**k
-    ball = Ball(k, share * 0.5 * k)
-    low, high = ball.energy_bounds()
-    state = ball.start(fraction, low + height * (high - low))
-    if state[1] + state[2] > 0.0:
-        assert error((ball.k, ball.g, *state)) <= TAU, [a.hex() for a in (ball.k, ball.g, *state)]

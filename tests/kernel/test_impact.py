@@ -15,7 +15,6 @@ from pseudorigid.kernel import flight, impact
 ONE_ENERGY = 1.2e-15
 STATE = 2.5e-16
 DETERMINANT = 6e-15
-GRADIENT = 1.6e-14
 JACOBIAN = 8e-16
 INVERSE = 1.4e-16
 ENERGY = 1e-11  # relative, over a million impacts; the largest error of these orbits is 7.8e-12
@@ -80,26 +79,6 @@ def test_area_is_kept(ball):
     det, scale = determinant(ball.jacobian(*state))
     ratio = (v + w) / (state[1] + state[2])
     assert np.max(np.abs(det * ratio - 1.0) / (scale * ratio)) < DETERMINANT
-
-
-def test_chart_jacobian_has_determinant_one():
-    for state in zip(*section_states(BALL, 300, seed=3), strict=True):
-        (a, b), (c, d) = BALL.chart_jacobian(*state)
-        assert abs(a * d - b * c - 1.0) < 1e-12 * (1.0 + abs(a * d) + abs(b * c))
-
-
-@pytest.mark.parametrize("ball", BALLS, ids=str)
-def test_energy_gradient_is_kept(ball):
-    """E o F = E: the gradient at the end times the Jacobian is that at the start."""
-    state = section_states(ball, 3000, seed=4)
-    j = ball.jacobian(*state)
-    grad = [
-        np.stack([ball.k * x - ball.g, v, ball.k * w], axis=-1)
-        for x, v, w in (state, ball.impact(*state)[:3])
-    ]
-    back = (grad[1][:, :, None] * j).sum(axis=1)
-    scale = (np.abs(grad[1])[:, :, None] * np.abs(j)).sum(axis=1)
-    assert np.max(np.abs(back - grad[0]) / (scale + np.abs(grad[0]))) < GRADIENT
 
 
 @pytest.mark.parametrize("ball", BALLS[:4], ids=str)

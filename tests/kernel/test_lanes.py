@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from sections import any_sea, sea
+from sections import BALL, any_sea, sea
 
 from pseudorigid.dynamics import ensemble
-from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import impact, lanes
-
-BALL = Ball(k=0.2, g=0.04)
 
 
 def orbit_by_orbit(states, ball, impacts):

@@ -3,14 +3,11 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from sections import any_sea, sea
+from sections import BALL, any_sea, sea
 
 from pseudorigid import lyapunov_spectrum
-from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel import impact, lanes, tangents
 from pseudorigid.kernel.arithmetic import WIDE
-
-BALL = Ball(k=0.2, g=0.04)
 
 
 def orbit_by_orbit(states, vectors, ball, impacts):

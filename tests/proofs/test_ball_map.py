@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from independent_solver import exact_map
+from sections import BALL, sea
 
-from pseudorigid import Ball
+from pseudorigid.dynamics.variables import chart
 from pseudorigid.proofs import THEOREMS, Surface, reference_solver
 from pseudorigid.proofs.enclosure import flight
 from pseudorigid.proofs.enclosure.flight import Gap, UndecidedError, first_root
@@ -17,7 +18,6 @@ from pseudorigid.proofs.enclosure.jets import Jet
 from pseudorigid.proofs.enclosure.surface import exact
 
 PAPER = Surface("1/5", "1/25", "1/100")
-BALL = Ball(k=0.2, g=0.04)
 COVERINGS = ("horseshoe", "entropy", "no-circle")
 # theorems without a flight whose root is searched
 WITHOUT_FLIGHTS = ("diffeomorphism", "one-fixed-point", "fixed-point-elliptic", "twist-one-zero")
@@ -25,12 +25,7 @@ WITHOUT_FLIGHTS = ("diffeomorphism", "one-fixed-point", "fixed-point-elliptic", 
 
 def points(count):
     """Points (x, y) uniform on the section."""
-    random = np.random.default_rng(5)
-    centre, radius = BALL.section(0.01)
-    angle, size = random.uniform(0, 2 * np.pi, count), np.sqrt(random.uniform(0, 0.999, count))
-    ratio = np.sqrt(BALL.k * (1 + BALL.k))
-    x, y = radius * size * np.cos(angle), ratio * radius * size * np.sin(angle)
-    return np.column_stack([centre + x, y])
+    return chart(BALL.k, *sea(count)).T
 
 
 def test_the_first_root_is_that_of_a_brute_force_scan():

@@ -6,6 +6,7 @@ Code that is plain arithmetic is called with symbols, compiled code with numbers
 import numpy as np
 import pytest
 import sympy as sp
+from sections import BALL
 
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
@@ -14,7 +15,6 @@ from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
 from pseudorigid.proofs.derivations.symbols import b, c, energy, flight, g, k, rebound, tau, v, w, x
 
-BALL = Ball(0.2, 0.04)
 # Printed formulas that do not hold; each has a correction that does.
 MISPRINTED = {
     "euler_tensor",  # (4): a third is missing

@@ -10,24 +10,18 @@ import numpy as np
 import pytest
 from certificates import OTHER_CONSTANTS, numbers, with_field, with_rows
 from flint import arb, ctx
+from judges import refused
 from slowly import slowly
 
-from pseudorigid import Ball
 from pseudorigid.proofs import THEOREMS
-from pseudorigid.proofs.checks import graph, jump, no_circle
+from pseudorigid.proofs.checks import graph, jump
 from pseudorigid.proofs.checks.certificate import NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
 from pseudorigid.proofs.search.chains import DoubleMap
 
-BALL = Ball(k=0.2, g=0.04)
 SMALL = "entropy-lower"
+TEXT = THEOREMS[SMALL].text()
 GRAPHS = [SMALL, *slowly("entropy")]
-
-
-def refused(name, text):
-    result = THEOREMS[name].check(text)
-    assert result.verdict == "not proved"
-    return result.reason
 
 
 @cache
@@ -69,27 +63,33 @@ def test_the_entropy_is_that_of_the_paths(name):
     assert float(theorem.bounds["entropy"]) < bound < entropy < bound + 5e-4
 
 
-@pytest.mark.parametrize("name", GRAPHS)
-def test_coverings_of_a_graph_hold_for_points_in_doubles(name):
-    theorem = THEOREMS[name]
-    double_map = DoubleMap(theorem.bounds["surface"])
-    found = proved(name).parts["graph"]
+def coverings(name):
+    """Yield the source and the target of each covering that is proved."""
+    parts = proved(name).parts
+    if "edges" in parts:
+        yield from parts["edges"]
+    else:
+        for it in parts["graph"].connections:
+            yield from pairwise([it.strip, *it.chain, parts["graph"].sets[it.target]])
+
+
+@pytest.mark.parametrize("name", [*GRAPHS, "horseshoe-outer"])
+def test_coverings_hold_for_points_in_doubles(name):
+    double_map = DoubleMap(THEOREMS[name].bounds["surface"])
     edge = np.linspace(-1.0, 1.0, 21)
-    for it in found.connections:
-        path = [it.strip, *it.chain, found.sets[it.target]]
-        for source, target in pairwise(path):
-            centre, u, s = (np.array([float(a) for a in side])[:, None]
-                            for side in (source.centre, source.u, source.s))  # fmt: skip
-            origin, *sides = (np.array([float(a) for a in side])
-                              for side in (target.centre, target.u, target.s))  # fmt: skip
-            ends = []
-            for p in (-1.0, 1.0):
-                image = double_map.step(centre + p * u + edge * s)
-                p_image, q_image = np.linalg.solve(np.stack(sides, 1), image - origin[:, None])
-                assert np.abs(q_image).max() < 1
-                ends.append(p_image)
-            assert np.abs(ends).min() > 1
-            assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
+    for source, target in coverings(name):
+        (centre, u, s), (origin, *sides) = (
+            [np.array([float(a) for a in side]) for side in (each.centre, each.u, each.s)]
+            for each in (source, target)
+        )
+        ends = []
+        for p in (-1.0, 1.0):
+            image = double_map.step((centre + p * u)[:, None] + np.outer(s, edge))
+            p_image, q_image = np.linalg.solve(np.stack(sides, 1), image - origin[:, None])
+            assert np.abs(q_image).max() < 1
+            ends.append(p_image)
+        assert np.abs(ends).min() > 1
+        assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
 
 
 def test_the_strips_of_a_set_are_apart_and_each_set_is_left():
@@ -116,64 +116,60 @@ def test_a_moved_set_is_refused(field, row, shift):
 )
 @pytest.mark.parametrize("row", [1, 20, -2])
 def test_a_wider_or_thinner_set_of_a_chain_is_refused(row, columns, factor):
-    text = changed(THEOREMS[SMALL].text(), "chains", row, columns, lambda _, a: a * factor)
+    text = changed(TEXT, "chains", row, columns, lambda _, a: a * factor)
     assert "cover" in refused(SMALL, text)
 
 
 def test_a_doubled_connection_and_overlapping_strips_are_refused():
-    text = THEOREMS[SMALL].text()
-    rows, chains = numbers(text, "connections"), numbers(text, "chains")
-    doubled = with_rows(text, "connections", [rows[0], *rows])
+    rows, chains = numbers(TEXT, "connections"), numbers(TEXT, "chains")
+    doubled = with_rows(TEXT, "connections", [rows[0], *rows])
     doubled = with_rows(doubled, "chains", chains[: int(rows[0][4]) - 1] + chains)
     assert "overlap" in refused(SMALL, doubled)
     for i in (0, 1):
         assert rows[2 * i][0] == rows[2 * i + 1][0]  # two strips of one set, from left to right
         upper = Fraction(rows[2 * i + 1][2])
         for end in (upper, upper + Fraction(1, 100)):
-            wider = changed(text, "connections", 2 * i, [3], lambda *_, end=end: end)
+            wider = changed(TEXT, "connections", 2 * i, [3], lambda *_, end=end: end)
             assert "overlap" in refused(SMALL, wider)
 
 
 def test_an_invented_connection_is_refused():
-    text = THEOREMS[SMALL].text()
-    rows = numbers(text, "connections")
+    rows = numbers(TEXT, "connections")
     for i in range(len(rows)):
-        assert refused(SMALL, changed(text, "connections", i, [1], lambda _, a: 1 - a))
-        shorter = changed(text, "connections", i, [4], lambda _, a: a - 1)
+        assert refused(SMALL, changed(TEXT, "connections", i, [1], lambda _, a: 1 - a))
+        shorter = changed(TEXT, "connections", i, [4], lambda _, a: a - 1)
         assert "more sets" in refused(SMALL, shorter)
-        longer = changed(text, "connections", i, [4], lambda _, a: a + 1)
+        longer = changed(TEXT, "connections", i, [4], lambda _, a: a + 1)
         assert "lacks sets" in refused(SMALL, longer)
     direct = [[*rows[0][:2], "0.97", "0.98", "1"], *rows]  # one impact, without a chain
-    assert "cover" in refused(SMALL, with_rows(text, "connections", direct))
+    assert "cover" in refused(SMALL, with_rows(TEXT, "connections", direct))
     for column, value in ((0, 2), (0, Fraction(1, 2)), (1, -1), (4, 0), (2, -2), (3, 2)):
-        assert refused(SMALL, changed(text, "connections", -1, [column], lambda *_, v=value: v))
+        assert refused(SMALL, changed(TEXT, "connections", -1, [column], lambda *_, v=value: v))
 
 
 def test_a_growth_that_is_too_large_and_wrong_weights_are_refused():
-    text = THEOREMS[SMALL].text()
     growth = Fraction(
-        numbers("growth = [\n" + text.split("growth = ")[1][:8] + "\n]", "growth")[0][0]
+        numbers("growth = [\n" + TEXT.split("growth = ")[1][:8] + "\n]", "growth")[0][0]
     )
     for value in (growth * Fraction("1.001"), growth + 1, 10**6):
-        assert "the weights do not grow" in refused(SMALL, with_field(text, "growth", f'"{value}"'))
+        assert "the weights do not grow" in refused(SMALL, with_field(TEXT, "growth", f'"{value}"'))
     for value in (0, -1):
-        assert "not positive" in refused(SMALL, with_field(text, "growth", f'"{value}"'))
+        assert "not positive" in refused(SMALL, with_field(TEXT, "growth", f'"{value}"'))
     for weights in ("[1.0, 0.0]", "[1.0, -1.0]", "[0.0, 0.0]", "[1.0, 1e-9]", "[1.0]"):
-        assert refused(SMALL, with_field(text, "weights", weights))
+        assert refused(SMALL, with_field(TEXT, "weights", weights))
 
 
 @pytest.mark.parametrize("growth", ["1.04", *slowly("1.0", "1.0000001")])
 def test_a_weaker_graph_does_not_prove_the_statement(growth):
     text = with_field(THEOREMS[SMALL].text(), "growth", growth)
     assert "entropy is not proved" in refused(SMALL, text)
-    theorem = THEOREMS[SMALL]
-    weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(-1)})
-    assert weaker.check(text).verdict == "proved"
+    bounds = THEOREMS[SMALL].bounds | {"entropy": Fraction(-1)}
+    assert dataclasses.replace(THEOREMS[SMALL], bounds=bounds).check(text).verdict == "proved"
 
 
 def test_a_graph_without_one_connection_has_less_entropy():
     """The rest is consistent: one loop of each set and one way from the second to the first."""
-    text = THEOREMS[SMALL].text()
+    text = TEXT
     rows, chains = numbers(text, "connections"), numbers(text, "chains")
     first = next(i for i, row in enumerate(rows) if row[0] != row[1])
     begin = sum(int(row[4]) - 1 for row in rows[:first])
@@ -263,5 +259,4 @@ def test_a_chain_from_elsewhere_or_of_another_orbit_is_refused():
         ]),
     )  # fmt: skip
     window = tuple((low, low) for low, _ in theorem.bounds["window"])
-    with pytest.raises(NotProvedError, match="window"):
-        no_circle.check(text, **theorem.bounds | {"window": window})
+    assert "window" in refused("no-circle", window=window)

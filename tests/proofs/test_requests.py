@@ -6,20 +6,19 @@ import numpy as np
 import pytest
 from certificates import numbers
 from flint import ctx
+from sections import BALL
 from slowly import slowly
+from small_curve import SMALL
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics.manifolds import scene_manifolds
+from pseudorigid.analyses.polygon import Polygon
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
-from pseudorigid.figures.canvas.render import render
-from pseudorigid.figures.kinds import horseshoe, twist
 from pseudorigid.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
-from pseudorigid.proofs.theorems import impacts, scenes
+from pseudorigid.proofs.theorems import curve_scene, impacts, scenes
+from pseudorigid.proofs.theorems.graph_scene import scene_graph
 
-BALL = Ball(k=0.2, g=0.04)
 PAPER = Surface("1/5", "1/25", "1/100")
-SCENE = {"ball": {"k": 0.2, "g": 0.04}, "energy": 0.01}
 
 
 @pytest.fixture(scope="module")
@@ -174,22 +173,20 @@ def test_the_twist_of_another_ball_and_its_proved_zero():
     assert np.isnan(scenes.scene_twist(Ball(0.3, 0.02), 0.002, [0.005, 0.01])["zero"].item())
 
 
-def test_the_picture_of_the_twist_shows_its_data(twists):
-    first, again, other = (
-        render(twist.draw(SCENE | {"marks": marks}, twists), "png")
-        for marks in ([0.001, 0.01], [0.001, 0.01], [])
-    )
-    assert first == again != other
+def test_the_data_of_a_proved_curve(monkeypatch):
+    monkeypatch.setattr(curve_scene, "THEOREMS", {SMALL.name: SMALL})
+    data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
+    assert data.sizes["curve"] == 1
+    assert 0.0069 < data["share"].item() < 0.007
+    area = Polygon(np.stack([data["x"].values[:-1], data["y"].values[:-1]])).area()
+    assert 0.99 * data["area"].item() < area < data["area"].item()
 
 
-def test_the_picture_of_the_horseshoe_shows_its_data(six, sets):
-    scene = SCENE | {
-        "axes": {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
-    }
-    manifolds = scene_manifolds(
-        BALL, 0.01, six, 6, "hyperbolic", {"distance": 0.05, "bend": 40},
-        branches={"outer": {"length": 0.5}, "inner": {"length": 0.5}},
-    )  # fmt: skip
-    first, again = (render(horseshoe.draw(scene, manifolds, sets), "png") for _ in range(2))
-    sets["image_p"] = 1.1 * sets["image_p"]
-    assert first == again != render(horseshoe.draw(scene, manifolds, sets), "png")
+def test_the_data_of_a_proved_graph():
+    data = scene_graph(BALL, 0.005)
+    assert 0.05 < data["entropy"].item() < 0.051
+    ends = data["connection"].values < 0
+    assert ends.sum() == 2
+    assert ends.size - 2 == (data["impacts"].values - 1).sum()
+    with pytest.raises(ValueError, match="no graph is a theorem at k = 1/5"):
+        scene_graph(BALL, 0.006)

@@ -3,15 +3,15 @@
 import mpmath
 import numpy as np
 import pytest
-from certificates import numbers
 from flint import arb, ctx
 from independent_solver import exact_map
 from project import ROOT
+from sections import BALL
 from slowly import slowly
 
 from pipeline import config
 from pipeline.config import build_specs
-from pseudorigid import Ball, orbit, symmetric_orbits
+from pseudorigid import orbit, symmetric_orbits
 from pseudorigid.dynamics.fixed_point import half_time
 from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.proofs import THEOREMS, Surface, search_certificate
@@ -22,7 +22,6 @@ from pseudorigid.proofs.search.periodic import polished
 from pseudorigid.proofs.search.twist import estimate
 from pseudorigid.proofs.theorems.verdict import theorem_verdict
 
-BALL = Ball(k=0.2, g=0.04)
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]
@@ -87,24 +86,6 @@ def test_orbits_close_in_an_independent_map_of_60_digits(name, results):
         assert max(abs(a - b) for a, b in zip(state, (x, v, w), strict=True)) < 1e-27
         assert abs(total - mpmath.mpf(middle(digits["period"]))) < 1e-26
         assert abs(v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2 - energy) < 1e-29
-
-
-@pytest.mark.parametrize("name", ORBITS)
-def test_traces_by_differences_of_60_digits(name, results):
-    theorem = THEOREMS[name]
-    h = arb(2) ** -100
-
-    def return_map(x, y):
-        for _ in range(theorem.bounds["period"]):
-            x, y, *_ = theorem.bounds["surface"].impact(x, y)
-        return x, y
-
-    with ctx.workprec(400):
-        x, y = map(arb, numbers(theorem.text(), "points")[0])
-        trace = return_map(x + h, y)[0] - return_map(x - h, y)[0]
-        trace += return_map(x, y + h)[1] - return_map(x, y - h)[1]
-        stated = arb(middle(results[name].digits["trace"]))
-        assert abs(trace / (2 * h) - stated) < arb("1e-26")
 
 
 @pytest.mark.parametrize("energy", ["-39/10000", "1/1000", "1/100", "3/100", "599/10000"])
@@ -206,28 +187,6 @@ def test_the_length_of_the_jump_set_is_one_lower_bound_everywhere(results):
     with ctx.workprec(jump.BITS):
         few, many = (jump._polygon(theorem.bounds["surface"], count) for count in (400, 1600))
         assert arb(bound) < few < many < arb("0.404858179457")  # computed: CLAIMS.md
-
-
-def test_coverings_hold_for_points_in_doubles():
-    """Corners and edges of the outer horseshoe's sets, mapped in double precision."""
-    theorem = THEOREMS["horseshoe-outer"]
-    edge = np.linspace(-1, 1, 21)
-    for source, target in theorem.prove(theorem.text()).parts["edges"]:
-        ends = []
-        for p in (-1.0, 1.0):
-            x, y = (
-                float(source.centre[i]) + p * float(source.u[i]) + edge * float(source.s[i])
-                for i in (0, 1)
-            )
-            image = BALL.impact(*BALL.state_xy(x, y, 0.01))
-            dx = image[0] - float(target.centre[0])
-            dy = image[1] - BALL.k * image[2] - float(target.centre[1])
-            (ux, uy), (sx, sy) = ([float(a) for a in side] for side in (target.u, target.s))
-            area = ux * sy - uy * sx
-            assert np.abs((ux * dy - uy * dx) / area).max() < 1
-            ends.append((dx * sy - dy * sx) / area)
-        assert np.abs(np.concatenate(ends)).min() > 1
-        assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
 
 
 def test_the_entropy_solves_its_equation(results):

@@ -7,15 +7,14 @@ import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
+from sections import BALL
 
-from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.proofs import Surface, true_orbit, true_scene_orbits
 from pseudorigid.proofs.true_orbits import enclosed_run
 from pseudorigid.proofs.true_orbits import orbit as orbit_module
 from pseudorigid.proofs.true_orbits.start import Start
 
-BALL = Ball(k=0.2, g=0.04)
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}
 NAMES = ("x", "xdot", "udot", "tau")
 

@@ -23,11 +23,28 @@ def test_the_certified_march_is_the_map(uniform):
     assert np.array_equal(tau, BALL.time_to_impact(*columns))
 
 
-@pytest.mark.parametrize("tolerance", counted_methods.TOLERANCES)
-def test_a_scan_is_as_accurate_as_its_tolerance(uniform, tolerance):
-    columns, truth = uniform
-    tau, count = scan_method(0.1, tolerance).solve(BALL, *columns)
-    assert np.abs(tau - truth).max() <= tolerance
+METHODS = [
+    *((lambda tolerance=tolerance: scan_method(0.1, tolerance), tolerance)
+      for tolerance in counted_methods.TOLERANCES),
+    (lambda: scipy_events.brentq_method(0.1, 1e-9), 1e-8),
+    (lambda: scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
+    (lambda: scipy_events.ivp_method("Radau", 1e-6), 1e-3),
+    *((lambda direction=direction: taylor_method(direction), 1e-13) for direction in range(2)),
+]  # fmt: skip
+
+
+def taylor_method(direction):
+    pytest.importorskip("heyoka")
+    from pseudorigid.study.methods import taylor
+
+    return taylor.taylor_method(1e-15, list(taylor.DIRECTIONS)[direction])
+
+
+@pytest.mark.parametrize(("method", "error"), METHODS)
+def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
+    columns, truth = uniform[0][:, :20], uniform[1][:20]
+    tau, count = method().solve(BALL, *columns)
+    assert np.abs(tau - truth).max() <= error
     assert count.min() > 1
 
 
@@ -58,34 +75,12 @@ def test_states_at_a_distance_from_grazing(side):
     assert np.all(side * (x + BALL.g) >= 0)
 
 
-def test_brentq_and_solve_ivp_find_easy_roots(uniform):
-    columns, truth = uniform[0][:, :20], uniform[1][:20]
-    for method, error in (
-        (scipy_events.brentq_method(0.1, 1e-9), 1e-8),
-        (scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
-        (scipy_events.ivp_method("Radau", 1e-6), 1e-3),
-    ):
-        tau, count = method.solve(BALL, *columns)
-        assert np.abs(tau - truth).max() < error
-        assert count.min() > 5
-
-
 @pytest.mark.parametrize("solver", scipy_events.SOLVERS)
 def test_solve_ivp_sees_short_flights(solver):
     columns = states.grazing_at(6, 1, 20)
     truth = OURS.solve(BALL, *columns)[0]
     tau, _ = scipy_events.ivp_method(solver, 1e-9).solve(BALL, *columns)
     assert np.abs(tau / truth - 1).max() < 0.1
-
-
-def test_heyoka_finds_easy_roots(uniform):
-    pytest.importorskip("heyoka")
-    from pseudorigid.study.methods import taylor
-
-    columns, truth = uniform[0][:, :20], uniform[1][:20]
-    for direction in taylor.DIRECTIONS:
-        tau, _ = taylor.taylor_method(1e-15, direction).solve(BALL, *columns)
-        assert np.abs(tau - truth).max() < 1e-13
 
 
 @pytest.mark.slow  # it compiles a package whose numbers are in no figure

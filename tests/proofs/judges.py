@@ -1,0 +1,36 @@
+"""Refusals by both checkers of certificates: the package's and the second one."""
+
+import dataclasses
+
+import pytest
+import second_checker
+from slowly import slowly
+
+from pseudorigid.proofs import THEOREMS
+
+
+def refused(theorem, text=None, checker="package", **bounds):
+    """Return the reason, one line, why a checker does not take a certificate as a proof.
+
+    A theorem may be given by its name. `bounds` replace numbers of its statement, and the
+    certificate is by default its own.
+    """
+    if checker == "second":
+        with pytest.raises(second_checker.NotProvedError) as refusal:
+            second_checker.check(theorem, text, **bounds)
+        reason = str(refusal.value)
+    else:
+        theorem = THEOREMS[theorem] if isinstance(theorem, str) else theorem
+        result = dataclasses.replace(theorem, bounds=theorem.bounds | bounds).check(text)
+        assert result.verdict == "not proved"
+        reason = result.reason
+    assert reason
+    assert "\n" not in reason
+    return reason
+
+
+def by_both(names):
+    """Return (checker, name) of each theorem; the second checker, which is slow, has few."""
+    names = list(names)
+    second = (("second", name) for name in names if name in second_checker.STATEMENTS)
+    return [*(("package", name) for name in names), *slowly(*second)]
