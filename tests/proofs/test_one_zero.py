@@ -113,9 +113,7 @@ def test_a_function_falls_through_zero_once_only():
             margin(rows)
 
 
-def test_other_bands_are_refused(
-    NAME,
-):
+def test_other_bands_are_refused():
     text = THEOREMS[NAME].text()
     edges = numbers(text, "edges")
     for rows, reason in (
@@ -145,9 +143,7 @@ def test_a_zero_elsewhere_or_less_precise_is_refused(name, row, reason):
     assert reason in refused(NAME, with_field(text, name, f"[{', '.join(row)}]"))
 
 
-def test_a_certificate_up_to_a_lower_energy_is_refused(
-    NAME,
-):
+def test_a_certificate_up_to_a_lower_energy_is_refused():
     assert "energies up to 0.06" in refused(NAME, THEOREMS[NAME].text().replace("3/50", "1/20"))
 
 
