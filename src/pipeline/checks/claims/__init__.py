@@ -16,19 +16,18 @@ CHECKS = {
     if function.__module__ == module.__name__ and not name.startswith("_")
 }
 TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
-DOCUMENT, _CLAIMS = schema.load(TEXT, CHECKS)
-CLAIMS = {claim.number: claim for claim in _CLAIMS}
-VERDICTS = DOCUMENT.verdicts
+DOCUMENT = schema.load(TEXT, CHECKS)
+CLAIMS, VERDICTS = DOCUMENT.claims, DOCUMENT.verdicts
 
 
 def required_datasets() -> list[str]:
     """Return the names of all datasets that the checks need, sorted."""
-    return sorted({name for claim in _CLAIMS for name in claim.data})
+    return sorted({name for claim in CLAIMS.values() for name in claim.data})
 
 
 def required_theorems() -> list[str]:
     """Return the names of all theorems that the checks ask for, sorted."""
-    return sorted({name for claim in _CLAIMS for name in claim.theorems})
+    return sorted({name for claim in CLAIMS.values() for name in claim.theorems})
 
 
 def judge_claims(
@@ -39,4 +38,4 @@ def judge_claims(
     `datasets` are all of `required_datasets()`; a theorem that `proofs` does not name counts as not
     proved.
     """
-    return [claim.judge(datasets, proofs) for claim in _CLAIMS]
+    return [claim.judge(datasets, proofs) for claim in CLAIMS.values()]

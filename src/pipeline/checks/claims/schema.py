@@ -1,31 +1,25 @@
 """The form of claims.toml, what a claim and its verdict are, and what the checks share."""
 
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
-from typing import Annotated, Any, Literal, NamedTuple, get_args
+from collections.abc import Callable, Iterable, Mapping
+from typing import Annotated, Any, Literal, NamedTuple, Self, get_args
 
 import numpy as np
 import xarray as xr
-from pydantic import Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
 from pseudorigid.proofs.derivations import FORMULAS
 
 from ...config import ConfigError, paths
-from ...config.schema.fields import Block
 from ...config.schema.stages import STAGES
-from ...config.validation.mistakes import mistakes
-from ...config.validation.words import meant
+from ...config.validation.words import dotted, meant
 
-_Words = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
-VERDICT_WORDS = get_args(_Words)
+VerdictWord = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
+VERDICT_WORDS = get_args(VerdictWord)
 FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS = VERDICT_WORDS
 
-_EXPECTED = Field(description=f"one of {', '.join(VERDICT_WORDS)}")
-VerdictWord = Annotated[_Words, _EXPECTED]
-Text = Annotated[str, Field(min_length=1, description="a text")]
-Texts = Annotated[list[Text], Field(min_length=1, description="a list of texts")]
-Number = Annotated[str, Field(pattern=r"^[1-9]\d*$", description="a number")]
+Text = Annotated[str, Field(min_length=1)]
 
 
 class Outcome(NamedTuple):
@@ -55,58 +49,86 @@ class Verdict:
     number: int
     place: str
     statement: str
-    verdict: Annotated[str, Field(pattern=f"^({'|'.join(VERDICT_WORDS)})$")]
+    verdict: VerdictWord
     value: Text
     error: str
     evidence: str
     datasets: list[str]
 
 
-class Case(Block):
-    """a mapping with the keys value and error"""
+def _hint(name: str, known: Iterable[str]) -> str:
+    (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
+    return f"{name!r} is not known: {hint}"
+
+
+def _one_of(known: Iterable[str]) -> AfterValidator:
+    """Return a validator of names. In the name of a dataset, only the stage counts."""
+    names = [*known]
+
+    def checked(name: str) -> str:
+        folder, _, own = name.rpartition("/")
+        if own not in names and folder != "atlas":
+            raise ValueError(_hint(own, names))
+        return name
+
+    return AfterValidator(checked)
+
+
+_Dataset = Annotated[str, _one_of([*STAGES, "derivations"])]
+_Theorem = Annotated[str, _one_of(paths.THEOREMS)]
+_Formula = Annotated[str, _one_of(name for names in FORMULAS.values() for name in names)]
+_Part = Annotated[list[str], Field(min_length=1, max_length=2)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class Case(_Table):
+    """The sentences of another outcome of a claim."""
 
     value: Text
     error: Text = ""
 
 
-Part = Annotated[list[str], Field(min_length=1, max_length=2, description="one or two texts")]
-Parts = Annotated[dict[str, Part], Field(description="a mapping to lists of texts")]
-Cases = Annotated[dict[str, Case], Field(description="a mapping to values and errors")]
+class Claim(_Table):
+    """A table of claims.toml, whose head says what the fields mean.
 
+    `check` names `function`, which takes the datasets and, if theorems are named, a mapping from
+    their names to whether they are proved, and returns an Outcome.
+    """
 
-class Row(Block):
-    """a mapping with the keys of a claim"""
-
+    number: int = 0
     place: Text
     quote: Text = ""
     paraphrase: Text = ""
-    data: Texts = Field(default=[])
-    theorems: Texts = Field(default=[])
+    data: list[_Dataset] = []
+    theorems: list[_Theorem] = []
     check: Text = ""
-    formulas: Texts = Field(default=[])
-    verdict: Annotated[Literal["", _Words], _EXPECTED] = ""
+    function: Callable[..., Outcome] | None = None
+    formulas: list[_Formula] = []
+    verdict: VerdictWord | None = None
     value: Text = ""
     error: Text = ""
     evidence: Text = ""
-    parts: Parts = Field(default={})
-    cases: Cases = Field(default={})
+    parts: dict[str, _Part] = {}
+    cases: dict[str, Case] = {}
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if bool(self.quote) == bool(self.paraphrase):
+            raise ValueError("expected either quote or paraphrase")
+        if sum(map(bool, (self.check, self.formulas, self.verdict))) != 1:
+            raise ValueError("expected one of check, formulas and verdict")
+        if self.formulas and self.data != ["derivations"]:
+            raise ValueError('formulas are in one dataset: expected data = ["derivations"]')
+        return self
 
     @property
     def statement(self) -> str:
         """The paper's words between quotation marks, or the paraphrase."""
         quoted = f"\N{LEFT DOUBLE QUOTATION MARK}{self.quote}\N{RIGHT DOUBLE QUOTATION MARK}"
         return quoted if self.quote else self.paraphrase
-
-
-class Claim(Row):
-    """A row of claims.toml with its number and its check, unless it has formulas or a verdict.
-
-    The check is a function of the datasets and, if theorems are named, of a mapping from their
-    names to whether they are proved. It returns an Outcome.
-    """
-
-    number: int
-    function: Callable[..., Outcome] | None
 
     def judge(self, datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> Verdict:
         """Return the verdict on the claim; `proofs` maps theorems to "proved" or another word.
@@ -122,8 +144,10 @@ class Claim(Row):
             inputs.append({name: proofs.get(name) == PROVED for name in self.theorems})
         if self.function is not None:
             outcome = self.function(*inputs)
+        elif self.verdict is not None:
+            outcome = Outcome(self.verdict)
         else:
-            outcome = derived(*inputs, *self.formulas) if self.formulas else Outcome(self.verdict)
+            outcome = derived(*inputs, *self.formulas)
         sentences = self.cases[outcome.case] if outcome.case else self
         numbers = dict(outcome.numbers)
         try:
@@ -146,59 +170,32 @@ def _part(texts: list[str], number: Any, numbers: dict[str, Any]) -> str:
     return [*texts, ""][0 if number else 1].format_map(numbers)
 
 
-class Document(Block):
-    """a mapping with the keys head, verdicts and claims"""
+class Document(_Table):
+    """The tables of claims.toml."""
 
     head: Text
-    verdicts: Annotated[dict[VerdictWord, Text], Field(description="a mapping from verdicts")]
-    claims: Annotated[dict[Number, Row], Field(description="a mapping from numbers to claims")]
+    verdicts: dict[VerdictWord, Text]
+    claims: dict[Annotated[int, Field(strict=False)], Claim]
 
 
-def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> tuple[Document, list[Claim]]:
-    """Read claims.toml; `checks` are the functions by name, and the claims come by number.
+def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> Document:
+    """Read claims.toml; `checks` are the functions by name.
 
     Raises ConfigError with a line for each mistake.
     """
     try:
-        given = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ConfigError(f"claims.toml: {error}") from None
-    lines = mistakes(Document, given, ())
-    if not lines:
-        document = Document(**given)
-        for number, row in document.claims.items():
-            lines += _mistakes_of(row, f"claims.{number}", checks)
-    if lines:
-        raise ConfigError(*(f"claims.toml: {line}" for line in lines))
-    claims = [
-        Claim(
-            number=int(number), function=checks.get(row.check), **row.model_dump(exclude_unset=True)
-        )
-        for number, row in document.claims.items()
-    ]
-    return document, sorted(claims, key=lambda claim: claim.number)
-
-
-def _mistakes_of(row: Row, key: str, checks: Mapping[str, Callable[..., Outcome]]) -> Iterator[str]:
-    """Yield a line for each mistake in a claim whose fields have the right types."""
-    if bool(row.quote) == bool(row.paraphrase):
-        yield f"{key}: expected either quote or paraphrase"
-    if sum(map(bool, (row.check, row.formulas, row.verdict))) != 1:
-        yield f"{key}: expected one of check, formulas and verdict"
-    if row.formulas and row.data != ["derivations"]:
-        yield f'{key}: formulas are in one dataset: expected data = ["derivations"]'
-    stages = [name.rpartition("/")[2] for name in row.data if not name.startswith("atlas/")]
-    named = {
-        "data": (stages, (*STAGES, "derivations")),
-        "theorems": (row.theorems, paths.THEOREMS),
-        "formulas": (row.formulas, [name for names in FORMULAS.values() for name in names]),
-        "check": ([row.check] * bool(row.check), [*checks]),
-    }
-    for field, (names, known) in named.items():
-        for name in names:
-            if name not in known:
-                (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
-                yield f"{key}.{field}: {name!r} is not known: {hint}"
+        document = Document.model_validate(tomllib.loads(text))
+        for number, claim in document.claims.items():
+            claim.number, claim.function = number, checks.get(claim.check)
+            if claim.check and claim.function is None:
+                raise ValueError(f"claims.{number}.check: {_hint(claim.check, checks)}")
+    except ValidationError as error:
+        lines = [f"{dotted(each['loc'])}: {each['msg']}" for each in error.errors()]
+    except ValueError as error:
+        lines = [str(error)]
+    else:
+        return document
+    raise ConfigError(*(f"claims.toml: {line.replace('Value error, ', '')}" for line in lines))
 
 
 def outcome_of(holds: object, proved: bool = False, /, **numbers: Any) -> Outcome:

@@ -3,7 +3,6 @@
 `reproduce` calls `set_up` before any package is installed: only the standard library is used here.
 """
 
-import fcntl
 import importlib.util
 import os
 import re
@@ -14,21 +13,19 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from importlib import metadata
 from pathlib import Path
 
 from ...records.files import FileError, write_whole
 from ...records.sources import ROOT
 from ..session import UsageError, interruptible, locked, print_error
-from . import activation, indexes, wheels
+from . import indexes, wheels
 
 VENV = ROOT / ".venv"
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
 CONTENTS = VENV / "contents"  # what was installed in site-packages; `reproduce` checks it
-MADE = ROOT / ".venv.made"  # the inode of the .venv that ./reproduce made
-LINK = "made-by-reproduce"
 
 
 def add_packages(name: str) -> None:
@@ -57,16 +54,14 @@ def report_damage() -> bool:
     """
     if Path(sys.prefix).resolve() != VENV.resolve() or not CONTENTS.is_file():
         return False
-    for package in _installed(_requirement_names()):
-        for file in package.files or ():
-            path = _site_packages() / file
-            size = path.stat().st_size if path.is_file() else None
-            if file.parts[0] != ".." and file.suffix != ".pyc" and size != (file.size or size):
-                path.unlink(missing_ok=True)
-                with CONTENTS.open("a") as contents:
-                    contents.write(f"{file}\n")
-                print_error(f".venv is damaged: {file}: run ./reproduce again to mend it")
-                return True
+    for file, path in _files(_requirement_names()):
+        size = path.stat().st_size if path.is_file() else None
+        if file.suffix != ".pyc" and size != (file.size or size):
+            path.unlink(missing_ok=True)
+            with CONTENTS.open("a") as contents:
+                contents.write(f"{file}\n")
+            print_error(f".venv is damaged: {file}: run ./reproduce again to mend it")
+            return True
     return False
 
 
@@ -79,7 +74,7 @@ def set_up(stamp: str, arguments: list[str]) -> None:
         if signal.getsignal(number) != signal.SIG_IGN:  # nohup ignores SIGHUP
             signal.signal(number, signal.default_int_handler)
     try:
-        with _exclusive(arguments):
+        with chdir(ROOT), locked():
             complete = CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == stamp
             if complete and _python_starts():
                 _mend()
@@ -103,28 +98,6 @@ def set_up(stamp: str, arguments: list[str]) -> None:
     os.execv(python, [python, "-P", "-m", "pipeline", *arguments])
 
 
-@contextmanager
-def _exclusive(arguments: list[str]) -> Iterator[None]:
-    """Hold the lock of this folder, and start again after waiting for another process.
-
-    Installers inherit the lock, so that one that outlives a killed set-up is waited for.
-    """
-    try:
-        lock = open(ROOT / ".lock", "a")  # noqa: SIM115  (closed below)
-    except OSError:
-        raise UsageError(f"cannot write into {ROOT}, where .venv is to be made") from None
-    with lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            print_error("waiting for another ./reproduce in this folder to end")
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            lock.close()
-            os.execv(ROOT / "reproduce", [str(ROOT / "reproduce"), *arguments])
-        os.set_inheritable(lock.fileno(), True)
-        yield
-
-
 def _python_starts() -> bool:
     try:
         return _run([VENV / "bin" / "python", "-I", "-S", "-c", ""])
@@ -136,12 +109,15 @@ def _make(message: str) -> None:
     """Make .venv from nothing."""
     _remove()
     VENV.mkdir()
-    MADE.write_text(f"{VENV.stat().st_ino}\n")
     LOG.touch()
     with _plain_path() as root:
-        _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", f"{root}/.venv"]))
-        activation.adopt(VENV, f"{root}/.venv")
+        _make_environment(f"{root}/.venv")
     _install(["build", "lock"], message)
+
+
+def _make_environment(path: str | Path) -> None:
+    """Make a virtual environment, or only its scripts if it is there."""
+    _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", path]))
 
 
 def _mend() -> None:
@@ -160,7 +136,8 @@ def _remove() -> None:
     shutil.rmtree(removing, ignore_errors=True)  # left by a killed run
     if not os.path.lexists(VENV):
         return
-    if not _is_ours():
+    empty = VENV.is_dir() and not any(VENV.iterdir())
+    if VENV.is_symlink() or not (empty or LOG.is_file()):
         raise UsageError(f"{VENV} was not made by ./reproduce: please move it away")
     try:
         # The new name first: a half-removed .venv could be taken for a user's.
@@ -168,21 +145,6 @@ def _remove() -> None:
         shutil.rmtree(removing)
     except OSError:
         raise UsageError(f"cannot remove {VENV}, which is out of date") from None
-
-
-def _is_ours() -> bool:
-    """Return whether .venv is empty or was made by ./reproduce."""
-    if VENV.is_symlink() or not VENV.is_dir():
-        return False
-    if LOG.is_file() or not any(VENV.iterdir()):
-        return True
-    inode = MADE.read_text() if MADE.is_file() else ""
-    settings = VENV / "pyvenv.cfg"
-    return (
-        inode.strip() == str(VENV.stat().st_ino)
-        and (not settings.exists() or f"/{LINK}/.venv" in settings.read_text())
-        and not (VENV / "conda-meta").exists()
-    )
 
 
 @contextmanager
@@ -195,10 +157,10 @@ def _plain_path() -> Iterator[str]:
     except OSError:
         raise UsageError(f"cannot make a temporary folder in {parent}") from None
     try:
-        (Path(folder) / LINK).symlink_to(ROOT)
+        (Path(folder) / "root").symlink_to(ROOT)
         if wheels := os.environ.get("PSEUDORIGID_WHEELS"):
             (Path(folder) / "wheels").symlink_to(os.path.abspath(wheels))
-        yield f"{folder}/{LINK}"
+        yield f"{folder}/root"
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -210,21 +172,20 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
     """
     with _plain_path() as root, _progress(message, names) as tick:
         python = f"{root}/.venv/bin/python"
-        pip = _pip(python)
-        settings = indexes.pip_settings(pip)
+        settings = indexes.pip_settings(_pip(python))
         source = []
         if folder := os.environ.get("PSEUDORIGID_WHEELS"):
             wheels.refuse_damaged(Path(folder))
             source = ["--no-index", "--find-links", os.path.dirname(root) + "/wheels"]
         elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
             source = ["--no-index"]
-        options = ["--require-hashes", *source, "-r"]
-        pip_install = [*pip, "install", "--no-compile", "--progress-bar=off", *options]
-        pip_environment = indexes.pip_environment(settings)
+
+        def options(name: str) -> list[str]:
+            return ["--require-hashes", *source, "-r", f"{root}/requirements/{name}.txt"]
 
         def by_pip(name: str, *more: str) -> bool:
-            command = [*pip_install, f"{root}/requirements/{name}.txt", *more]
-            return _run(command, pip_environment, tick)
+            command = [*_pip(python), "install", "--no-compile", "--progress-bar=off", *more]
+            return _run([*command, *options(name)], indexes.pip_environment(settings), tick)
 
         uv = _uv() or (by_pip("uv", "--only-binary=:all:", "--retries=1") and _uv())
         environment = indexes.uv_environment(settings)
@@ -233,25 +194,27 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
             environment["UV_CACHE_DIR"] = f"{root}/.venv/cache/uv"
         else:
             environment["UV_LINK_MODE"] = "copy"  # an edit of a package must not reach the cache
+        if uv and "relocatable" not in (VENV / "pyvenv.cfg").read_text():
+            command = [uv, "venv", "--relocatable", "--allow-existing", f"--python={python}"]
+            uv = uv if _run([*command, f"{root}/.venv"], environment) else None
+        if not uv:  # scripts by pip have the path of their Python, which has to be the lasting one
+            python = str(VENV / "bin" / "python")
+            _make_environment(VENV)
         for name in names:
             installed = False
             if uv:
                 command = [uv, "pip", "install", f"--python={python}", "--no-build-isolation"]
-                command += [*options, f"{root}/requirements/{name}.txt", *["--reinstall"] * again]
-                installed = _run(command, environment, tick) and bool(_entries([name]))
-            if not installed:
-                more = ["--no-build-isolation", *["--force-reinstall"] * again]
-                _check(by_pip(name, *more))
+                command += ["--reinstall"] * again
+                installed = _run([*command, *options(name)], environment, tick)
+            if not (installed and any(_files([name]))):
+                _check(by_pip(name, "--no-build-isolation", *["--force-reinstall"] * again))
         if own_cache:
             shutil.rmtree(VENV / "cache" / "uv", ignore_errors=True)
-        activation.adopt(VENV, f"{root}/.venv")
-        activation.place_scripts(VENV)
     # A relative path, so that the folder can be moved.
     (_site_packages() / "pseudorigid.pth").write_text("../../../../src\n")
     listed = CONTENTS.read_text().splitlines() if CONTENTS.exists() else ["pseudorigid.pth"]
-    entries = _entries(name for name in names if name != "build") | {
-        name for name in listed if (_site_packages() / name).exists()
-    }
+    entries = {name for name in listed if (_site_packages() / name).exists()}
+    entries |= {file.parts[0] for file, _ in _files(name for name in names if name != "build")}
     CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
 
 
@@ -286,22 +249,15 @@ def _requirement_names() -> list[str]:
     return ["lock", *(file.name.removesuffix("-stamp") for file in VENV.glob("*-stamp"))]
 
 
-def _installed(names: Iterable[str]) -> Iterator[metadata.Distribution]:
-    """Yield the installed packages of requirements/NAME.txt."""
+def _files(names: Iterable[str]) -> Iterator[tuple[metadata.PackagePath, Path]]:
+    """Yield the files in site-packages that belong to the packages of requirements/NAME.txt."""
+    site = _site_packages()
     pinned = {package.lower() for name in names for package in _pins(name)}
-    for package in metadata.distributions(path=[str(_site_packages())]):
+    for package in metadata.distributions(path=[str(site)]):
         if re.sub(r"[-_.]+", "-", package.name).lower() in pinned:
-            yield package
-
-
-def _entries(names: Iterable[str]) -> set[str]:
-    """Names in site-packages that belong to the packages of requirements/NAME.txt."""
-    return {
-        file.parts[0]
-        for package in _installed(names)
-        for file in package.files or ()
-        if file.parts[0] not in ("..", "__pycache__")
-    }
+            for file in package.files or ():
+                if file.parts[0] not in ("..", "__pycache__"):
+                    yield file, site / file
 
 
 def _pins(name: str) -> list[str]:
@@ -342,8 +298,9 @@ def _run(
     tick: Callable[[], None] = lambda: None,
 ) -> bool:
     """Run a command with its output in the log, and return whether it succeeded."""
-    with LOG.open("ab") as log:
-        child = subprocess.Popen(
+    with (
+        LOG.open("ab") as log,
+        subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=log,
@@ -351,16 +308,15 @@ def _run(
             env=environment or indexes.neutral_environment(),
             cwd=VENV,
             close_fds=False,  # the child inherits the lock
-        )
+        ) as child,
+    ):
         try:
             while child.poll() is None:
                 tick()
                 time.sleep(0.05)
         finally:
-            if child.poll() is None:
-                child.terminate()
-                child.wait()
-    return child.returncode == 0
+            child.terminate()
+    return child.poll() == 0
 
 
 def _check(succeeded: bool) -> None:
