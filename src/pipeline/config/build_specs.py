@@ -100,12 +100,22 @@ def _of_claims(checked: YamlMapping) -> dict[str, BuildSpec]:
 def of_study(variants: Variants) -> dict[str, BuildSpec]:
     """Specify each dataset and chart of the study; inputs come first."""
     scenes, artifact_paths = variants[paths.PAPER], paths.artifact_paths(variants)
+    external = ("pseudorigid.study.methods.scipy_events", "pseudorigid.study.methods.taylor")
+    modules = {"verdicts": ("pseudorigid.study.verdicts",)}
+    modules |= dict.fromkeys(parts.MEASURED, external)
     specs = {}
     for part in (*parts.FIXED, *parts.MEASURED):
         path, block = parts.data(part), parts.block(part, scenes)
-        given = parts.artifacts(block, artifact_paths)
+        given = [  # the figures' own datasets that the part compares with
+            (stage, scene, file)
+            for (variant, scene, stage), file in artifact_paths.items()
+            if variant == paths.PAPER and scene in block.get("scenes", ())
+            if stage in ("periodic", "manifolds")
+        ]
         inputs = sorted({file for *_, file in given})
-        specs[path] = _spec(path, part, "data", block, "study", inputs, given, parts.modules(part))
+        specs[path] = _spec(
+            path, part, "data", block, "study", inputs, given, modules.get(part, ())
+        )
     for chart, (part, *_) in parts.CHARTS.items():
         path, block = parts.drawn(chart), parts.drawing(chart)
         specs[path] = _drawing(path, chart, block, "study", [parts.data(part)])

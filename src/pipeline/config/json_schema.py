@@ -6,7 +6,7 @@ every key, type and bound of one value. Conditions between fields, such as eq. (
 """
 
 import json
-from typing import Any
+from typing import Any, Literal
 
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
@@ -28,27 +28,21 @@ Schema = dict[str, Any]
 def schema() -> Schema:
     """Return the JSON schema of config.yaml."""
     models: list[type[Block]] = [Document, Variant, Sweep, *KINDS.values()]
+    mode: Literal["validation"] = "validation"
     references, definitions = models_json_schema(
-        [(model, "validation") for model in models], schema_generator=_Generator
+        [(model, mode) for model in models], schema_generator=_Generator
     )
     blocks: dict[str, Schema] = definitions["$defs"]
 
-    def reference(model: type[Block]) -> Schema:
-        return references[model, "validation"]
-
-    scene: Schema = {
+    blocks["AnyScene"] = {
         "type": "object",
         "required": ["picture"],
         "properties": {"picture": {"enum": list(KINDS)}},
         "allOf": [
-            {
-                "if": {"properties": {"picture": {"const": name}}},
-                "then": reference(kind),
-            }
+            {"if": {"properties": {"picture": {"const": name}}}, "then": references[kind, mode]}
             for name, kind in KINDS.items()
         ],
     }
-    blocks |= {"AnyScene": scene}
     document = blocks.pop("Document")
     of_names = {"scenes": "AnyScene", "variants": "Variant", "sweeps": "Sweep"}
     of_names |= {name: "AnyScene" for name in PUBLISHED if name != PAPER}

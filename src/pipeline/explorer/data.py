@@ -19,8 +19,9 @@ NO_SECTION = ("control", "families")  # kinds of picture without a section of th
 
 def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     """Return the data, which JSON can hold; the same tree gives the same data."""
+    project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
     return {
-        "version": _version(),
+        "version": f"{project['name']} {project['version']}",
         "scenes": {
             name: {field: value for field, value in block.items() if field != "formats"}
             for variant, scenes in checked["variants"].items()
@@ -41,11 +42,6 @@ def address(variant: str, scene: str, block: YamlMapping) -> str | None:
     if block["picture"] in NO_SECTION or "method" in block:
         return None
     return scene if variant in PUBLISHED else f"{variant}/{scene}"
-
-
-def _version() -> str:
-    project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
-    return f"{project['name']} {project['version']}"
 
 
 def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:

@@ -19,10 +19,7 @@ _FIXED = frozenset({"root_finder"})
 def javascript(folder: Path = _FOLDER) -> str:
     """Return a script that declares `kernel`, an object with the translated functions.
 
-    Raises
-    ------
-    TranslationError
-        A file of `folder` has a construct that is not translated.
+    Raises TranslationError if a file of `folder` has a construct that is not translated.
     """
     translator = Translator(folder, "src/pseudorigid/kernel", _FIXED)
     names = [

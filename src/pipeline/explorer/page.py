@@ -31,17 +31,9 @@ APP = (
 
 
 def render(checked: YamlMapping, root: Path = ROOT) -> str:
-    """Return the page.
-
-    Raises
-    ------
-    translate.TranslationError
-        The kernel has a construct that is not translated.
-    """
+    """Return the page; raises TranslationError for a construct of the kernel not translated."""
     kernel_script = kernel_scripts()
-    worker_script, app_script = (
-        _minified("application/javascript", part) for part in (WORKER, APP)
-    )
+    worker_script, app_script = (_minified("application/javascript", p) for p in (WORKER, APP))
     style = _minified("text/css", ("style.css",))
     policy = "; ".join(
         [
@@ -77,11 +69,6 @@ def kernel_scripts() -> str:
     return "\n".join([kernel.javascript(), *map(script, BOTH)])
 
 
-def _write_copy() -> None:
-    """Write the committed copy, which a web server may show."""
-    write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))
-
-
 def script(name: str) -> str:
     """Return the text of a file of the page."""
     return (WEB / name).read_text(encoding="utf-8")
@@ -108,4 +95,4 @@ def _json(value: Any) -> str:
 
 
 if __name__ == "__main__":
-    _write_copy()
+    write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))

@@ -36,14 +36,10 @@ class ImpactMap:
     """Impact map over arrays of states, with counts of the impacts computed and missed.
 
     Methods take states x, v, w (n,), that is x (R), xdot (R omega) and udot (omega) just before an
-    impact, and the ball's k and g. Maps with the same `scan` are equal, whatever they counted.
-
-    Parameters
-    ----------
-    scan : (float, float), optional
-        By default every impact is found by a march that misses none. (step, tolerance), both in
-        1/omega, positive and finite, selects steps of constant length until the gap changes sign,
-        and bisection until the bracket is no longer than the tolerance.
+    impact, and the ball's k and g. By default every impact is found by a march that misses none.
+    `scan` = (step, tolerance), both in 1/omega, positive and finite, selects steps of constant
+    length until the gap changes sign, and bisection until the bracket is no longer than the
+    tolerance. Maps with the same `scan` are equal, whatever they counted.
     """
 
     def __init__(self, scan=None):

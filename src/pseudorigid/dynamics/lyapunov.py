@@ -101,27 +101,9 @@ def scene_exponents(
 ) -> xr.Dataset:
     """Compute the Lyapunov exponents of the orbits of a scene, and their convergence (Figure 7).
 
-    Parameters
-    ----------
-    ball : Ball
-    energy : float
-        In m omega^2 R^2.
-    starts : list
-        Where the orbits start, each as in `starts.start_state`.
-    impacts : int or list of int
-        Number of impacts of all orbits, or of each. If they differ, `exponent` is NaN at the
-        records of other orbits.
-    records : int
-        Number of records of each orbit.
+    Starts are as in `starts.start_state`. `impacts` is the number of all orbits, or a list; at the
+    records of other orbits `exponent`, as from `lyapunov_spectrum`, is NaN.
 
-    Returns
-    -------
-    xarray.Dataset
-        exponent (impact, orbit, index) as from `lyapunov_spectrum`; start on `orbit`, and start_x
-        and start_xdot if a start is a point.
-
-    Examples
-    --------
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
     >>> bool(abs(spectrum["exponent"].values[-1].sum()) < 0.01)

@@ -142,6 +142,24 @@ class OfRecords(OfOrbits):
             yield ("records",), block["records"], f"at most impacts = {least}"
 
 
+class OfSea(Scene):
+    """A scene of many orbits of the chaotic sea."""
+
+    between: fields.Between
+    """Part of the symmetry line y = 0 over which the orbits start evenly, in section radii from the
+    section's centre. Choose it inside the chaotic sea."""
+    orbits: int = fields.whole(2, 100_000)
+    """Number of orbits. More of them make the statistics more precise."""
+    impacts: int = fields.whole(100, 10_000_000)
+    """Number of impacts of each orbit."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that all impacts fit into memory."""
+        yield from super().cross_field_errors(block)
+        yield from bounded(block, "orbits", "impacts", "impacts in all")
+
+
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 
@@ -179,17 +197,14 @@ class OfManifolds(OfPeriodicOrbit):
     """How finely the manifolds are traced. A finer resolution takes more time and more memory."""
 
     @classmethod
-    def lengths(cls, block: YamlMapping) -> dict[tuple[str, ...], float]:
-        """Return the lengths of branches by their places in the block."""
-        raise NotImplementedError
-
-    @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that no branch is longer than the largest number of points allows."""
         yield from super().cross_field_errors(block)
         branches = 4 * block["period"]  # stable and unstable, on both sides of each point
         longest = fields.LARGEST * block["resolution"]["distance"] / branches
-        for place, length in cls.lengths(block).items():
+        sides = block.get("branches", {})
+        lengths = {("branches", side, "length"): sides[side]["length"] for side in sides}
+        for place, length in (lengths or {("length",): block["length"]}).items():
             if length > longest:
                 words = f"at most {fields.LARGEST} times resolution.distance"
                 yield place, length, f"{words}, shared by {branches} branches = {longest}"
@@ -201,12 +216,6 @@ class OfBranches(OfManifolds):
     branches: fields.Branches
     """Which branches of the manifolds are traced, and how far."""
 
-    @classmethod
-    def lengths(cls, block: YamlMapping) -> dict[tuple[str, ...], float]:
-        """Return the length of each side's branches."""
-        branches = block["branches"]
-        return {("branches", side, "length"): branches[side]["length"] for side in branches}
-
 
 class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
@@ -216,6 +225,11 @@ class OnSurface(Scene):
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
     rate, omega). An axis that is left out has limits that hold its data."""
+
+
+def is_sound(block: YamlMapping) -> bool:
+    """Return whether a block's ball has a section at its energies, so that more can be checked."""
+    return not any(Scene.cross_field_errors(block))
 
 
 def bounded(block: YamlMapping, first: str, second: str, what: str) -> Iterator[CrossFieldError]:
@@ -250,6 +264,8 @@ def measured_energy(block: YamlMapping, states: Dataset) -> dict[str, str]:
 
 def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:
     """Yield an error for each energy of a field at which the fixed point is hyperbolic."""
+    if not is_sound(block):
+        return
     k, g = (block["ball"][name] for name in "kg")
     theta = _last(lambda theta: _fixed_point(k, theta)[1] > -2)
     highest = _fixed_point(k, theta)[0] * g * g

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from .fields import YamlMapping
 from .kinds import KINDS
-from .published import FOLDERS, PAPER
+from .published import FOLDERS
 
 # Data that are the same on every machine, and measurements.
 FIXED = ("work", "edges", "orbits", "needs", "verdicts")
@@ -56,26 +56,6 @@ def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:
     measures = {name: kind for name, kind in measures.items() if kind and "axes" in scenes[name]}
     chosen = {name: scenes[name] for name in measures}
     return {"part": part, "scenes": chosen, "measures": measures}
-
-
-def artifacts(
-    block: YamlMapping, artifact_paths: Mapping[tuple[str, str, str], str]
-) -> list[tuple[str, str, str]]:
-    """Return the figures' own datasets that a part compares with: (stage, scene, file)."""
-    return [
-        (stage, scene, file)
-        for (variant, scene, stage), file in artifact_paths.items()
-        if variant == PAPER
-        and scene in block.get("scenes", ())
-        and stage in ("periodic", "manifolds")
-    ]
-
-
-def modules(part: str) -> list[str]:
-    """Return the modules that a part imports by name, with external solvers if it measures."""
-    own = ("verdicts",) if part == "verdicts" else ()
-    external = ("methods.scipy_events", "methods.taylor") if part in MEASURED else ()
-    return [f"pseudorigid.study.{name}" for name in own + external]
 
 
 def drawing(chart: str) -> YamlMapping:

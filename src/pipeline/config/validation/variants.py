@@ -61,11 +61,9 @@ def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> Y
     kind = KINDS[block["picture"]]
     framing = ("ball", "energy", *kind.axes_depend_on)
     moved = variant.get("scale", 1) != 1 or any(block.get(f) != derived.get(f) for f in framing)
-    if moved and "axes" not in change:
+    if moved:
         derived.pop("axes", None)
-    elif moved:
-        derived["axes"] = change["axes"]
-    return derived
+    return derived | ({"axes": change["axes"]} if moved and "axes" in change else {})
 
 
 def _change_mistakes(scenes: YamlMapping, scene: str, change: object, place: Place) -> list[str]:

@@ -5,18 +5,7 @@ import pkgutil
 
 from ..scene import Scene
 
-
-def _declared(name: str) -> type[Scene]:
-    """Return the one kind of picture that a module declares."""
-    module = importlib.import_module(f"{__name__}.{name}")
-    (kind,) = (
-        value
-        for value in vars(module).values()
-        if isinstance(value, type)
-        and issubclass(value, Scene)
-        and value.__module__ == module.__name__
-    )
-    return kind
-
-
-KINDS = {module.name: _declared(module.name) for module in pkgutil.iter_modules(__path__)}
+KINDS: dict[str, type[Scene]] = {}
+for _module in pkgutil.iter_modules(__path__):  # last_curve declares the class LastCurve
+    _class = _module.name.title().replace("_", "")
+    KINDS[_module.name] = vars(importlib.import_module(f"{__name__}.{_module.name}"))[_class]

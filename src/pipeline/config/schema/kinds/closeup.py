@@ -28,11 +28,6 @@ class Closeup(OfManifolds):
     is left out has the limits of the window."""
 
     @classmethod
-    def lengths(cls, block: YamlMapping) -> dict[tuple[str, ...], float]:
-        """Return the length of all branches."""
-        return {("length",): block["length"]}
-
-    @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that the orbit has such a point."""
         yield from super().cross_field_errors(block)

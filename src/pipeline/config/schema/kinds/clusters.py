@@ -3,25 +3,18 @@
 from collections.abc import Iterator
 from typing import Annotated
 
-from ..fields import Between, YamlMapping, allowed, whole
-from ..scene import CrossFieldError, Dataset, Scene, bounded, listing
+from ..fields import YamlMapping, allowed, whole
+from ..scene import CrossFieldError, Dataset, OfSea, bounded, is_sound, listing
 
 LONGEST_FLIGHT = 1_000_000  # 1/omega: the histogram of flight times has ten bins a unit of time
 
 
-class Clusters(Scene):
+class Clusters(OfSea):
     """clusters of impacts and their memory"""
 
     stages = ("clusters",)
     headline = "time between clusters"
 
-    between: Between
-    """Part of the symmetry line y = 0 over which the orbits start evenly, in section radii from the
-    section's centre. Choose it inside the chaotic sea."""
-    orbits: int = whole(2, 100_000)
-    """Number of orbits. More orbits narrow the confidence intervals."""
-    impacts: int = whole(100, 10_000_000)
-    """Number of impacts of each orbit."""
     cuts: list[Annotated[float, allowed("a time above 0", gt=0)]] = allowed(
         "a list of 1 to 7 times", min_length=1, max_length=7
     )
@@ -37,13 +30,11 @@ class Clusters(Scene):
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that all impacts, and all bootstrap samples, fit into memory."""
-        cross_field_errors = [*super().cross_field_errors(block)]
-        yield from cross_field_errors
-        yield from bounded(block, "orbits", "impacts", "impacts in all")
+        """Check that all bootstrap samples fit into memory, and that no flight is too long."""
+        yield from super().cross_field_errors(block)
         yield from bounded(block, "orbits", "resamples", "orbits drawn")
         (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
-        if not cross_field_errors and 4 * (2 * energy + g * g / k) > (LONGEST_FLIGHT * g) ** 2:
+        if is_sound(block) and 4 * (2 * energy + g * g / k) > (LONGEST_FLIGHT * g) ** 2:
             longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
             words = f"one with flights of at most {LONGEST_FLIGHT} at this energy"
             yield ("ball", "g"), g, f"{words} (here {longest:.3g})"

@@ -1,10 +1,11 @@
 """Families of periodic orbits against the energy or the inertia."""
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Literal
 
 from ..fields import Range, YamlMapping, allowed, whole
-from ..scene import CrossFieldError, Dataset, Scene, exact
+from ..scene import CrossFieldError, Dataset, Scene, exact, is_sound
 
 MOST_CELLS = 2_000  # of the regular share
 
@@ -41,9 +42,8 @@ class Families(Scene):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that the section exists over the whole span."""
-        cross_field_errors = [*super().cross_field_errors(block)]
-        yield from cross_field_errors
-        if cross_field_errors:
+        yield from super().cross_field_errors(block)
+        if not is_sound(block):
             return
         k, g, energy = (exact(v) for v in (block["ball"]["k"], block["ball"]["g"], block["energy"]))
         low, high = (exact(value) for value in block["span"])
@@ -65,23 +65,14 @@ class Families(Scene):
     def numbers(block: YamlMapping, families: Dataset, shares: Dataset) -> dict[str, str]:
         """Give the number of families and events, and the fixed point's resonances."""
         lines = families["line"].values.tolist()
-        kinds = families["event_kind"].values.tolist()
-        counts = {kind: kinds.count(kind) for kind in sorted(set(kinds))}
-        words = {"resonance": "p/q"}
+        kinds = Counter(families["event_kind"].values.tolist())
+        events = [f"{n} {'p/q' if k == 'resonance' else k}" for k, n in sorted(kinds.items())]
         chosen = (families["event_family"].values == 0) & (families["event_order"].values > 2)
-        names = "event_energy" if block["parameter"] == "energy" else "event_k"
-        rows = zip(
-            families["event_turns"].values[chosen].tolist(),
-            families["event_order"].values[chosen].tolist(),
-            families[names].values[chosen].tolist(),
-            strict=True,
-        )
-        resonances = sorted((value, f"{p}/{q} at {value:.12g}") for p, q, value in rows)
+        names = f"event_{block['parameter']}", "event_turns", "event_order"
+        resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
+        places = [f"{p}/{q} at {value:.12g}" for value, p, q in sorted(resonances)]
         return {
             "families": f"{len(lines)}, {lines.count('none')} of them without symmetry",
-            "events": ", ".join(
-                f"{count} {words.get(kind, kind)}" for kind, count in counts.items()
-            )
-            or "none",
-            "fixed point": ", ".join(text for _, text in resonances) or "none",
+            "events": ", ".join(events) or "none",
+            "fixed point": ", ".join(places) or "none",
         }

@@ -1,12 +1,10 @@
 """Lobes of the manifolds, and the flux through them."""
 
-from collections.abc import Iterator
-
-from ..fields import Between, YamlMapping, allowed, whole
-from ..scene import CrossFieldError, Dataset, Scene, bounded, listing
+from ..fields import YamlMapping, allowed, whole
+from ..scene import Dataset, OfSea, listing
 
 
-class Flux(Scene):
+class Flux(OfSea):
     """crossings and lobes of both branches"""
 
     stages = ("flux",)
@@ -18,21 +16,8 @@ class Flux(Scene):
     """Largest distance between neighbouring points of the traced branches, in section radii. It
     decides how well areas of polygons agree with the exact areas of the lobes."""
     grid: int = whole(10, 3000)
-    """The flux is also counted over a grid of this many points to a side, in the rectangle around
-    the section. The work grows with its square."""
-    between: Between
-    """Part of the symmetry line y = 0 over which orbits of the chaotic sea start evenly, in section
-    radii from the section's centre. The flux is counted along these orbits too."""
-    orbits: int = whole(2, 100_000)
-    """Number of these orbits."""
-    impacts: int = whole(100, 10_000_000)
-    """Number of impacts of each of these orbits."""
-
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that all impacts fit into memory."""
-        yield from super().cross_field_errors(block)
-        yield from bounded(block, "orbits", "impacts", "impacts in all")
+    """The flux is counted along the orbits, and over a grid of this many points to a side, in the
+    rectangle around the section. The work grows with its square."""
 
     @staticmethod
     def numbers(block: YamlMapping, flux: Dataset) -> dict[str, str]:

@@ -36,10 +36,8 @@ class LastCurve(Scene):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that the orbits can be computed and drawn."""
-        cross_field_errors = [*super().cross_field_errors(block)]
-        yield from cross_field_errors
-        if not cross_field_errors:
-            yield from not_elliptic(block, "energy")
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
         start, end = block["between"]
         if start == end:
             yield ("between",), block["between"], "two fractions that differ"

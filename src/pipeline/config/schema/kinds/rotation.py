@@ -28,11 +28,9 @@ class Rotation(Scene):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that the fixed point, around which orbits rotate, is elliptic at each energy."""
-        cross_field_errors = [*super().cross_field_errors(block)]
-        yield from cross_field_errors
-        if not cross_field_errors:
-            yield from not_elliptic(block, "energy")
-            yield from not_elliptic(block, "energies")
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        yield from not_elliptic(block, "energies")
 
     @staticmethod
     def numbers(block: YamlMapping, rotation: Dataset) -> dict[str, str]:

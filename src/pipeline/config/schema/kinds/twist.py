@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from annotated_types import Predicate
 
 from ..fields import ABSENT, Axis, Energy, YamlMapping, allowed, rising
-from ..scene import CrossFieldError, Dataset, Scene, fixed_point_trace, not_elliptic
+from ..scene import CrossFieldError, Dataset, Scene, fixed_point_trace, is_sound, not_elliptic
 
 RESONANT = 1e-9  # distance of a trace from one at which the multiplier is a root of unity
 
@@ -36,18 +36,16 @@ class Twist(Scene):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Check that marks are among the energies, and that the twist exists at each of these."""
-        cross_field_errors = [*super().cross_field_errors(block)]
-        yield from cross_field_errors
+        yield from super().cross_field_errors(block)
         for mark in block["marks"]:
             if mark not in block["energies"]:
                 yield ("marks",), mark, "one of energies"
-        if not cross_field_errors:
-            yield from not_elliptic(block, "energies")
-            for i, energy in enumerate(block["energies"]):
-                trace = fixed_point_trace(block["ball"], energy)
-                if min(abs(trace - root) for root in (-1, 0)) < RESONANT:
-                    words = "an energy at which no power of the multiplier up to the fourth is 1"
-                    yield ("energies", i), energy, words
+        yield from not_elliptic(block, "energies")
+        for i, energy in enumerate(block["energies"] if is_sound(block) else ()):
+            trace = fixed_point_trace(block["ball"], energy)
+            if min(abs(trace - root) for root in (-1, 0)) < RESONANT:
+                words = "an energy at which no power of the multiplier up to the fourth is 1"
+                yield ("energies", i), energy, words
 
     @staticmethod
     def numbers(block: YamlMapping, twist: Dataset) -> dict[str, str]:
