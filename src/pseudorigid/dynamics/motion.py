@@ -32,24 +32,19 @@ def _flights(ball, orbit):
 def scene_motion(
     ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
 ) -> xr.Dataset:
-    """Compute `motion` along a periodic orbit of given period and type (Figures 3 and 4).
+    """Compute x(t) and u(t), eq. (26), of a periodic orbit from an impact on (Figures 3 and 4).
+
+    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
+    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
+    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
+    each flight are included, where position = -strain exactly.
 
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
     6
     """
-    return motion(ball, of_type(periodic, type, period), duration)
-
-
-def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
-    """Compute x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
-
-    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
-    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
-    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
-    each flight are included, where position = -strain exactly.
-    """
+    orbit = of_type(periodic, type, period)
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:
         raise ValueError(
@@ -59,13 +54,10 @@ def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
     flights = _flights(ball, orbit)
     following = next(flights)
     coefficients = impact_coefficients(ball.k)
-    columns = [[], [], []]
-    impacts = [[], []]
-    time = 0.0
+    columns, impacts, time = [], [], 0.0
     while time <= duration:
         (x, xdot, udot, tau), following = following, next(flights)
-        impacts[0].append(time)
-        impacts[1].append(x)
+        impacts.append((time, x))
         b, c, _ = rebound(xdot, udot, ball.k, coefficients)
         t = tau * (np.arange(SAMPLES + 1) / SAMPLES)
         t = np.append(t[time + t < duration], duration - time) if time + tau > duration else t
@@ -76,12 +68,11 @@ def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
         if time + tau <= duration:
             end = following[0]
             position[-1], strain[-1] = end, -end
-        for column, values in zip(columns, (time + t, position, strain), strict=True):
-            column.append(values)
+        columns.append((time + t, position, strain))
         time += tau
     position_text = "position of the mass centre, downwards", LENGTH
     names = {"t": ("time", TIME), "position": position_text, "strain": "strain"}
-    data = variables("sample", [np.concatenate(c) for c in columns], names)
+    data = variables("sample", np.concatenate(columns, axis=1), names)
     position_text = "position at impact, downwards", LENGTH
     names = {"impact_t": ("time of impact", TIME), "impact_position": position_text}
-    return xr.Dataset(data | variables("impact", [np.array(c) for c in impacts], names))
+    return xr.Dataset(data | variables("impact", np.transpose(impacts), names))

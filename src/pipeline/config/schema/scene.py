@@ -203,8 +203,10 @@ class OfManifolds(OfPeriodicOrbit):
         branches = 4 * block["period"]  # stable and unstable, on both sides of each point
         longest = fields.LARGEST * block["resolution"]["distance"] / branches
         sides = block.get("branches", {})
+        lengths: dict[tuple[str, ...], float]
         lengths = {("branches", side, "length"): sides[side]["length"] for side in sides}
-        for place, length in (lengths or {("length",): block["length"]}).items():
+        lengths |= {("length",): block["length"]} if "length" in block else {}
+        for place, length in lengths.items():
             if length > longest:
                 words = f"at most {fields.LARGEST} times resolution.distance"
                 yield place, length, f"{words}, shared by {branches} branches = {longest}"

@@ -17,7 +17,6 @@ from .values import (
     LESS,
     LONG,
     LONGS,
-    NONE,
     OR,
     PRODUCT,
     SHIFT,
@@ -194,11 +193,9 @@ class ExpressionTranslator:
 
     def _name(self, node: ast.expr, name: str) -> Value:
         if name in self._shapes:
-            shape = self._shapes[name]
-            if shape == NONE:
-                return Scalar("null", NONE)
-            leaves = leaves_of(variables_of(name, shape))
-            return filled(shape, (Scalar(safe(leaf.code), leaf.kind) for leaf in leaves))
+            leaves = leaves_of(variables_of(name, self._shapes[name]))
+            variables = (Scalar(safe(leaf.code), leaf.kind) for leaf in leaves)
+            return filled(self._shapes[name], variables)
         value = self._modules.constant(self._module, name, node)
         self._globals.add(value.code)
         return value
@@ -360,20 +357,22 @@ class ExpressionTranslator:
                         return Scalar(f"$floatOf({self._number(a, LONG).code})", FLOAT)
         self._refuse(node, f"the call of {ast.unparse(node.func)}")
 
+    def _arguments(self, node: ast.Call) -> list[ast.expr]:
+        """Return the arguments of a call without those that are fixed."""
+        fixed = self._modules.fixed
+        return [each for each in node.args if not (isinstance(each, ast.Name) and each.id in fixed)]
+
     def _call_code(self, function: Function, node: ast.Call) -> str:
         if node.keywords:
             self._refuse(node, "a keyword argument")
         self._globals.add(function.name)
-        values = self._tuple(node.args)
-        shapes = [shape for _, shape in function.parameters]
-        if len(values) != len(shapes):
+        values = self._tuple(self._arguments(node))
+        if len(values) != len(function.parameters):
             self._refuse(node, f"a call of {function.name} with another number of arguments")
         codes = []
-        for value, shape in zip(values, shapes, strict=True):
+        for value, shape in zip(values, function.parameters, strict=True):
             if len(leaves_of(value)) != len(kinds_of(shape)):
                 self._refuse(node, f"this argument of {function.name}")
-            if shape == NONE and shape_of(value) == NONE:
-                continue
             for leaf, kind in zip(leaves_of(value), kinds_of(shape), strict=True):
                 if leaf.kind in (LONG, LONGS, BOOL):
                     self._refuse(node, f"{phrase_of(leaf.kind)} as an argument")

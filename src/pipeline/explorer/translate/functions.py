@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from collections.abc import Iterable
 
 from .expressions import ExpressionTranslator, is_number
 from .modules import Modules, safe
@@ -11,7 +12,6 @@ from .values import (
     INT,
     LONG,
     LONGS,
-    NONE,
     Function,
     Scalar,
     Shape,
@@ -44,13 +44,9 @@ class FunctionTranslator(ExpressionTranslator):
         node, arguments = self._node, self._node.args
         if arguments.defaults or arguments.kwonlyargs or arguments.vararg or arguments.kwarg:
             self._refuse(node, "a default, keyword or variable argument")
-        names = [each.arg for each in arguments.args]
-        widths = self._tuple_parameters(names)
-        for name in names:
-            self._shapes[name] = [FLOAT] * widths[name] if name in widths else FLOAT
-            if name in self._modules.fixed:
-                self._shapes[name] = NONE
-        self._parameters = {*names}
+        names = [each.arg for each in arguments.args if each.arg not in self._modules.fixed]
+        self._parameters = names
+        self._shapes = dict.fromkeys(names, FLOAT) | self._tuple_parameters(names)
         before = ""
         while repr((self._shapes, self._result)) != before:
             before = repr((self._shapes, self._result))
@@ -58,18 +54,21 @@ class FunctionTranslator(ExpressionTranslator):
             self._block(node.body)
         if self._result is None:
             self._refuse(node, f"{node.name}, which returns nothing,")
-        every = [leaf for pair in self._shapes.items() for leaf in leaves_of(variables_of(*pair))]
-        variables = [leaf.code for leaf in every if leaf.kind != NONE]
+        variables = self._variables(self._shapes)
         for variable in variables:  # `a_0` may be a part of `a`, or a function that is called
             if variables.count(variable) > 1 or variable in self._globals:
                 self._refuse(node, f"{node.name}, in which {variable} has two meanings,")
-        parameters = [(name, self._shapes[name]) for name in names]
+        parameters = [self._shapes[name] for name in names]
         name = self._modules.unique(self._module, node.name)
-        return Function(name, parameters, self._result, self._text(name, parameters))
+        return Function(name, parameters, self._result, self._text(name))
 
-    def _text(self, name: str, parameters: list[tuple[str, Shape]]) -> str:
-        leaves = [leaf for each in parameters for leaf in leaves_of(variables_of(*each))]
-        given = [safe(leaf.code) for leaf in leaves if leaf.kind != NONE]
+    def _variables(self, names: Iterable[str]) -> list[str]:
+        """Return the JavaScript variables that hold some variables."""
+        values = [variables_of(name, self._shapes[name]) for name in names]
+        return [safe(leaf.code) for value in values for leaf in leaves_of(value)]
+
+    def _text(self, name: str) -> str:
+        given = self._variables(self._parameters)
         summary = (ast.get_docstring(self._node) or "").partition("\n")[0]
         head = [f"// {summary}"] if summary else []
         head.append(f"function {name}({', '.join(given)}) {{")
@@ -84,28 +83,27 @@ class FunctionTranslator(ExpressionTranslator):
                 body = joined
         return "\n".join([*head, body, "}", ""])
 
-    def _tuple_parameters(self, names: list[str]) -> dict[str, int]:
-        """Return the parameters that are tuples, and their lengths."""
+    def _tuple_parameters(self, names: list[str]) -> dict[str, Shape]:
+        """Return the shapes of the parameters that are tuples."""
         widths: dict[str, int] = {}
         for node in ast.walk(self._node):
             match node:
                 case ast.Assign(targets=[ast.Tuple(elts=targets)], value=ast.Name(name)):
                     if name in names:
                         widths[name] = len(targets)
-                case ast.Call(args=args) if called := self._called(node):
-                    expected = [shape for _, shape in called.parameters]
-                    at = 0
+                case ast.Call() if called := self._called(node):
+                    args, expected, at = self._arguments(node), called.parameters, 0
                     for given in args:
+                        several = len(expected) - len(args) + 1  # behind a star
                         match given:
                             case ast.Name(name) if name in names and at < len(expected):
                                 shape = expected[at]
                                 if isinstance(shape, list):
                                     widths[name] = len(shape)
                             case ast.Starred(value=ast.Name(name)) if name in names:
-                                widths[name] = len(expected) - len(args) + 1
-                        starred = isinstance(given, ast.Starred)
-                        at += len(expected) - len(args) + 1 if starred else 1
-        return widths
+                                widths[name] = several
+                        at += several if isinstance(given, ast.Starred) else 1
+        return {name: [FLOAT] * width for name, width in widths.items()}
 
     # Statements
 
@@ -248,12 +246,7 @@ class FunctionTranslator(ExpressionTranslator):
 
     def _declaration(self, variable: str) -> str:
         """Return `let ` where a variable is declared: at its first assignment, or at the top."""
-        parameters = {
-            safe(leaf.code)
-            for name in self._parameters
-            for leaf in leaves_of(variables_of(name, self._shapes[name]))
-        }
-        if variable in self._declared or variable in parameters:
+        if variable in self._declared or variable in self._variables(self._parameters):
             return ""
         self._declared.add(variable)
         if self._indent == 1:

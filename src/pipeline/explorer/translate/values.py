@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 # Kinds of scalars. An `int` may become a `float` or a `long`.
-BOOL, INT, FLOAT, LONG, LONGS, NONE = "bool", "int", "float", "long", "longs", "none"
+BOOL, INT, FLOAT, LONG, LONGS = "bool", "int", "float", "long", "longs"
 _PHRASES = {
     BOOL: "a condition", INT: "an integer", FLOAT: "a number", LONG: "a 64-bit integer",
-    LONGS: "an array of integers", NONE: "None",
+    LONGS: "an array of integers",
 }  # fmt: skip
 # Precedence of JavaScript's operators.
 TERNARY, OR, AND, EQUAL, LESS, SHIFT, SUM, PRODUCT, UNARY, ATOM = range(2, 12)
@@ -33,10 +33,10 @@ Shape = str | list["Shape"]
 
 @dataclass
 class Function:
-    """A translated function: its JavaScript name, parameters and result."""
+    """A translated function: its JavaScript name, and the shapes of its parameters and result."""
 
     name: str
-    parameters: list[tuple[str, Shape]]
+    parameters: list[Shape]
     result: Shape
     code: str
 

@@ -1,0 +1,378 @@
+"""Kinds of picture behind the verdicts on the paper's statements, and families of orbits."""
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from annotated_types import Predicate
+
+from ..fields import (
+    ABSENT,
+    LARGEST,
+    Between,
+    Energies,
+    Fraction,
+    Range,
+    YamlMapping,
+    allowed,
+    rising,
+    whole,
+)
+from ..scene import (
+    CrossFieldError,
+    Dataset,
+    OfChaoticOrbits,
+    OfRecords,
+    OfSea,
+    Scene,
+    bounded,
+    exact,
+    is_sound,
+    listing,
+    not_elliptic,
+)
+
+LONGEST_FLIGHT = 1_000_000  # 1/omega: the histogram of flight times has ten bins a unit of time
+MOST_CELLS = 2_000  # of the regular share
+
+
+class Spread(OfRecords):
+    """Lyapunov exponents of many orbits at many lengths"""
+
+    stages = ("spread", "lyapunov")
+    headline = "long-run exponent"
+
+    orbits: int = whole(2, 1000)
+    """Number of long orbits. They start uniformly over the whole section, in islands as well as in
+    the chaotic sea; their exponents decide which of them are chaotic."""
+    length: int = whole(100, 100_000_000)
+    """Number of impacts of each long orbit, a multiple of `blocks`. The error of the long-run
+    exponent falls as its square root grows."""
+    blocks: int = whole(2, 10_000)
+    """Number of equal blocks into which a long orbit is divided. Exponents are averaged over each
+    block, so that one block is the shortest run whose distribution can be drawn."""
+    regular: list[Fraction] = allowed("a list of fractions", min_length=1)
+    """Starts of regular orbits, as fractions of the section's radius along y = 0. Their exponents
+    tend to zero and are drawn beside ln n/n."""
+    regular_impacts: int = whole(16, 10_000_000)
+    """Number of impacts of each regular orbit."""
+    cells: int = whole(2, 1000)
+    """The rectangle around the section is divided into this many cells to a side, to count which of
+    them chaotic orbits enter."""
+    visits: int = whole(2, 100_000_000)
+    """Number of impacts of each chaotic orbit whose cells are counted."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the length is a multiple of the blocks."""
+        yield from super().cross_field_errors(block)
+        if block["length"] % block["blocks"]:
+            yield ("blocks",), block["blocks"], f"a divisor of length = {block['length']}"
+
+    @staticmethod
+    def numbers(block: YamlMapping, spread: Dataset, lyapunov: Dataset) -> dict[str, str]:
+        """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
+        from pseudorigid.analyses.spread import in_sea
+
+        largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
+        error = largest.std(ddof=1) / largest.size**0.5
+        return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
+
+
+class Clusters(OfSea):
+    """clusters of impacts and their memory"""
+
+    stages = ("clusters",)
+    headline = "time between clusters"
+
+    cuts: list[Annotated[float, allowed("a time above 0", gt=0)]] = allowed(
+        "a list of 1 to 7 times", min_length=1, max_length=7
+    )
+    """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
+    is repeated for each cut, to show what depends on the choice."""
+    lags: int = whole(1, 100)
+    """A cluster is compared with this many later ones: the next, the next but one, and so on."""
+    resamples: int = whole(10, 100_000)
+    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
+    seed: int = whole(0, 2**31)
+    """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
+    shifts their ends a little, and nothing else. Any number will do."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that all bootstrap samples fit into memory, and that no flight is too long."""
+        yield from super().cross_field_errors(block)
+        yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
+        if is_sound(block) and 4 * (2 * energy + g * g / k) > (LONGEST_FLIGHT * g) ** 2:
+            longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
+            words = f"one with flights of at most {LONGEST_FLIGHT} at this energy"
+            yield ("ball", "g"), g, f"{words} (here {longest:.3g})"
+
+    @staticmethod
+    def numbers(block: YamlMapping, clusters: Dataset) -> dict[str, str]:
+        """Give the mean time from one cluster to the next, for each cut."""
+        return {"time between clusters": listing(clusters, "{:.2f} cut at {:g}", "period", "cut")}
+
+
+class Rotation(Scene):
+    """rotation number and exponent against the start"""
+
+    stages = ("rotation",)
+    headline = "at the fixed point"
+
+    energies: Energies
+    """Energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of `energy`."""
+    starts: int = whole(2, 100_000)
+    """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
+    rim of the section. More starts resolve narrower plateaus."""
+    impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit. Longer orbits give the rotation number more digits."""
+    detail: Between
+    """Part of the symmetry line y = 0 that is drawn at higher resolution, in section radii from the
+    section's centre: `starts` further orbits start evenly in it, at `energy`."""
+    detail_impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit of the detail."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the fixed point, around which orbits rotate, is elliptic at each energy."""
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        yield from not_elliptic(block, "energies")
+
+    @staticmethod
+    def numbers(block: YamlMapping, rotation: Dataset) -> dict[str, str]:
+        """Give the rotation number at the fixed point, at each energy."""
+        numbers = listing(rotation, "{:.6f} at E = {:g}", "fixed_rotation", "energy")
+        return {"at the fixed point": numbers}
+
+
+class Jumps(OfChaoticOrbits):
+    """the curves where the map and its inverse jump"""
+
+    stages = ("jumps", "orbits")
+    headline = "jump curve"
+
+    energies: Energies
+    """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
+    sides: int = whole(4, 100_000, 4)
+    """Number of straight sides of which each curve is drawn. Its length is measured with this
+    number, half of it and a quarter of it, which gives the error of the length."""
+
+    @staticmethod
+    def numbers(block: YamlMapping, jumps: Dataset, orbits: Dataset) -> dict[str, str]:
+        """Give the length of the curve in (x, y) at each energy."""
+        return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}
+
+
+class Flux(OfSea):
+    """crossings and lobes of both branches"""
+
+    stages = ("flux",)
+    headline = "lobes"
+
+    period: int = whole(2, 12, 2)
+    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even."""
+    distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
+    """Largest distance between neighbouring points of the traced branches, in section radii. It
+    decides how well areas of polygons agree with the exact areas of the lobes."""
+    grid: int = whole(10, 3000)
+    """The flux is counted along the orbits, and over a grid of this many points to a side, in the
+    rectangle around the section. The work grows with its square."""
+
+    @staticmethod
+    def numbers(block: YamlMapping, flux: Dataset) -> dict[str, str]:
+        """Give the areas of the lobes in (x, y), or why there are none."""
+        with_area = flux.dropna("side", subset=["area"])
+        missing = {
+            f"no {side} lobes": flux.attrs[f"missing_{side}"]
+            for side in flux["side"].values
+            if f"missing_{side}" in flux.attrs
+        }
+        for side in with_area["side"].values[with_area["region"].isnull().values]:
+            missing[f"no {side} region"] = "a jump of the map cuts its edge"
+        return {"lobes": listing(with_area, "{} {:.10g}", "side", "area")} | missing
+
+
+class LastCurve(Scene):
+    """residues of the convergents of noble rotation numbers"""
+
+    stages = ("last_curve",)
+    headline = "last residues"
+
+    nobles: list[
+        Annotated[
+            list[Annotated[int, whole(0, 1000)]], allowed("a continued fraction", min_length=1)
+        ]
+    ] = allowed("a list of 1 to 8 continued fractions", default=ABSENT, min_length=1, max_length=8)
+    """Noble rotation numbers, in turns per impact, each as the first quotients of its continued
+    fraction: [0, 5, 1, 15] is 1/(5 + 1/(1 + 1/(15 + ...))), with ones from there on. Without this
+    field one number on either side of the last curve within `between` is chosen."""
+    convergents: int = whole(2, 20)
+    """Number of convergents of each rotation number whose periodic orbits are found. Each further
+    convergent has a period about 1.6 times as long."""
+    between: Between
+    """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
+    section's centre. The end nearer to the fixed point comes first."""
+    impacts: int = whole(100, LARGEST)
+    """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
+    whether a curve confines the orbit."""
+    drawn: int = whole(100, LARGEST)
+    """Number of these impacts that are drawn."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the orbits can be computed and drawn."""
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        start, end = block["between"]
+        if start == end:
+            yield ("between",), block["between"], "two fractions that differ"
+        nobles = block.get("nobles", [[1], [1]])
+        for i, noble in enumerate(nobles):
+            before, period = 0, 1
+            for quotient in noble[1:] + [1] * (block["convergents"] - 1):
+                before, period = period, before + quotient * period
+            if not 0 < period <= LARGEST:
+                words = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
+                yield ("nobles", i), noble, words
+        if block["drawn"] * len(nobles) > LARGEST:
+            words = f"at most {LARGEST} points drawn, counted over all nobles"
+            yield ("drawn",), block["drawn"], words
+
+    @staticmethod
+    def numbers(block: YamlMapping, last_curve: Dataset) -> dict[str, str]:
+        """Give the residue of each number's last convergent, and its period."""
+        last = last_curve.isel(convergent=-1)
+        return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}
+
+
+class Control(Scene):
+    """what regular motion needs: area kept, or the reversor"""
+
+    stages = ("control",)
+    headline = "regular share"
+
+    strengths: Annotated[
+        list[Annotated[float, allowed("a number from 1e-6 to 0.5", ge=1e-6, le=0.5)]],
+        allowed("a rising list of 1 to 12 strengths", min_length=1, max_length=12),
+        Predicate(rising),
+    ]
+    """Strengths eps of the changes of the map: about the largest displacement of a point, in
+    section radii. Each costs five runs of all orbits."""
+    orbits: int = whole(10, 100_000)
+    """Number of orbits of each map. They start evenly over the whole section. More orbits narrow
+    the intervals of the shares."""
+    impacts: int = whole(64, 10_000_000)
+    """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
+    is told from a curve after about 4.4/eps impacts. Shares are kept after an eighth, a quarter and
+    half of these impacts too."""
+    period: int = whole(2, 12)
+    """Period of the elliptic orbit whose islands are followed beside the fixed point."""
+    starts: list[Fraction] = allowed("a list of 1 to 50 fractions", min_length=1, max_length=50)
+    """Starts of the orbits that are drawn, as fractions of the section's radius along y = 0."""
+    shown: float = allowed("one of strengths", gt=0)
+    """Strength at which these orbits are drawn."""
+    drawn: int = whole(1, LARGEST)
+    """Number of impacts of each orbit that are drawn."""
+    resamples: int = whole(10, 100_000)
+    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
+    seed: int = whole(0, 2**31)
+    """Random seed of the bootstrap. It decides the ends of the confidence intervals of means, and
+    nothing else."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the strength shown is computed, and that all impacts fit into memory."""
+        yield from super().cross_field_errors(block)
+        if block["shown"] not in block["strengths"]:
+            words = f"one of strengths: {', '.join(map(str, block['strengths']))}"
+            yield ("shown",), block["shown"], words
+        if block["drawn"] > block["impacts"]:
+            yield ("drawn",), block["drawn"], f"at most impacts = {block['impacts']}"
+        yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        points = block["impacts"] * len(block["starts"])
+        if points > LARGEST:
+            words = f"at most {LARGEST} impacts, counted over all starts"
+            yield ("impacts",), block["impacts"], words
+
+    @staticmethod
+    def numbers(block: YamlMapping, control: Dataset) -> dict[str, str]:
+        """Give the regular share of each map at the strength that is drawn."""
+        share = control["class_share"].sel({"class": "regular"}).isel(length=-1)
+        rows = share.sel(strength=block["shown"], method="nearest").values.tolist()
+        texts = [
+            f"{name} {value:.3f}"
+            for name, value in zip(control["map"].values.tolist(), rows, strict=True)
+        ]
+        none = float(share.isel(map=0, strength=0))
+        return {"regular share": f"{', '.join(texts)}; impact map {none:.3f}"}
+
+
+class Families(Scene):
+    """families of periodic orbits, below the regular share of the section"""
+
+    stages = ("families", "shares")
+    headline = "families"
+
+    parameter: Literal["energy", "k"] = allowed("energy or k", default="energy")
+    """What orbits are followed against: the energy of the ball, or its inertia k at the scene's
+    E/g^2."""
+    span: Range
+    """Least and largest value of the parameter. Families are followed between them."""
+    period: int = whole(1, 24)
+    """Largest period of the orbits. There are about twice as many orbits for each further
+    period."""
+    levels: int = whole(1, 10_000)
+    """Number of values of the parameter, evenly in the radius of the section, at which brute force
+    seeks orbits that no family holds yet. A family that lives between two of them is found if it
+    branches off from another one."""
+    drawn: int = whole(1, 24)
+    """Largest period that is drawn. More than a hundred families in one panel cannot be told
+    apart."""
+    step: float = allowed("a positive number", gt=0)
+    """Distance in the parameter between two values of the regular share; these are multiples of
+    it."""
+    starts: int = whole(1, 1_000_000)
+    """Number of orbits behind each value of the regular share, evenly over half of the section."""
+    impacts: int = whole(100, 10_000_000)
+    """Largest number of impacts of these orbits."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the section exists over the whole span."""
+        yield from super().cross_field_errors(block)
+        if not is_sound(block):
+            return
+        k, g, energy = (exact(v) for v in (block["ball"]["k"], block["ball"]["g"], block["energy"]))
+        low, high = (exact(value) for value in block["span"])
+        if block["parameter"] == "energy":
+            lowest, highest = -g * g / (2 * k), k / 2 - g
+            if not lowest < low:
+                yield ("span",), block["span"], f"numbers above -g^2/(2k) = {float(lowest)}"
+            if not high < highest:
+                yield ("span",), block["span"], f"numbers below k/2 - g = {float(highest)}"
+        elif not (low > 0 and high <= 1 and 1 + 2 * high * energy / (g * g) > 0):
+            yield ("span",), block["span"], "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
+        if (high - low) / exact(block["step"]) > MOST_CELLS:
+            least = float((high - low) / MOST_CELLS)
+            yield ("step",), block["step"], f"at least {least:g}, {MOST_CELLS} values in the span"
+        if block["drawn"] > block["period"]:
+            yield ("drawn",), block["drawn"], f"at most period = {block['period']}"
+
+    @staticmethod
+    def numbers(block: YamlMapping, families: Dataset, shares: Dataset) -> dict[str, str]:
+        """Give the number of families and events, and the fixed point's resonances."""
+        lines = families["line"].values.tolist()
+        kinds = Counter(families["event_kind"].values.tolist())
+        events = [f"{n} {'p/q' if k == 'resonance' else k}" for k, n in sorted(kinds.items())]
+        chosen = (families["event_family"].values == 0) & (families["event_order"].values > 2)
+        names = f"event_{block['parameter']}", "event_turns", "event_order"
+        resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
+        places = [f"{p}/{q} at {value:.12g}" for value, p, q in sorted(resonances)]
+        return {
+            "families": f"{len(lines)}, {lines.count('none')} of them without symmetry",
+            "events": ", ".join(events) or "none",
+            "fixed point": ", ".join(places) or "none",
+        }

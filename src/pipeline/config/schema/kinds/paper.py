@@ -1,0 +1,170 @@
+"""Kinds of picture of the paper: Figures 2 to 8."""
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+from ..fields import ABSENT, Axis, Window, YamlMapping, allowed, whole
+from ..scene import (
+    CrossFieldError,
+    Dataset,
+    OfBranches,
+    OfChaoticOrbits,
+    OfManifolds,
+    OfOrbits,
+    OfPeriodicOrbit,
+    OfRecords,
+    OnSurface,
+    beyond,
+    measured_energy,
+)
+
+
+class Portrait(OnSurface, OfChaoticOrbits):
+    """orbits on the energy surface"""
+
+    stages = ("orbits",)
+    headline = "impacts"
+    studied = "portrait"
+
+    @staticmethod
+    def numbers(block: YamlMapping, orbits: Dataset) -> dict[str, str]:
+        """Count orbits and impacts; give their energy and how near they come to grazing."""
+        speed = float((orbits["xdot"] + orbits["udot"]).min())
+        return {
+            "orbits": f"{orbits.sizes['orbit']:,}",
+            "impacts": f"{orbits.sizes['point']:,}",
+            **measured_energy(block, orbits),
+            "least speed of contact": f"{speed:.2g}",
+            "x": f"{float(orbits['x'].min()):.4f} to {float(orbits['x'].max()):.4f}",
+        }
+
+
+class Motion(OfPeriodicOrbit):
+    """a periodic motion in time"""
+
+    stages = ("motion",)
+    axes_depend_on = ("period", "type", "duration")
+    along = {"t": "duration"}
+    headline = "orbit"
+    studied = "motion"
+
+    duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
+    """Length of time that is drawn, in 1/omega, from an impact on. The orbit repeats as needed."""
+    axes: dict[Literal["t", "displacement"], Axis] = ABSENT
+    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
+    An axis that is left out has limits that hold its data."""
+
+    @staticmethod
+    def numbers(block: YamlMapping, periodic: Dataset, motion: Dataset) -> dict[str, str]:
+        """Describe the orbit, the times drawn, its period in time and its strain."""
+        from pseudorigid.dynamics.variables import of_type
+
+        t = motion["t"].values
+        orbit = of_type(periodic, block["type"])
+        return Motion.about_orbit(periodic, block) | {
+            "time": f"{t[0]:g} to {t[-1]:g}",
+            "time of one period": f"{float(orbit['total_time']):.6f}",
+            "impacts drawn": f"{motion.sizes['impact']:,}",
+            "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
+        }
+
+
+class Tangle(OfBranches, OfOrbits, OnSurface):
+    """manifolds on the energy surface"""
+
+    stages = ("orbits", "manifolds", "periodic")
+    headline = "orbit"
+    studied = "tangle"
+
+    @staticmethod
+    def numbers(
+        block: YamlMapping, orbits: Dataset, periodic: Dataset, manifolds: Dataset
+    ) -> dict[str, str]:
+        """Describe the orbit, and count its branches and their points."""
+        return Tangle.about_orbit(periodic, block) | {
+            "branches": f"{manifolds.sizes['branch']:,}",
+            "points of the lines": f"{manifolds.sizes['vertex']:,}",
+        }
+
+
+class Closeup(OfManifolds):
+    """manifolds in a window around one point"""
+
+    stages = ("manifolds",)
+    axes_depend_on = ("period", "type", "point", "window")
+    headline = "x of the point"
+    studied = "closeup"
+
+    point: int = whole(0, 11)
+    """Point that the window surrounds, from 0 to period - 1, in the order of dataset `periodic`."""
+    window: Window
+    """Part of the section that is drawn, relative to the point."""
+    length: float = allowed("a number above 0, in section radii", gt=0)
+    """Arc length along which the branches of all points of the orbit are traced, in section radii.
+    Longer branches bring more lines into the window."""
+    axes: dict[Literal["x", "xdot"], Axis] = ABSENT
+    """Limits and ticks of the axes `x` (position, R) and `xdot` (velocity, omega R). An axis that
+    is left out has the limits of the window."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the orbit has such a point."""
+        yield from super().cross_field_errors(block)
+        last = block["period"] - 1
+        if block["point"] > last:
+            yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
+
+    @classmethod
+    def hidden(cls, block: YamlMapping) -> Iterator[str]:
+        """Yield a line for each side of the window that is longer than its axis."""
+        k, g, energy = block["ball"]["k"], block["ball"]["g"], block["energy"]
+        radius = math.sqrt((2 * energy + g * g / k) / k)
+        for name, axis in block.get("axes", {}).items():
+            (low, high), (left, right) = block["window"][name], axis["limits"]
+            if radius * (high - low) > 1.001 * (right - left):  # limits are rounded
+                yield f"window.{name} {[low, high]} is wider than {beyond(name, axis['limits'])}"
+
+    @staticmethod
+    def numbers(block: YamlMapping, periodic: Dataset, manifolds: Dataset) -> dict[str, str]:
+        """Describe the orbit, the window and the point."""
+        quantities, attributes = Closeup.about_orbit(periodic, block), manifolds.attrs
+        for name in ("x", "xdot"):
+            ends = attributes[f"window_{name}"]
+            quantities[f"window, {name}"] = "{:.7g} to {:.7g}".format(*ends)
+        for name in ("x", "xdot"):
+            quantities[f"{name} of the point"] = f"{attributes[f'point_{name}']:.7f}"
+        return quantities
+
+
+class Exponents(OfRecords):
+    """Lyapunov exponents against the number of impacts"""
+
+    stages = ("lyapunov",)
+    axes_depend_on = ("impacts",)
+    along = {"impact": "impacts"}
+    headline = "largest exponent"
+    studied = "exponents"
+
+    axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
+    """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
+    `largest` (exponents of the inset). An axis that is left out has limits that hold its data."""
+
+    @staticmethod
+    def numbers(block: YamlMapping, lyapunov: Dataset) -> dict[str, str]:
+        """Give the final exponents, and mean and spread of the largest ones."""
+        import numpy as np
+
+        from pseudorigid.dynamics.variables import final_exponents
+
+        last = final_exponents(lyapunov)
+        largest = np.sort(last[:, 0])
+        spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
+        rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
+        rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
+        return {
+            "largest exponent": rows[0],
+            "their mean": f"{np.mean(largest):.4f}{spread}",
+            "all three of an orbit, at the end": "; ".join(rows[1:]),
+            "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
+        }

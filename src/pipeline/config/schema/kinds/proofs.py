@@ -1,0 +1,128 @@
+"""Kinds of picture of what is proved."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from annotated_types import Predicate
+
+from ..fields import ABSENT, Axis, Energy, Number, YamlMapping, allowed, rising
+from ..scene import (
+    CrossFieldError,
+    Dataset,
+    OfBranches,
+    OfChaoticOrbits,
+    OfOrbits,
+    Scene,
+    fixed_point_trace,
+    is_sound,
+    not_elliptic,
+)
+
+RESONANT = 1e-9  # distance of a trace from one at which the multiplier is a root of unity
+
+
+class Horseshoe(OfBranches):
+    """the sets of a proved horseshoe along a connection of the orbit"""
+
+    stages = ("manifolds", "horseshoe")
+    axes_depend_on = ("period", "type", "branches", "connection")
+    headline = "sets"
+
+    connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
+    """Side of the branches along which the orbit is connected with itself, and along which the sets
+    of the horseshoe lie. The branches of this side should be among `branches`."""
+    type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
+    """Stability of the periodic orbit. Horseshoes are proved on hyperbolic orbits only."""
+    axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
+    """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
+    of `p` and `q`, the coordinates of the middle set, below. An axis that is left out has limits
+    that hold its data."""
+
+    @staticmethod
+    def numbers(
+        block: YamlMapping, periodic: Dataset, manifolds: Dataset, horseshoe: Dataset
+    ) -> dict[str, str]:
+        """Describe the orbit, and count the sets."""
+        return Horseshoe.about_orbit(periodic, block) | {"sets": f"{horseshoe.sizes['set']}"}
+
+
+class Twist(Scene):
+    """the fixed point's twist coefficient against the energy"""
+
+    stages = ("twist",)
+    axes_depend_on = ("energies",)
+    along = {"energy": "energies"}
+    headline = "zero of the twist"
+
+    energies: Annotated[
+        list[Energy],
+        allowed("a list of energies in rising order", min_length=2, max_length=1000),
+        Predicate(rising),
+    ]
+    """Energies at which the twist coefficient is computed, in m omega^2 R^2. Straight lines join
+    the values."""
+    marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
+    """Energies, among `energies`, whose values are marked with a dot."""
+    axes: dict[Literal["energy", "twist"], Axis] = ABSENT
+    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient). An axis
+    that is left out has limits that hold its data."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that marks are among the energies, and that the twist exists at each of these."""
+        yield from super().cross_field_errors(block)
+        for mark in block["marks"]:
+            if mark not in block["energies"]:
+                yield ("marks",), mark, "one of energies"
+        yield from not_elliptic(block, "energies")
+        for i, energy in enumerate(block["energies"] if is_sound(block) else ()):
+            trace = fixed_point_trace(block["ball"], energy)
+            if min(abs(trace - root) for root in (-1, 0)) < RESONANT:
+                words = "an energy at which no power of the multiplier up to the fourth is 1"
+                yield ("energies", i), energy, words
+
+    @staticmethod
+    def numbers(block: YamlMapping, twist: Dataset) -> dict[str, str]:
+        """Give the energy at which the twist vanishes."""
+        zero = float(twist["zero"])
+        return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
+
+
+class Curves(OfChaoticOrbits):
+    """proved invariant curves on the section"""
+
+    stages = ("curves", "orbits")
+    headline = "proved share"
+
+    rotation_numbers: Annotated[
+        list[Annotated[Number, allowed("above 0, below 1", gt=0, lt=1)]],
+        allowed("a list of numbers between 0 and 1", min_length=1, max_length=10),
+    ]
+    """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. Each
+    curve has a number close to the given one. Proved curves around longer orbits at the scene's
+    energy are added."""
+
+    @staticmethod
+    def numbers(block: YamlMapping, curves: Dataset, orbits: Dataset) -> dict[str, str]:
+        """Give the share of the section inside the largest curve and those around long orbits."""
+        share, period = curves["share"].values, curves["period"].values
+        total = float(share[period == 1].max() + (share * period)[period > 1].sum())
+        return {"proved share": f"{total:.4f} of the section"}
+
+
+class Graph(OfOrbits):
+    """the sets of a proved graph of coverings, and the connections between them"""
+
+    stages = ("graph", "orbits")
+    headline = "entropy"
+
+    @staticmethod
+    def numbers(block: YamlMapping, graph: Dataset, orbits: Dataset) -> dict[str, str]:
+        """Count the sets and the connections, and give the entropy's proved lower bound."""
+        inner = int((graph["connection"].values < 0).sum())
+        return {
+            "sets": f"{inner} and {graph.sizes['set'] - inner} on the way",
+            "connections": f"{graph.sizes['connection']}",
+            "entropy": f"above {float(graph['entropy']):.4f} per impact",
+        }
