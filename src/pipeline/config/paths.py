@@ -21,6 +21,11 @@ EXPLORER = "results/explorer.html"
 DERIVATIONS = "results/claims/derivations.nc"
 CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
 THEOREMS = sorted(file.name.removesuffix(".toml") for file in CERTIFICATES.iterdir())
+# Functions of a name that return a path.
+theorem = "results/claims/theorem_{}.nc".format  # the verdict on a theorem
+sweep_dataset = "results/sweep/{}.nc".format
+chains_dataset = "results/sweep/{}_chains.nc".format  # curves of chains over a sweep's plane
+chains_picture = "results/sweep/figures/{}_chains.png".format
 
 Variants = dict[str, dict[str, YamlMapping]]  # variant -> scene -> complete block
 
@@ -58,11 +63,6 @@ def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
     return dataset_paths
 
 
-def theorem(name: str) -> str:
-    """Return the path of the verdict on a theorem."""
-    return f"results/claims/theorem_{name}.nc"
-
-
 def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
     """Return the path where a figure is drawn, before it is published."""
     return f"results/{variant}/figures/{scene}.{extension}"
@@ -85,21 +85,6 @@ def figures(variants: Variants, variant: str = PAPER) -> dict[str, tuple[str, li
 def block_files(name: str, sweep: YamlMapping) -> list[str]:
     """Return the paths of a sweep's blocks, in the order of their cells."""
     return [f"results/sweep/{name}_{i:04d}.nc" for i in range(len(grid.ranges(sweep)))]
-
-
-def sweep_dataset(name: str) -> str:
-    """Return the path of a whole sweep's dataset."""
-    return f"results/sweep/{name}.nc"
-
-
-def chains_dataset(name: str) -> str:
-    """Return the path of the curves of chains over a sweep's plane."""
-    return f"results/sweep/{name}_chains.nc"
-
-
-def chains_picture(name: str) -> str:
-    """Return the path where these curves are drawn, over the regular share."""
-    return f"results/sweep/figures/{name}_chains.png"
 
 
 def sweep_pictures(name: str, sweep: YamlMapping) -> list[str]:

@@ -12,6 +12,7 @@ import subprocess
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -38,19 +39,16 @@ class ChangedError(ValueError):
     """A file that changed while something was made from it: one line."""
 
 
-def record_path(result: str | os.PathLike[str]) -> str:
-    """Path of a result's record; this path and the result's are relative to the root."""
-    return _beside(result, "provenance", "json")
+def _beside(folder: str, suffix: str, result: str | os.PathLike[str]) -> str:
+    """Return the path of a result's file in another folder of its variant."""
+    _, variant, *_, name = Path(result).parts
+    return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
-def refusal_path(result: str | os.PathLike[str]) -> str:
-    """Path of the record that says why a result cannot exist, relative to the root."""
-    return _beside(result, "logs", "json")
-
-
-def log_path(result: str | os.PathLike[str]) -> str:
-    """Path of the log of a job that failed to make a result, relative to the root."""
-    return _beside(result, "logs", "log")
+# Functions of a result that return a path; both are relative to the root.
+record_path = partial(_beside, "provenance", "json")
+refusal_path = partial(_beside, "logs", "json")  # of the record that says why it cannot exist
+log_path = partial(_beside, "logs", "log")  # of the job that failed to make it
 
 
 def failure(result: str | os.PathLike[str]) -> str | None:
@@ -59,12 +57,6 @@ def failure(result: str | os.PathLike[str]) -> str | None:
         return read_text(log_path(result)).splitlines()[-1].split(": ", 2)[2]
     except (OSError, ValueError, IndexError):
         return None
-
-
-def _beside(result: str | os.PathLike[str], folder: str, suffix: str) -> str:
-    """Return the path of a result's file in another folder of its variant."""
-    _, variant, *_, name = Path(result).parts
-    return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
 def read_record(root: Path, path: str) -> dict[str, Any]:
@@ -117,7 +109,6 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
 
 
 def _write(path: str, record: dict[str, Any], output: dict[str, str | None]) -> None:
-    """Write a record."""
     write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 
 

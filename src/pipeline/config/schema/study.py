@@ -28,21 +28,10 @@ CHARTS: dict[str, tuple[str, str, tuple[object, ...]]] = {
     "edges_all": ("edges_all", "edges", ()),
 }
 FOLDER = FOLDERS["study"]
-
-
-def data(part: str) -> str:
-    """Return the path of a part's data, from the project's root."""
-    return f"results/study/{part}.nc"
-
-
-def drawn(chart: str) -> str:
-    """Return the path where a chart is drawn."""
-    return f"results/study/figures/{chart}.png"
-
-
-def published(chart: str) -> str:
-    """Return the path where users find a chart."""
-    return f"{FOLDER}/{chart}.png"
+# Functions of a name that return a path from the project's root.
+data = "results/study/{}.nc".format  # of a part
+drawn = "results/study/figures/{}.png".format  # where a chart is drawn
+published = (FOLDER + "/{}.png").format  # where users find a chart
 
 
 def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:
