@@ -11,24 +11,24 @@ from sections import BALL
 
 from pseudorigid import symmetric_orbits, trace_manifold
 from pseudorigid.analyses import actions, polygon
+from pseudorigid.proofs import Surface
+from pseudorigid.proofs.enclosure.jets import Jet
 
 ENERGY = 0.01
 
 
 def test_flights_in_balls_agree_with_an_independent_solver():
     with ctx.workprec(400):
-        flights = actions.Law(BALL, ENERGY)
-        state, tangent = flights.lift(arb("0.3"), arb("0.02"), arb(1), arb(0))
-        _, second = flights.lift(arb("0.3"), arb("0.02"), arb(0), arb(1))
-        after, first_image, action = flights.flight(state, tangent)
-        _, second_image, _ = flights.flight(state, second)
-        (a, b), (c, d) = flights.chart(first_image), flights.chart(second_image)
+        surface = Surface("0.2", "0.04", "0.01")
+        x, y, action = actions.flight(surface, *Jet.plane(1, arb("0.3"), arb("0.02")))
+        (a, b), (c, d) = x.coefficients[1:], y.coefficients[1:]
         area = a * d - b * c
         assert area.contains(1) and float(area.rad()) < 1e-80
+        state = arb("0.3"), *surface.velocities(arb("0.3"), arb("0.02"))
         numbers = [mpf(a.mid().str(60, radius=False)) for a in state]
         exact = judge.exact_map(mpf("0.2"), mpf("0.04"), *numbers)
-        for found, wanted in zip(after, exact[:3], strict=True):
-            assert abs(mpf(found.mid().str(60, radius=False)) - wanted) < mpf(10) ** -45
+        for ours, wanted in ((x, exact[0]), (y, exact[1] - exact[2] / 5)):
+            assert abs(mpf(ours.constant.mid().str(60, radius=False)) - wanted) < mpf(10) ** -45
         x, v, w = numbers
         jump = 2 * (v + w) / mpf("1.2")
         b, c = v - mpf("0.2") * jump, w - jump

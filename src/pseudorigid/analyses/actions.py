@@ -7,113 +7,82 @@ ends, of the differences of S (MacKay, Meiss and Percival, Physica D 13, 1984). 
 cancel; they are therefore computed in ball arithmetic, whose radii enclose every rounding.
 """
 
+from typing import NamedTuple
+
 import numpy as np
-from flint import arb, ctx
+import xarray as xr
+from flint import arb
 
 from ..dynamics.ball import Ball
-from ..dynamics.variables import chart
-from ..proofs.enclosure.flight import fly, rebound
+from ..dynamics.variables import chart, states_of
+from ..proofs.checks.certificate import NotProvedError
 from ..proofs.enclosure.jets import Jet, algebra
 from ..proofs.enclosure.surface import Surface
+from ..proofs.search.horseshoe import directions
+from ..proofs.search.periodic import polished
 
-_NEWTON_STEPS = 30  # at most; each doubles the digits
+_NEWTON_STEPS = 30  # to a crossing, at most; each doubles the digits
+_SADDLE_STEPS = 9  # of Newton's method from doubles, to 20,000 bits
 _SCAN_POINTS = 64  # parameters of an unstable segment at which a crossing is looked for
 _SCAN_END = 1e-6  # where that segment ends, as a distance from the saddle in the plane (x, y)
 _MOST_IMAGES = 60  # a branch of a multiplier above 1.26 has then grown from there to order one
 _CROSSING_BITS = 160  # of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
-_SADDLE_ACCURACY = 0.75  # share of the working precision that Newton's method must reach
 _TANGENT = algebra(1, 1)  # jets of a value and its derivative along a tangent
 
 Vector = tuple[arb, ...]
 
 
-class Law:
-    """The impact map on states (x, xdot, udot), their tangents and actions, in ball arithmetic.
+class Saddle(NamedTuple):
+    """A point of a hyperbolic periodic orbit, and its unstable direction, in the plane (x, y).
 
-    The energy, k and g are taken as the decimals that they print as.
+    Numbers are rounded to the working precision; the direction has length one. The energy, k and g
+    are taken as the decimals that they print as.
     """
 
-    def __init__(self, ball: Ball, energy: float):
-        self.ball = ball
-        self.surface = Surface(*(repr(float(a)) for a in (ball.k, ball.g, energy)))
-        self.k, self.g, self.energy = self.surface.constants()
-
-    def chart(self, state: Vector) -> Vector:
-        """Project a state, or a tangent, to the chart x, y = xdot - k udot."""
-        return state[0], state[1] - self.k * state[2]
-
-    def lift(self, x: arb, y: arb, dx: arb, dy: arb) -> tuple[Vector, Vector]:
-        """Return the state over a point of the chart, and the tangent over a direction there."""
-        x, y = Jet(_TANGENT, [x, dx]), Jet(_TANGENT, [y, dy])
-        return _value_and_tangent(x, *self.surface.velocities(x, y))
-
-    def flight(self, state: Vector, tangent: Vector) -> tuple[Vector, Vector, arb]:
-        """Return state and tangent after an impact and flight, eqs. (28) and (33), and its action.
-
-        Raises UndecidedError, an ArithmeticError, if the precision does not enclose the flight.
-        """
-        k, g = self.k, self.g
-        x, v, w = (Jet(_TANGENT, list(pair)) for pair in zip(state, tangent, strict=True))
-        b, c, s = rebound(k, v, w)
-        *after, tau = fly(x, b, c, s, g)
-        x, b, c, tau = (jet.constant for jet in (x, b, c, tau))
-        sine, cosine = tau.sin_cos()
-        mixed = sine * cosine
-        action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
-            (x * x * (tau - mixed) + c * c * (tau + mixed)) / 2 + x * c * sine * sine
-        )
-        return *_value_and_tangent(*after), action
+    ball: Ball
+    surface: Surface
+    period: int
+    point: Vector
+    direction: Vector
+    multiplier: arb
 
 
-def _value_and_tangent(*jets: Jet) -> tuple[Vector, Vector]:
-    return tuple(jet.constant for jet in jets), tuple(jet.coefficients[1] for jet in jets)
+def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
+    """Return the points of a hyperbolic orbit, given to double precision.
 
-
-def _middle(values: Vector) -> Vector:
-    return tuple(a.mid() for a in values)
-
-
-class Saddle:
-    """A point of a hyperbolic periodic orbit, and its unstable direction in (x, y).
-
-    `state` is x, xdot, udot of the point to double precision. The point (x, y), the orbit's
-    multiplier and the unit vector (ex, ey) are rounded to the working precision. Raises ValueError
-    for other types of orbits, and ArithmeticError if Newton's method does not find the point.
+    Raises ValueError for an orbit that is not proved to be hyperbolic.
     """
-
-    def __init__(self, law: Law, state: tuple[float, float, float], period: int):
-        self.law, self.period = law, period
-        x, y = arb(state[0]), arb(state[1]) - law.k * arb(state[2])
-        for _ in range(_NEWTON_STEPS):
-            end, (a, b), (c, d) = self._return_map(x, y)
-            fx, fy = end[0] - x, end[1] - y
-            determinant = (a - 1) * (d - 1) - b * c
-            dx = ((b * fy - (d - 1) * fx) / determinant).mid()
-            dy = ((c * fx - (a - 1) * fy) / determinant).mid()
-            x, y = (x + dx).mid(), (y + dy).mid()
-            if abs(dx) + abs(dy) < arb(2) ** int(-_SADDLE_ACCURACY * ctx.prec):
-                break
-        else:
-            raise ArithmeticError("Newton's method does not find the saddle")
-        _, (a, b), (c, d) = self._return_map(x, y)
-        trace = a + d
-        if not trace > 2:
-            raise ValueError("the orbit is not hyperbolic with positive multipliers")
-        multiplier = (trace + (trace * trace - 4).sqrt()) / 2
-        ex, ey = (b, multiplier - a) if abs(float(b)) > abs(float(c)) else (multiplier - d, c)
+    surface = Surface(*(repr(float(a)) for a in (ball.k, ball.g, energy)))
+    points = polished(surface, chart(ball.k, *states_of(orbit)).T.tolist(), _SADDLE_STEPS)
+    try:
+        rho, vectors = directions(surface, points, 1)
+    except NotProvedError as error:
+        raise ValueError(str(error)) from None
+    saddles = []
+    for point, (ex, ey) in zip(points, vectors, strict=True):
         length = (ex * ex + ey * ey).sqrt()
-        self.x, self.y, self.multiplier = x, y, multiplier.mid()
-        self.ex, self.ey = (ex / length).mid(), (ey / length).mid()
+        unit = (ex / length).mid(), (ey / length).mid()
+        multiplier = (rho ** len(points)).mid()
+        saddles.append(Saddle(ball, surface, len(points), tuple(point), unit, multiplier))
+    return saddles
 
-    def _return_map(self, x, y):
-        """Return P^period (x, y), rounded after each impact, and the rows of its derivative."""
-        columns = []
-        for direction in ((arb(1), arb(0)), (arb(0), arb(1))):
-            state, tangent = self.law.lift(x, y, *direction)
-            for _ in range(self.period):
-                state, tangent, _ = self.law.flight(_middle(state), _middle(tangent))
-            columns.append(self.law.chart(tangent))
-        return self.law.chart(state), *zip(*columns, strict=True)
+
+def flight(surface: Surface, x: Jet, y: Jet) -> tuple[Jet, Jet, arb]:
+    """Return the next impact of a point with a tangent vector, and the action of its flight.
+
+    Raises UndecidedError, an ArithmeticError, if the precision does not enclose the flight.
+    """
+    k, g, _ = surface.constants()
+    image = surface.impact(x, y)
+    x, y, tau = (jet.constant for jet in (x, y, image.tau))
+    s = surface.speed(x, y)
+    b, c = (y - k * s) / (1 + k), -(y + s) / (1 + k)
+    sine, cosine = tau.sin_cos()
+    mixed = sine * cosine
+    action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
+        (x * x * (tau - mixed) + c * c * (tau + mixed)) / 2 + x * c * sine * sine
+    )
+    return image.x, image.y, action
 
 
 class Heteroclinic:
@@ -143,15 +112,16 @@ class Heteroclinic:
 
     def _follow(self, saddle, sign, parameter, impacts):
         """Set the points, actions and tangent of the orbit that starts at a parameter."""
-        law = saddle.law
-        ex, ey = sign * saddle.ex, sign * saddle.ey
-        state, tangent = law.lift(saddle.x + parameter * ex, saddle.y + parameter * ey, ex, ey)
-        self.points, self.actions = [law.chart(state)], []
+        x, y = (
+            Jet(_TANGENT, [a + parameter * (sign * e), sign * e])
+            for a, e in zip(saddle.point, saddle.direction, strict=True)
+        )
+        self.points, self.actions = [(x.constant, y.constant)], []
         for _ in range(impacts):
-            state, tangent, action = law.flight(state, tangent)
-            self.points.append(law.chart(state))
+            x, y, action = flight(saddle.surface, x, y)
+            self.points.append((x.constant, y.constant))
             self.actions.append(action)
-        self.tangent = law.chart(tangent)
+        self.tangent = x.coefficients[1], y.coefficients[1]
 
     def sine(self) -> arb:
         """Return the sine of the angle from the unstable arc to its mirror image, the stable."""
@@ -217,13 +187,13 @@ def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int]
     Returns the parameter of its start, in the last segment before _SCAN_END from the saddle, and
     the impacts from there; None without a crossing in _MOST_IMAGES images.
     """
-    ball, parameter = saddle.law.ball, _scan_parameters(saddle)
-    states = _images(saddle, sign, parameter, impacts)
+    ball, parameters = saddle.ball, _scan_parameters(saddle)
+    states = _images(saddle, sign, parameters, impacts)
     for _ in range(_MOST_IMAGES):
         crossings = _crossings(ball, states)
         if crossings.size:
-            return float(parameter[crossings[0]]), impacts
-        ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(parameter.size))
+            return float(parameters[crossings[0]]), impacts
+        ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(parameters.size))
         impacts += saddle.period
     return None
 
@@ -240,12 +210,14 @@ def _scan_parameters(saddle: Saddle) -> np.ndarray:
     return _SCAN_END * (ratio + (1.0 - ratio) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS)
 
 
-def _images(saddle: Saddle, sign: int, parameter: np.ndarray, impacts: int) -> list[np.ndarray]:
+def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> list[np.ndarray]:
     """States, in doubles, some impacts after the points of the branch's tangent."""
-    ball = saddle.law.ball
-    x = float(saddle.x) + sign * parameter * float(saddle.ex)
-    y = float(saddle.y) + sign * parameter * float(saddle.ey)
-    states = [np.array(a) for a in ball.state_xy(x, y, float(saddle.law.energy))]
+    ball = saddle.ball
+    x, y = (
+        float(a) + sign * parameters * float(e)
+        for a, e in zip(saddle.point, saddle.direction, strict=True)
+    )
+    states = [np.array(a) for a in ball.state_xy(x, y, float(saddle.surface.energy))]
     ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
     return states
 
@@ -256,7 +228,7 @@ def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> tuple
     low, high = parameter, parameter + (scanned[1] - scanned[0])
     for _ in range(3):
         parameters = low + (high - low) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS
-        crossings = _crossings(saddle.law.ball, _images(saddle, sign, parameters, impacts))
+        crossings = _crossings(saddle.ball, _images(saddle, sign, parameters, impacts))
         if not crossings.size:  # a jump of the map, or rounding, decides
             break
         low, high = parameters[crossings[0]], parameters[crossings[0] + 1]

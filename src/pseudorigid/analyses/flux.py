@@ -17,7 +17,7 @@ from ..dynamics.manifolds import trace_manifold
 from ..dynamics.orbits import orbit
 from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
-from .actions import Heteroclinic, Law, Saddle, first_crossing, lobe
+from .actions import Heteroclinic, first_crossing, lobe, saddles_of
 from .polygon import Polygon
 from .sea import sea_states
 
@@ -132,11 +132,10 @@ def _row(ball, energy, saddles, side, distance, grid, path) -> tuple:
 
 def _lobe(ball, energy, saddles, saddle, sign, nearer, bits):
     """Return `lobe` of the branch that leaves one of the saddles, with more bits if needed."""
-    state, period = states_of(saddles)[:, saddle].tolist(), saddles.sizes["point"]
     for factor in _PRECISION_FACTORS:
         with ctx.workprec(factor * bits):
             try:
-                return lobe(Saddle(Law(ball, energy), state, period), sign, nearer)
+                return lobe(saddles_of(ball, energy, saddles)[saddle], sign, nearer)
             except ArithmeticError as error:
                 reason = error
     raise ValueError(f"{reason}")
@@ -149,15 +148,13 @@ def _thinned(line: np.ndarray, count: int) -> np.ndarray:
 
 def _primary_branch(ball: Ball, energy: float, saddles: xr.Dataset, side: str) -> tuple[int, int]:
     """Return (saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
-    states = states_of(saddles)
-    points = chart(ball.k, *states)
+    points = chart(ball.k, *states_of(saddles))
     outwards = points - points.mean(axis=1)[:, None]
     weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # makes the section a circle
     branches = []
     with ctx.workprec(128):
-        for index in range(states.shape[1]):
-            saddle = Saddle(Law(ball, energy), states[:, index].tolist(), states.shape[1])
-            along = np.array([float(saddle.ex), float(saddle.ey)])
+        for index, saddle in enumerate(saddles_of(ball, energy, saddles)):
+            along = np.array([float(a) for a in saddle.direction])
             outward = np.sum(outwards[:, index] * weight * along) > 0.0
             sign = 1 if outward == (side == "outer") else -1
             crossing = first_crossing(saddle, sign, 0)
