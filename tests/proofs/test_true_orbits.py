@@ -1,4 +1,4 @@
-"""Orbits of exact starts: against independent orbits of many digits, killed, resumed, refused."""
+"""Orbits of exact starts: against independent orbits of many digits, and refusals."""
 
 from decimal import Decimal
 from fractions import Fraction
@@ -10,9 +10,10 @@ from flint import arb, ctx
 from sections import BALL
 
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.proofs import Surface, true_orbit, true_scene_orbits
+from pseudorigid.proofs import Surface, true_orbit
 from pseudorigid.proofs.true_orbits import enclosed_run
 from pseudorigid.proofs.true_orbits import orbit as orbit_module
+from pseudorigid.proofs.true_orbits.scene import true_scene_orbits
 from pseudorigid.proofs.true_orbits.start import Start
 
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}
@@ -109,60 +110,6 @@ def test_an_orbit_near_the_elliptic_point_needs_few_bits():
     data = true_orbit(**PAPER, x="0.0212", impacts=1000)
     assert data.attrs["bits"] < 400
     assert np.abs(data["x"] - 0.0212).max() < 3e-3
-
-
-# ---- killed and resumed
-
-
-def interrupt(monkeypatch, condition):
-    """Interrupt runs where the condition holds; return the list of the (impacts, count) done."""
-    step, done = enclosed_run.Run.step, []
-
-    def interrupted(run):
-        if condition(run):
-            raise KeyboardInterrupt
-        done.append((run.impacts, run.count))
-        step(run)
-
-    monkeypatch.setattr(enclosed_run.Run, "step", interrupted)
-    return done
-
-
-def test_a_killed_run_resumes_where_it_was(tmp_path, monkeypatch):
-    monkeypatch.setattr(orbit_module, "CHECKPOINT_SECONDS", 0.0)
-    whole = true_orbit(**PAPER, x="2/5", impacts=200)
-    file = tmp_path / "orbit.npz"
-    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        interrupt(patch, lambda run: run.count == 120)
-        true_orbit(**PAPER, x="2/5", impacts=200, checkpoint=file)
-    assert file.exists()
-    done = interrupt(monkeypatch, lambda run: False)
-    assert true_orbit(**PAPER, x="2/5", impacts=200, checkpoint=file).identical(whole)
-    assert [count for _, count in done] == list(range(120, 200))
-    assert not file.exists()
-
-
-def test_a_checkpoint_of_another_orbit_or_a_damaged_one_is_not_used(tmp_path):
-    whole = true_orbit(**PAPER, x="2/5", impacts=30)
-    file = tmp_path / "orbit.npz"
-    run = enclosed_run.Run(Start(Surface(**PAPER), {"x": "3/10", "y": 0}), 30, 300)
-    run.step()
-    run.save(file)
-    for content in (file.read_bytes(), b"", b"PK\x03\x04 damaged", b"x" * 1000):
-        file.write_bytes(content)
-        assert true_orbit(**PAPER, x="2/5", impacts=30, checkpoint=file).identical(whole)
-
-
-def test_finished_orbits_of_a_scene_are_kept(tmp_path, monkeypatch):
-    arguments = {**PAPER, "starts": ["0.5", "0.1"], "impacts": [40, 30]}
-    whole = true_scene_orbits(**arguments)
-    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        interrupt(patch, lambda run: run.impacts == 30)
-        true_scene_orbits(**arguments, folder=tmp_path / "kept")
-    done = interrupt(monkeypatch, lambda run: False)
-    assert true_scene_orbits(**arguments, folder=tmp_path / "kept").identical(whole)
-    assert {impacts for impacts, _ in done} == {30}
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_progress_ends_at_one():

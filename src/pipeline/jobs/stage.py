@@ -27,7 +27,7 @@ def _as_text(start: Any) -> Any:
 def _compute_exactly(
     function: Callable[..., xr.Dataset], spec: BuildSpec, fields: dict[str, Any]
 ) -> xr.Dataset:
-    """Compute orbits from the decimals of the config, with checkpoints of finished orbits."""
+    """Compute orbits from the decimals of the config."""
 
     def progress(share: float, seconds: float, orbit: int) -> None:
         orbit_name = f"{spec.scene}: orbit {orbit + 1} of {len(fields['starts'])}"
@@ -38,7 +38,6 @@ def _compute_exactly(
         **{name: str(value) for name, value in numbers.items()},
         **fields | {"starts": [_as_text(start) for start in fields["starts"]]},
         progress=progress,
-        folder=f"{spec.result}.part",
     )
 
 

@@ -16,7 +16,6 @@ _MODULES = {
     "prove_curve": "theorems.requests",
     "prove_horseshoe": "theorems.requests",
     "true_orbit": "true_orbits.orbit",
-    "true_scene_orbits": "true_orbits.scene",
 }
 
 __all__ = list(_MODULES)

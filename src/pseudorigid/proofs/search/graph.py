@@ -7,7 +7,6 @@ the checker does not accept are left out.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -20,7 +19,7 @@ from ..checks import graph, hsets
 from ..checks.certificate import NotProvedError
 from ..enclosure.surface import Surface
 from .certificate_text import header, rows
-from .chains import Chain, DoubleMap, Parallelogram, chain
+from .chains import DoubleMap, Parallelogram, chain
 
 _LEAST_TRACE = 4.0  # of a saddle whose points get sets
 _LINE_POINTS = 2001  # along a line through a set
@@ -33,23 +32,12 @@ _MARGIN = 0.03  # of the coverings along a chain
 _HIGHEST = 1.0  # entropy above any of this map
 
 
-@dataclass(frozen=True)
-class Plan:
-    """The choice of the sets and of the connections.
+class Plan(NamedTuple):
+    """The choice of the sets and of the connections."""
 
-    Parameters
-    ----------
-    periods : tuple of int
-        Of the symmetric saddles at whose points there are sets.
-    size : float
-        Square root of a quarter of a set's area, in (x, y).
-    impacts : int
-        The most impacts of a connection.
-    """
-
-    periods: tuple[int, ...]
-    size: float
-    impacts: int
+    periods: tuple[int, ...]  # of the symmetric saddles at whose points there are sets
+    size: float  # square root of a quarter of a set's area, in (x, y)
+    impacts: int  # of a connection, at most
 
 
 class Crossing(NamedTuple):
@@ -215,21 +203,16 @@ def _proved(surface, double_map, sets, crossing) -> tuple[Crossing, list[str]] |
     found = chain(double_map, source, target, crossing.impacts, strip, _MARGIN)
     if found is None:
         return None
-    strip, chain_rows = _strip(found), [_row(it) for it in found.sets]
+    unit = 10.0**_STRIP_DIGITS  # the strip's ends are rounded outwards
+    ends = np.floor(found.low * unit) / unit, np.ceil(found.high * unit) / unit
+    strip, chain_rows = [f"{a:.{_STRIP_DIGITS}f}" for a in ends], [_row(it) for it in found.sets]
     try:
         with ctx.workprec(graph.BITS):
-            graph.prove_connection(surface, *_connection(sets, crossing, strip, chain_rows))
+            graph.prove_connection(surface, *_connection(source, target, strip, chain_rows))
     except NotProvedError:
         return None
     low, high = map(float, strip)
     return crossing._replace(low=low, high=high), chain_rows
-
-
-def _strip(found: Chain) -> tuple[str, str]:
-    """Return the ends of a chain's strip as decimals, rounded outwards."""
-    unit = 10.0**_STRIP_DIGITS
-    low, high = np.floor(found.low * unit) / unit, np.ceil(found.high * unit) / unit
-    return f"{low:.{_STRIP_DIGITS}f}", f"{high:.{_STRIP_DIGITS}f}"
 
 
 def _row(of: Parallelogram, digits: int = _SIDE_DIGITS) -> str:
@@ -239,18 +222,15 @@ def _row(of: Parallelogram, digits: int = _SIDE_DIGITS) -> str:
     return f"[{', '.join([*centre, *sides])}]"
 
 
-def _connection(sets, crossing, strip, chain_rows):
+def _connection(source, target, strip, chain_rows):
     """Return the sets and the connection as the checker reads them."""
-    numbers = [[Fraction(a) for a in row.strip("[]").split(", ")] for row in chain_rows]
-    ends = [hsets.hset(f"B_{i}", _fractions(sets[i])) for i in (crossing.source, crossing.target)]
+    ends, through = (
+        [hsets.hset("a set", [Fraction(a) for a in line.strip("[]").split(", ")]) for line in lines]
+        for lines in ([_row(it, _CENTRE_DIGITS) for it in (source, target)], chain_rows)
+    )
     low, high = map(Fraction, strip)
-    through = tuple(hsets.hset(f"set {i}", row) for i, row in enumerate(numbers, 1))
     part = graph.part(ends[0], "the strip", low, high)
-    return ends, graph.Connection(0, 1, low, high, part, through)
-
-
-def _fractions(of: Parallelogram) -> list[Fraction]:
-    return [Fraction(f"{value:.{_CENTRE_DIGITS}g}") for side in of for value in side]
+    return ends, graph.Connection(0, 1, low, high, part, tuple(through))
 
 
 def _text(surface, sets, chosen) -> str:

@@ -9,7 +9,7 @@ is the factor by which they stretch beyond each other.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from flint import arb, ctx
@@ -41,30 +41,16 @@ _MOST_STEPS = 400  # of a chain; a multiplier so near 1 that it needs more is re
 Vector = Sequence[arb]
 
 
-@dataclass(frozen=True)
-class Plan:
-    """The choice of a connection, and the shape of the sets.
+class Plan(NamedTuple):
+    """The choice of a connection, and the shape of the sets."""
 
-    Parameters
-    ----------
-    side : int
-        1 the outer, -1 the inner unstable branches.
-    steps : int
-        Sets of the chain on either side of its middle one.
-    size : float
-        Of the sets at the saddles, in (x, y).
-    room : float
-        Factor by which a set is wider than its image, or narrower, where chain and saddles meet.
-    """
-
-    side: int
-    steps: int
-    size: float
-    room: float
+    side: int  # 1 the outer, -1 the inner unstable branches
+    steps: int  # sets of the chain on either side of its middle one
+    size: float  # of the sets at the saddles, in (x, y)
+    room: float  # factor between widths of a set and its image, where chain and saddles meet
 
 
-@dataclass(frozen=True)
-class _Connection:
+class _Connection(NamedTuple):
     """A hyperbolic orbit and an orbit that leads from its points back to them."""
 
     surface: Surface
@@ -141,7 +127,14 @@ def _connect(surface: Surface, points: Sequence, side: int, steps: int) -> _Conn
     extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
     impacts += period * extra
     sigma = arb(sigma) / multiplier**extra
-    track = _follow_to_axis(surface, saddles[0], expanding[0], sigma, impacts, steps)
+    branch = surface, saddles[0], expanding[0]
+    for _ in range(_NEWTON_STEPS):
+        points, tangents = _follow(*branch, sigma, impacts)
+        step = (points[-1][1] / tangents[-1][1]).mid()
+        sigma = (sigma - step).mid()
+        if abs(step) < abs(sigma) * arb(2) ** (-_BITS // 2):
+            break
+    track = _follow(*branch, sigma, impacts + steps)
     return _Connection(surface, saddles, expanding, mirror, rho, *track, impacts)
 
 
@@ -245,17 +238,6 @@ def _follow(surface: Surface, point: Vector, vector: Vector, sigma: arb, impacts
         points.append([image.x.mid(), image.y.mid()])
         tangents.append(_times(matrix, tangents[-1]))
     return points, tangents
-
-
-def _follow_to_axis(surface, saddle, vector, sigma, before, after):
-    """Return points and tangents from `before` impacts before y = 0 to `after` impacts after it."""
-    for _ in range(_NEWTON_STEPS):
-        points, tangents = _follow(surface, saddle, vector, sigma, before)
-        step = (points[-1][1] / tangents[-1][1]).mid()
-        sigma = (sigma - step).mid()
-        if abs(step) < abs(sigma) * arb(2) ** (-_BITS // 2):
-            break
-    return _follow(surface, saddle, vector, sigma, before + after)
 
 
 def _text(connection: _Connection, plan: Plan) -> str:

@@ -56,7 +56,9 @@ def propose(surface: Surface, points: Sequence, size: float, last: float) -> str
     found = chain(double_map, source, target, impacts, (p - width, p + width), _MARGIN)
     if found is None:
         raise ValueError("no chain of sets leads from the saddle to the jump set")
-    chain_rows = [_numbers(it) for it in (*found.sets, target)]
+    chain_rows = [
+        row((arb(value) for side in it for value in side), _DIGITS) for it in (*found.sets, target)
+    ]
     return (
         header("jump crossing", surface)
         + "leaves = 0\n# a row: centre, expanding side, contracting side\n"
@@ -112,7 +114,3 @@ def _touch(surface: Surface, point: np.ndarray, last: float) -> tuple[float, flo
     speed += slope @ (point - curve[i]) / (slope @ slope)
     length = np.linalg.norm(slope)
     return float(speed), float(_REACH * last / length), last * slope / length
-
-
-def _numbers(of: Parallelogram) -> str:
-    return row((arb(value) for side in of for value in side), _DIGITS)

@@ -18,17 +18,12 @@ _LARGEST, _SMALLEST = 2, 12  # minus the decimal exponents of the radii that are
 
 def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[arb]]:
     """Improve points (x, y) near a periodic orbit, by Newton's method on midpoints."""
-    points = [[arb(a).mid() for a in point] for point in points]
+    points, least = [[arb(a).mid() for a in point] for point in points], arb(2) ** (16 - ctx.prec)
     for _ in range(steps):
-        image = newton_image(surface, points)
-        points = [[_without_rounding(a) for a in point] for point in image]
+        points = [[a.mid() for a in point] for point in newton_image(surface, points)]
+        # a coordinate that is no larger than rounding errors is 0
+        points = [[a if abs(a) > least else arb(0) for a in point] for point in points]
     return points
-
-
-def _without_rounding(value: arb) -> arb:
-    """Return the midpoint, or 0 if it is no larger than rounding errors."""
-    middle = value.mid()
-    return middle if abs(middle) > arb(2) ** (16 - ctx.prec) else arb(0)
 
 
 def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) -> str:

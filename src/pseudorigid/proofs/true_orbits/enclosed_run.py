@@ -10,11 +10,6 @@ where the columns of C follow the tangent map and are made orthogonal again at e
 1987). The bound grows as the orbit stretches; bits below it are dropped.
 """
 
-import json
-import os
-import zipfile
-from pathlib import Path
-
 import numpy as np
 from flint import arb, arb_mat, ctx
 
@@ -111,38 +106,6 @@ class Run:
             xdot, udot = self.surface.velocities(x, y)
             launch = (before[1] - k * self.surface.speed(*before)) / (1 + k)  # xdot
             return [_nearest(a) for a in (x, xdot, udot, (xdot - launch) / g)]
-
-    def save(self, path: Path) -> None:
-        """Write a checkpoint, whole or not at all."""
-        numbers = (*self.centre, *self.frame.entries(), *self.radii)
-        pairs = [[hex(int(m)), int(e)] for m, e in (number.man_exp() for number in numbers)]
-        state = json.dumps([self.bits, self.count, self.precision, pairs])
-        values, identity = self.values[: self.count], _identity(self.start, self.impacts)
-        part = path.with_name(path.name + ".writing")
-        with open(part, "wb") as file:
-            np.savez(file, identity=identity, state=state, values=values)
-        os.replace(part, path)
-
-    @classmethod
-    def load(cls, path: Path, start: Start, impacts: int) -> "Run | None":
-        """Return the run of a checkpoint; None if it is missing, damaged or of another orbit."""
-        try:
-            with np.load(path) as file:
-                if str(file["identity"]) != _identity(start, impacts):
-                    return None
-                bits, count, precision, pairs = json.loads(str(file["state"]))
-                values = file["values"]
-        except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
-            return None
-        run, numbers = cls(start, impacts, bits), [arb((int(m, 16), e)) for m, e in pairs]
-        run.count, run.precision, run.values[:count] = count, precision, values
-        run.centre, run.frame, run.radii = numbers[:2], arb_mat(2, 2, numbers[2:6]), numbers[6:]
-        return run
-
-
-def _identity(start: Start, impacts: int) -> str:
-    """Return a text that identifies an orbit."""
-    return json.dumps([str(start.surface), str(start), impacts])
 
 
 def _orthogonal_frame(columns, radii):

@@ -4,7 +4,6 @@ import math
 import os
 import time
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -20,8 +19,7 @@ from ..enclosure.surface import Exact, Surface
 from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError
 from .start import Start
 
-_BYTES_PER_IMPACT = 200  # doubles in the run, the Dataset and a checkpoint
-CHECKPOINT_SECONDS = 15.0  # between two checkpoints
+_BYTES_PER_IMPACT = 200  # doubles in the run and the Dataset, and room
 
 
 def true_orbit(
@@ -34,7 +32,6 @@ def true_orbit(
     y: Exact = 0,
     start: Exact | Mapping[str, Exact] | None = None,
     progress: Callable | None = None,
-    checkpoint: str | os.PathLike | None = None,
 ) -> xr.Dataset:
     """Compute the orbit of an exact start under the impact map, eq. (28), correctly rounded.
 
@@ -51,8 +48,6 @@ def true_orbit(
         mapping with x and either y or xdot.
     progress : callable, optional
         Called now and then with the share done, 0 to 1, and the seconds that are left.
-    checkpoint : path, optional
-        A file that holds the results while the run lasts; a run that was killed resumes from it.
 
     Returns
     -------
@@ -79,19 +74,14 @@ def true_orbit(
     if (x is None) == (start is None):
         raise ValueError("give either x and y, or start")
     exact_start = Start(surface, {"x": x, "y": y} if start is None else start)
-    checkpoint = None if checkpoint is None else Path(checkpoint)
-    run = follow(exact_start, impacts, progress, checkpoint)
-    if checkpoint is not None:
-        checkpoint.unlink()
+    run = follow(exact_start, impacts, progress)
     data = variables("impact", run.values.T)
     impact = "impact", np.arange(1, run.impacts + 1), attributes_of("number of impacts")
     return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})
 
 
-def follow(
-    start: Start, impacts: int, progress: Callable | None = None, checkpoint: Path | None = None
-) -> Run:
-    """Return the finished run of an orbit, which resumes from a checkpoint and leaves one there.
+def follow(start: Start, impacts: int, progress: Callable | None = None) -> Run:
+    """Return the finished run of an orbit.
 
     `progress` is called as by `true_orbit`, at most once a second and at the end.
     """
@@ -99,9 +89,8 @@ def follow(
     needed = _BYTES_PER_IMPACT * impacts
     if needed > os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2:
         raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
-    run = checkpoint and Run.load(checkpoint, start, impacts)
-    run = run or Run(start, impacts, _bits_needed(start, impacts))
-    begin = reported = saved = time.monotonic()
+    run = Run(start, impacts, _bits_needed(start, impacts))
+    begin = reported = time.monotonic()
     total = _work_left(run)
     while run.count < impacts:
         try:
@@ -116,9 +105,6 @@ def follow(
         if progress is not None and (finished or now - reported > 1.0):
             reported, left = now, _work_left(run)
             progress(run.count / impacts, (now - begin) * left / max(total - left, 1e-9))
-        if checkpoint is not None and (finished or now - saved > CHECKPOINT_SECONDS):
-            saved = now
-            run.save(checkpoint)
     return run
 
 
