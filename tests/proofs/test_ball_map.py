@@ -196,6 +196,11 @@ def test_proofs_refuse_a_gravity_that_is_a_little_off(error, coverings, monkeypa
 
 
 def test_proofs_refuse_a_gap_without_its_error(monkeypatch):
-    height = Gap._height
-    monkeypatch.setattr(Gap, "_height", lambda *given: height(*given) + arb(2) ** -50)
+    exact = Gap._height_and_slope
+
+    def shifted(*given):
+        height, slope = exact(*given)
+        return height + arb(2) ** -50, slope
+
+    monkeypatch.setattr(Gap, "_height_and_slope", shifted)
     assert proved(["fixed-point", "six-hyperbolic", "twist-six", "twist-zero", "jump-set"]) == []

@@ -5,7 +5,7 @@ so are the doubles k and g of a ball. Where the precision does not decide which 
 it is raised.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from flint import arb, ctx
@@ -29,17 +29,28 @@ def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
     at most 2**-150; it is 0 where the ball is pressed onto the floor. Raises ArithmeticError if a
     root is double, as far as the last bits can tell.
     """
-    bits = _START_BITS
+
+    def flight_time():
+        tau = _impact(*map(arb, (k, g, x, v, w)))[3]
+        return tau if tau == 0 or tau.rel_accuracy_bits() >= _ACCURACY_BITS else None
+
+    tau = _decided(flight_time, _START_BITS)
+    if tau is None:
+        raise ArithmeticError("the reference solver cannot tell a touch from a miss")
+    return tau
+
+
+def _decided(compute: Callable, bits: int):
+    """Return the first result that is not None, with bits doubled from these on, or None."""
     while bits <= _MOST_BITS:
         with ctx.workprec(bits):
             try:
-                tau = _impact(*(arb(a) for a in (k, g, x, v, w)))[3]
-                if tau == 0 or tau.rel_accuracy_bits() >= _ACCURACY_BITS:
-                    return tau
+                if (result := compute()) is not None:
+                    return result
             except UndecidedError:
                 pass
         bits *= 2
-    raise ArithmeticError("the reference solver cannot tell a touch from a miss")
+    return None
 
 
 def _impact(k: arb, g: arb, x: arb, v: arb, w: arb) -> tuple[arb, arb, arb, arb]:
@@ -85,16 +96,12 @@ def impact_errors(
     """
     ball = exact("k", k), exact("g", g)
     bounds = np.full(tau.size, np.inf)
-    for i, (*state, x, v, w, t) in enumerate(np.vstack((before, after, tau)).T.tolist()):
-        bits = _IMPACT_BITS
-        while bits <= _MOST_BITS:
-            with ctx.workprec(bits):
-                try:
-                    proved = _impact(*map(ball_of, ball), *map(arb, state))
-                except UndecidedError:
-                    bits *= 2
-                    continue
-                error = max(abs(a - b).upper() for a, b in zip(proved, (x, v, w, t), strict=True))
-                bounds[i] = np.nextafter(float(error), np.inf)
-                break
+    for i, row in enumerate(np.vstack((before, after, tau)).T.tolist()):
+
+        def error(state=row[:3], computed=row[3:]):
+            proved = _impact(*map(ball_of, ball), *map(arb, state))
+            return max(abs(a - b).upper() for a, b in zip(proved, computed, strict=True))
+
+        if (largest := _decided(error, _IMPACT_BITS)) is not None:
+            bounds[i] = np.nextafter(float(largest), np.inf)
     return bounds

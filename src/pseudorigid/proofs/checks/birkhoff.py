@@ -12,6 +12,8 @@ tau_1 = 0.
 """
 
 from dataclasses import dataclass
+from itertools import accumulate
+from operator import mul
 
 from flint import acb, arb
 
@@ -40,10 +42,7 @@ def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
     orbit's boxes may touch the floor earlier.
     """
     multiplier, map_ = complex_map(surface, orbit, order)
-    powers = [multiplier]
-    while len(powers) < order + 1:
-        powers.append(powers[-1] * multiplier)
-    distances = [abs(power - 1) for power in powers]
+    distances = [abs(power - 1) for power in accumulate([multiplier] * (order + 1), mul)]
     if not all(distance > 0 for distance in distances):
         raise NotProvedError(f"a power of the multiplier up to {order + 1} may be 1")
     nonresonance = min(distances, key=lambda distance: distance.lower())
@@ -75,19 +74,18 @@ def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
     return multiplier, map_
 
 
-def _conjugate(jet: Jet) -> Jet:
-    """Return the conjugate of a jet in z and conj(z)."""
-    return Jet(jet.algebra, [jet[j, i].conjugate() for i, j in jet.algebra.monomials])
-
-
 def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
     """Normalise the map degree by degree, and return tau_1, tau_2, ..."""
     change, _ = Jet.plane(order, acb(0), acb(0))
     normal = change * multiplier
     inverse = multiplier.conjugate()
     terms = []
+
+    def with_conjugate(jet):
+        return jet, Jet(jet.algebra, [jet[j, i].conjugate() for i, j in jet.algebra.monomials])
+
     for degree in range(2, order + 1):
-        error = map_.at(change, _conjugate(change)) - change.at(normal, _conjugate(normal))
+        error = map_.at(*with_conjugate(change)) - change.at(*with_conjugate(normal))
         for index, (i, j) in enumerate(change.algebra.monomials):
             if i + j != degree:
                 continue

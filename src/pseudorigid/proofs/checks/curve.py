@@ -106,7 +106,8 @@ def check(
         plan = _plan(certificate)
         first = _first_curve(certificate)
         try:
-            most = _highest(plan, len(first[0]))
+            with ctx.workprec(64):  # beyond it coefficients are less than 1e-45 in the strip
+                most = max(len(first[0]), int(float(17 / (plan.wide - plan.strip))))
             count = 1 << (2 * most + 2).bit_length()
             curves, errors = _curves(surface, first, period, omega, count)
             with ctx.workprec(CELL_BITS):
@@ -167,12 +168,6 @@ def _first_curve(certificate: Certificate) -> Curve:
     return x, [acb(0, -ball_of(b) / 2) for _, b in rows]
 
 
-def _highest(plan: Plan, modes: int) -> int:
-    """Return a frequency beyond which the error's coefficients are less than 1e-45 in the strip."""
-    with ctx.workprec(64):
-        return max(modes, int(float(17 / (plan.wide - plan.strip))))
-
-
 def _points(curve: Curve, count: int, offset: arb | int = 0) -> list[Point]:
     """Return the real points of a curve at t = (j + offset)/count."""
     return list(zip(*(real_values(row, count, offset) for row in curve), strict=True))
@@ -181,7 +176,7 @@ def _points(curve: Curve, count: int, offset: arb | int = 0) -> list[Point]:
 def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int):
     """Return all curves, and the discrete Fourier coefficients of P(K_i) - K_(i+1).
 
-    K_i for i > 0 are truncated series of the images, taken as exact.
+    K_i for i > 0 are the midpoints of truncated series of the images, taken as exact.
     """
     modes = len(first[0]) - 1
     curves, errors = [first], []
@@ -189,7 +184,9 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
         images = [surface.impact(*point)[:2] for point in _points(curves[i], count)]
         waves = [transform(row, count // 2) for row in zip(*images, strict=True)]
         if i + 1 < period:
-            target = tuple(_real_on_the_circle(row[: modes + 1]) for row in waves)
+            target = tuple([c.mid() for c in row[: modes + 1]] for row in waves)
+            for row in target:
+                row[0] = acb(row[0].real)  # the mean is real
             curves.append(target)
         else:
             target = tuple(rotated(row, omega) for row in first)
@@ -198,12 +195,6 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
             for row, goal in zip(waves, target, strict=True)
         ]
     return curves, errors
-
-
-def _real_on_the_circle(waves: list[acb]) -> list[acb]:
-    """Return the midpoints of Fourier coefficients, with a real mean."""
-    mean, *others = (c.mid() for c in waves)
-    return [acb(mean.real), *others]
 
 
 def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, plan: Plan) -> arb:
@@ -257,7 +248,10 @@ def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Pla
     """Compute the constants of the theorem over cells of the strips."""
     tangent, normal, first, second, image, lengths, areas = ([] for _ in range(7))
     for curve, centre in zip(curves, centres, strict=True):
-        known = _first_roots(surface, curve, plan.columns)
+        for box in _real_cells(curve, plan.columns):
+            surface.impact(*box)  # raises an error where a flight has no first root
+        middles = _points(curve, plan.columns, arb(0.5))
+        known = [acb(surface.impact(*point).tau) for point in middles]
         for row in range(plan.all_rows):
             for x, y, slopes, root in _row_of_cells(surface, curve, plan, row, known):
                 image += [x, y]
@@ -299,13 +293,6 @@ def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
     of_area = 2 * (NEAR * tangent + length * NEAR_SLOPE)
     of_normal = (NEAR + normal * of_area) / area
     return 2 * normal * (second * NEAR * normal + 2 * first * of_normal)
-
-
-def _first_roots(surface: Surface, curve: Curve, columns: int) -> list[acb]:
-    """Return the flight times of the cells' middles; first roots over all of the real curve."""
-    for box in _real_cells(curve, columns):
-        surface.impact(*box)
-    return [acb(surface.impact(*point).tau) for point in _points(curve, columns, arb(0.5))]
 
 
 def _real_cells(curve: Curve, columns: int) -> list[list[arb]]:

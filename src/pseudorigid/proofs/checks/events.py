@@ -50,7 +50,7 @@ def check_resonance(
     with ctx.workprec(BITS):
         certificate = Certificate(text, "resonance")
         certificate.check_ball(k, g)
-        inertia, gravity = ball_of(k), ball_of(g)
+        inertia, gravity, _ = Surface(k, g, Fraction(0)).constants()
         ends = theta_ends(certificate)
         wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
         above, below = (trace_at(inertia, end) - wanted for end in ends)
@@ -215,7 +215,7 @@ def grazing(
     ends with y = 0 before an impact, or at the apex of a flight with U' = 0. `by` is "speed", the
     contact speed s of the impact, or "gap", by which the flight misses the floor.
     """
-    inertia, gravity = ball_of(k), ball_of(g)
+    inertia, gravity, _ = Surface(k, g, Fraction(0)).constants()
     jets = Jet.series(algebra(len(values) + 1, 1), *values, arb(0))
     energy, unfold, zero = jets[0], jets[-1], 0 * jets[-1]
     speed = unfold if by == "speed" else zero
@@ -271,7 +271,7 @@ def _end(
     k: Fraction, g: Fraction, values: Sequence[arb], impacts: int, order: int
 ) -> tuple[Jet, Jet]:
     """Return (x, y) after some impacts from (x, 0), as jets in E, x and y."""
-    inertia, gravity = ball_of(k), ball_of(g)
+    inertia, gravity, _ = Surface(k, g, Fraction(0)).constants()
     energy, x, y = Jet.series(algebra(3, order), *values, arb(0))
     square = (1 + inertia) * (2 * energy + x * (2 * gravity - inertia * x)) - y * y
     if not square.constant > 0:

@@ -5,10 +5,9 @@ covers the first set of the connection's chain, each of these covers the next on
 covers B_j. docs/proofs.md ("Entropy through the sea") has the theorem.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import NamedTuple
 
 from flint import ctx
 
@@ -20,8 +19,7 @@ from .hsets import HSet
 BITS = 64  # the smallest sets are 1e-6 wide, and one machine word is 1e-19 fine
 
 
-@dataclass(frozen=True)
-class Connection:
+class Connection(NamedTuple):
     """A chain of coverings from the strip low <= p <= high of one set to another set."""
 
     source: int
@@ -37,8 +35,7 @@ class Connection:
         return len(self.chain) + 1
 
 
-@dataclass(frozen=True)
-class Graph:
+class Graph(NamedTuple):
     """Sets and the connections between them."""
 
     sets: list[HSet]
@@ -81,21 +78,15 @@ def read(certificate: Certificate) -> Graph:
         if not -1 <= low < high <= 1:
             raise NotProvedError(f"the strip of connection {n} is not a part of its set")
         source, target = map(int, ends)
-        taken = _take(rows, int(impacts) - 1, n)
+        taken = [row for _, row in zip(range(int(impacts) - 1), rows, strict=False)]
+        if len(taken) < impacts - 1:
+            raise NotProvedError(f"the certificate lacks sets of connection {n}")
         chain = (hsets.hset(f"set {i} of connection {n}", row) for i, row in enumerate(taken, 1))
         strip = part(sets[source], f"the strip of connection {n}", low, high)
         connections.append(Connection(source, target, low, high, strip, tuple(chain)))
     if next(rows, None) is not None:
         raise NotProvedError("the certificate has more sets than its connections take")
     return Graph(sets, connections)
-
-
-def _take(rows: Iterator, count: int, connection: int) -> list:
-    """Return the next `count` rows."""
-    taken = [row for _, row in zip(range(count), rows, strict=False)]
-    if len(taken) < count:
-        raise NotProvedError(f"the certificate lacks sets of connection {connection}")
-    return taken
 
 
 def part(of: HSet, name: str, low: Fraction, high: Fraction) -> HSet:

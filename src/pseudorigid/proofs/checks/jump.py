@@ -6,10 +6,9 @@ docs/proofs.md ("Jumps") has the arguments.
 """
 
 from fractions import Fraction
-from functools import partial
 from itertools import pairwise
 
-from flint import arb, ctx, fmpq, fmpq_poly
+from flint import arb, ctx
 
 from ..enclosure.flight import Gap, UndecidedError, fly
 from ..enclosure.jets import Jet
@@ -79,19 +78,13 @@ def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Findi
     if threshold != energy:
         raise NotProvedError(f"the certificate is of energies below {threshold}, not {energy}")
     roots = certificate.row("roots", 2)
-    product = _polynomial(k / 2)
-    for root in roots:
-        product *= _polynomial(-root, 1)
-    if _polynomial(-threshold, -g, k / 2) != product:
+    # k/2 (x - roots[0]) (x - roots[1]) is to be k/2 x^2 - g x - threshold
+    if (k / 2 * (roots[0] + roots[1]), k / 2 * roots[0] * roots[1]) != (g, -threshold):
         raise NotProvedError("the energy of a touch is not the stated product of factors")
     if not all(root >= -g for root in roots):
         raise NotProvedError("the factors are not proved to be negative for x < -g")
     margin = lowest(ball_of(threshold + g * g / (2 * k)))
     return Finding({"energy below": ball_of(threshold)}, {"above least": margin})
-
-
-def _polynomial(*coefficients: Fraction | int) -> fmpq_poly:
-    return fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients])
 
 
 def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
@@ -186,9 +179,14 @@ def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     returns the least margin in p and q, and raises NotProvedError.
     """
     steps = [low + (high - low) * i / _CROSSING_PARTS for i in range(_CROSSING_PARTS + 1)]
+
+    def touching(speed):
+        """Return (p, q) of the point of S+ whose flight touches the floor with this xdot."""
+        return hset.coordinates(*_mirrored(_flight_from_rim(surface, speed)))
+
     try:
-        ends = [_touching(surface, hset, speed)[1] for speed in (low, high)]
-        across = [_touching(surface, hset, a.union(b))[0] for a, b in pairwise(steps)]
+        ends = [touching(speed)[1] for speed in (low, high)]
+        across = [touching(a.union(b))[0] for a, b in pairwise(steps)]
     except UndecidedError as error:
         raise NotProvedError(f"a flight that touches the floor: {error}") from None
     if not (ends[0] > 1 and ends[1] < -1) and not (ends[0] < -1 and ends[1] > 1):
@@ -197,11 +195,6 @@ def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     if not room > 0:
         raise NotProvedError(f"{hset.name}: the jump set may leave it sideways")
     return min(room, *(lowest(abs(q) - 1) for q in ends))
-
-
-def _touching(surface: Surface, hset: HSet, speed: arb) -> tuple[arb, arb]:
-    """Return (p, q) of the point of S+ whose flight touches the floor with this xdot."""
-    return hset.coordinates(*_mirrored(_flight_from_rim(surface, speed)))
 
 
 def _check_no_second_touch(surface: Surface) -> None:
@@ -218,16 +211,16 @@ def _check_no_second_touch(surface: Surface) -> None:
     x = _rim_x(surface, xdot)
     if not -(g + x) < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt()):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
-    if not holds_throughout(partial(_lands, surface), low, high, fastest / 10**5):
+
+    def lands(xdot):
+        """Whether all flights from the rim with these xdot are proved to land with s > 0."""
+        try:
+            return _flight_from_rim(surface, xdot).s > 0
+        except UndecidedError:
+            return False
+
+    if not holds_throughout(lands, low, high, fastest / 10**5):
         raise NotProvedError("a flight from the rim may touch the floor a second time")
-
-
-def _lands(surface: Surface, xdot: arb) -> bool:
-    """Whether all flights from the rim with these xdot are proved to land with s > 0."""
-    try:
-        return _flight_from_rim(surface, xdot).s > 0
-    except UndecidedError:
-        return False
 
 
 def _polygon(surface: Surface, count: int = 400) -> arb:
