@@ -24,7 +24,7 @@ from pipeline import config
 from pseudorigid.dynamics import lyapunov, orbits, variables
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.kernel import arithmetic, impact
+from pseudorigid.kernel import arithmetic
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.sweep import cell
 
@@ -46,13 +46,6 @@ def digest(*parts):
     return total.hexdigest()
 
 
-@jit
-def tables(t, sine, cosine, logarithm):
-    for i in range(t.size):
-        sine[i], cosine[i] = arithmetic.sincos(t[i])
-        logarithm[i] = arithmetic.log(abs(t[i]))
-
-
 def arguments(count):
     """Angles as flights have them, and doubles of every size."""
     rng = np.random.default_rng(20)
@@ -64,9 +57,7 @@ def arguments(count):
 
 def table(count):
     t = arguments(count)
-    columns = [np.empty(count) for _ in range(3)]
-    tables(t, *columns)
-    return digest(*columns)
+    return digest(*arithmetic.sincos_each(t), [arithmetic.log(abs(a)) for a in t.tolist()])
 
 
 def library():
@@ -77,13 +68,10 @@ def library():
 
 
 def history(states, impacts):
-    """The hash of every impact; a single state is followed by the loop for one orbit."""
+    """The hash of every impact; few states are followed by the loop for one orbit."""
     columns = [np.atleast_1d(a) for a in states]
     out = np.empty((columns[0].size, impacts, 4))
-    if columns[0].size == 1:
-        impact.history(*columns, BALL.k, BALL.g, out, None)
-    else:
-        BALL.map.history(*columns, BALL.k, BALL.g, out)
+    BALL.map.history(*columns, BALL.k, BALL.g, out)
     return digest(out)
 
 

@@ -106,19 +106,6 @@ def test_states_that_do_not_exist_are_rejected(method, arguments, message):
         method(*arguments)
 
 
-@every
-@given(balls, numbers, numbers, numbers)
-def test_reflect_is_an_involution_of_the_chart(ball, x, v, w):
-    v, w = (v, w) if v + w >= 0 else (-v, -w)
-    there = ball.reflect(x, v, w)
-    size = 1e-15 * (abs(v) + abs(w))
-    assert there[0] == x
-    assert there[1] + there[2] == pytest.approx(v + w, abs=size)
-    assert there[1] - ball.k * there[2] == pytest.approx(ball.k * w - v, abs=size)
-    again = ball.reflect(x, there[1], max(there[2], -there[1]))
-    assert again[1:] == pytest.approx((v, w), abs=2 * size)
-
-
 @pytest.mark.parametrize("method", METHODS)
 def test_arrays_have_the_bits_of_scalars_and_are_not_changed(method):
     call, state = getattr(BALL, method), states(200)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from cycles import SETTINGS
 from sections import BALL
 
 from pipeline.checks.compare import exponents
@@ -39,22 +40,13 @@ def by_numpy(ball, state, impacts):
     return total / impacts
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "start"),
-    [
-        (0.2, 0.04, 0.01, 0.6),
-        (0.2, 0.04, 0.01, -0.3),
-        (0.2, 0.04, 0.001, 0.7),
-        (1.0, 0.1, 0.05, 0.5),
-        (0.01, 0.001, 0.003, 0.3),
-        (1 / 3, 0.03, 0.02, -0.8),
-    ],
-)
-def test_against_numpy_over_two_thousand_impacts(k, g, energy, start):
+@pytest.mark.parametrize(("k", "g", "energy"), SETTINGS[::2])
+def test_against_numpy_over_two_thousand_impacts(k, g, energy):
     ball = Ball(k, g)
-    state = ball.start(start, energy)
-    found = lyapunov_spectrum(ball, state, 2000)["exponent"].values[-1]
-    assert np.max(np.abs(found - by_numpy(ball, state, 2000))) < 1e-11
+    for start in (0.6, -0.3):
+        state = ball.start(start, energy)
+        exponents = lyapunov_spectrum(ball, state, 2000)["exponent"].values[-1]
+        assert np.max(np.abs(exponents - by_numpy(ball, state, 2000))) < 1e-11
 
 
 def test_regular_orbits_have_exponents_near_zero():
@@ -62,29 +54,6 @@ def test_regular_orbits_have_exponents_near_zero():
     starts = BALL.start([-0.440981, -0.23519, -0.132294, 0.142183], 0.01)
     for state in (starts, [float(elliptic[name]) for name in ("x", "xdot", "udot")]):
         assert np.max(np.abs(final(state, 60_000))) < 5e-4
-
-
-def test_the_sum_is_zero_and_so_is_the_middle_one():
-    """The product of det J = s/s' telescopes, and energy is kept."""
-    for found in final(BALL.start([0.534522, 0.6, 0.8], 0.01), 100_000):
-        assert abs(np.sum(found)) < 2e-4
-        assert abs(found[1]) < 2e-4
-        assert found[0] > 0.2
-        assert np.all(np.diff(found) < 0)
-
-
-def test_a_periodic_orbit_has_the_logarithm_of_its_multiplier():
-    """This holds for 20 turns, until rounding errors drive the orbit away from the saddle."""
-    for energy, period in ((0.01, 6), (0.001, 10), (0.001, 12)):
-        orbits = symmetric_orbits(BALL, energy, period)
-        saddle = of_type(orbits, "hyperbolic")
-        state = [float(saddle[name][0]) for name in ("x", "xdot", "udot")]
-        expected = np.log(float(saddle["multiplier"])) / period
-        history = lyapunov_spectrum(BALL, state, 24 * period, records=24)["exponent"].values[:, 0]
-        # After the first turns the frame grows by the multiplier.
-        turns = np.arange(1, 25)
-        growth = np.diff(history * turns * period)
-        assert np.median(growth[-6:]) / period == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize(

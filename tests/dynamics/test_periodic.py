@@ -102,22 +102,6 @@ def test_orbits_that_are_hard_to_close_are_found(k, g, energy, period, trace):
     assert np.min(np.abs(orbits["trace"].values / trace - 1)) < 1e-4
 
 
-@pytest.mark.parametrize(
-    ("energy", "period", "types"),
-    [
-        (0.01, 6, ["elliptic", "hyperbolic", "inverse hyperbolic"]),
-        (0.001, 10, ["elliptic", "hyperbolic"]),
-        (0.001, 12, ["elliptic", "hyperbolic"]),
-        (0.01, 2, []),
-        (-0.003, 2, []),
-    ],
-)
-def test_the_types_at_the_papers_energies(energy, period, types):
-    orbits = symmetric_orbits(BALL, energy, period)
-    assert sorted(orbits["type"].values.tolist()) == types
-    check(BALL, energy, period, orbits)
-
-
 def test_of_type_returns_one_orbit_or_names_the_available_types():
     orbits = symmetric_orbits(BALL, 0.01, 7)
     assert of_type(orbits, "hyperbolic").sizes == {"point": 7}

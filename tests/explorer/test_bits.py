@@ -6,10 +6,12 @@ import math
 import numpy as np
 import pytest
 from doubles import bits, digest, packed, unpacked
+from flights import FAMILIES
 from sections import sea
 
 from pipeline.explorer import data
 from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid.dynamics.variables import chart
 from pseudorigid.kernel import arithmetic, impact
 from pseudorigid.kernel.spectrum import push_frame
 from pseudorigid.study import states
@@ -103,28 +105,11 @@ def test_flights_beyond_the_narrow_reduction(browser):
     assert np.sum(tau > arithmetic.WIDE) > 500 and tau.max() > 1e250
 
 
-def test_grazing_impacts(browser):
-    rows = [(0.2, 0.04, *state) for state in states.grazing(2000).T]
-    for decade in (*range(1, 17), 20, 40, 100, 140, 200, 300):
-        s = float(f"1e-{decade}")
-        for g in (1e-4, 0.04, 1.0):
-            for x in (0.5 * g, 0.0, math.nextafter(-g, 0.0), -g, math.nextafter(-g, -1.0), -9 * g):
-                rows += [(0.2, g, x, v, s - v) for v in (0.0, s, -0.7 * s, 0.3, -1e-3)]
-    assert_same_steps(browser, rows)
-
-
-def test_touches(browser):
-    """Flights whose gap has a maximum near zero: the ball touches the floor, or just misses it."""
-    k, g, rows = 0.2, 0.04, []
-    for x, t in ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.05, 5.0), (-0.2, 25.0)):
-        cosine, sine = math.cos(t), math.sin(t)
-        for height in (0.0, *(sign * 10.0**-n for n in range(2, 17) for sign in (1, -1))):
-            c = (height + g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
-            b = -g * t - x * sine - c * cosine
-            s = -(b + c)
-            v = b + k * 2.0 / (1.0 + k) * s
-            rows.append((k, g, x, v, max(s - v, -v)))
-    assert_same_steps(browser, rows)
+@pytest.mark.parametrize("family", FAMILIES)
+def test_flights_that_are_hard_to_compute(browser, family):
+    """Near grazing and touches, on the rim, and long ones."""
+    random = np.random.default_rng(4)
+    assert_same_steps(browser, [family(random) for _ in range(500)])
 
 
 def test_rest_and_what_is_no_state(browser):
@@ -178,10 +163,7 @@ def test_starts_points_and_the_reversor(browser):
         ball = Ball(k, g)
         for energy in (0.0, 3.0 * g * g):
             starts = np.array(ball.start(fractions, energy)).T
-            centre, radius = ball.section(energy)
-            angle = np.linspace(0.0, 6.0, 101)
-            x = centre + 0.9 * radius * np.cos(angle)
-            y = 0.9 * radius * np.sqrt(k * (1.0 + k)) * np.sin(angle)
+            x, y = chart(k, *sea(101, energy, ball))
             points = np.array(ball.state_xy(x, y, energy)).T
             mirrored = np.array(ball.reflect(*points.T)).T
             theirs = browser.run(

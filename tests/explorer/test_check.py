@@ -1,9 +1,7 @@
 """The page's own check of a machine, pressed in Chromium and in Firefox."""
 
-import browsers
 import pytest
 from project import SHIPPED, wait_for
-from slowly import slowly
 
 from pipeline import config
 from pipeline.explorer import kernel, page
@@ -16,18 +14,16 @@ NOTE = "return document.getElementById('check-note').textContent"
 RESOURCES = "return performance.getEntriesByType('resource').map(entry => entry.name)"
 
 
-@pytest.fixture(scope="module", params=["chromium", *slowly("firefox")])
-def opened(request, tmp_path_factory):
-    """A browser, with a function that opens the page from a file."""
-    folder = tmp_path_factory.mktemp(request.param)
-    with browsers.start(request.param, folder / "profile") as browser:
+@pytest.fixture
+def opened(browser, tmp_path):
+    """A function that opens the page from a file in a browser."""
 
-        def show():
-            (folder / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
-            browser.open((folder / "explorer.html").as_uri())
-            return browser
+    def show():
+        (tmp_path / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
+        browser.open((tmp_path / "explorer.html").as_uri())
+        return browser
 
-        yield show
+    return show
 
 
 def checked(browser):

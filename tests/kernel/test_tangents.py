@@ -29,24 +29,19 @@ def orbit_by_orbit(states, vectors, ball, impacts):
 def in_chunks(states, vectors, ball, impacts, root_finder=None):
     """Return the vectors (3, n) and the states after `impacts`, computed in chunks."""
     x, v, w = (a.copy() for a in states)
-    coefficients = impact.impact_coefficients(ball.k)
-    out = vectors.copy()
+    coefficients, out = impact.impact_coefficients(ball.k), vectors.copy()
     for first in range(0, x.size, tangents.GROUP):
-        part = slice(first, min(first + tangents.GROUP, x.size))
-        buffers = tangents.allocate_buffers()
-        done = 0
-        while done < impacts:
+        group, buffers = slice(first, first + tangents.GROUP), tangents.allocate_buffers()
+        for done in range(0, impacts, tangents.CHUNK):
             count = min(tangents.CHUNK, impacts - done)
             tangents.advance_chunk(
-                x[part], v[part], w[part], ball.k, ball.g, count, *buffers, root_finder
+                x[group], v[group], w[group], ball.k, ball.g, count, *buffers, root_finder
             )
-            for row in range(0, count * tangents.GROUP, tangents.GROUP):
-                for i in range(part.stop - part.start):
-                    at = row + i
-                    out[:, first + i] = tangents.push_tangent(
-                        *out[:, first + i], ball.k, ball.g, coefficients, *buffers, at
-                    )
-            done += count
+            for row, i in np.ndindex(count, x[group].size):
+                out[:, first + i] = tangents.push_tangent(
+                    *out[:, first + i], ball.k, ball.g, coefficients, *buffers,
+                    row * tangents.GROUP + i,
+                )  # fmt: skip
     return out, (x, v, w)
 
 

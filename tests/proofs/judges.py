@@ -9,6 +9,11 @@ from slowly import slowly
 from pseudorigid.proofs import THEOREMS
 
 
+def with_bounds(theorem, **bounds):
+    """Return a theorem with other numbers in its statement."""
+    return dataclasses.replace(theorem, bounds=theorem.bounds | bounds)
+
+
 def refused(theorem, text=None, checker="package", **bounds):
     """Return the reason, one line, why a checker does not take a certificate as a proof.
 
@@ -21,7 +26,7 @@ def refused(theorem, text=None, checker="package", **bounds):
         reason = str(refusal.value)
     else:
         theorem = THEOREMS[theorem] if isinstance(theorem, str) else theorem
-        result = dataclasses.replace(theorem, bounds=theorem.bounds | bounds).check(text)
+        result = with_bounds(theorem, **bounds).check(text)
         assert result.verdict == "not proved"
         reason = result.reason
     assert reason

@@ -10,8 +10,6 @@ from sections import BALL
 
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.kernel import impact, impact_law
-from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.proofs.derivations import forms, model, motion, symbols
 from pseudorigid.proofs.derivations.symbols import b, c, energy, flight, g, k, rebound, tau, v, w, x
 
@@ -84,34 +82,6 @@ def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
 
 
 # ---- formulas of the code
-
-
-def test_tangent_map_of_the_code():
-    b, c = rebound(v, w)
-    sine, cosine = sp.sin(tau), sp.cos(tau)
-    _, strain = flight(x, b, c, tau)
-    slope = sum(flight(x, b, c, tau)).diff(tau)
-    # as in impact.flight_derivatives
-    parts = -(1 - cosine) / slope, tau / slope, -(sine - tau) / slope
-    names = dict(impact.tangent.py_func.__globals__) | {"rebound": impact_law.rebound}
-    plain = type(impact.tangent.py_func)(impact.tangent.py_func.__code__, names)
-    arguments = (k, g, (2 / (1 + k), 0), -strain, strain.diff(tau), sine, cosine, *parts)
-    pairs = zip(plain(*forms.DIRECTION, *arguments), forms.tangent_map(), strict=True)
-    assert all(sp.simplify(code - derived) == 0 for code, derived in pairs)
-
-
-def test_derivatives_of_a_flight_time():
-    state = BALL.state_xy(0.31, 0.02, 0.01)
-    t = BALL.time_to_impact(*state)
-    speed, rate, _ = impact_law.rebound(*state[1:], BALL.k, impact_law.impact_coefficients(BALL.k))
-    slope = sum(flight(x, *rebound(v, w), tau)).diff(tau)
-    values = dict(zip((x, v, w), state, strict=True)) | {k: BALL.k, g: BALL.g, tau: t}
-    expected = [float(a.subs(values)) for a in (
-        -(1 - sp.cos(tau)) / slope, tau / slope, -(sp.sin(tau) - tau) / slope)]  # fmt: skip
-    derivatives = impact.flight_derivatives(
-        state[0], speed, rate, state[1] + state[2], BALL.g, t, quadrant(t)
-    )
-    np.testing.assert_allclose(derivatives[2:], expected, rtol=1e-12)
 
 
 def test_jacobian_of_the_code():

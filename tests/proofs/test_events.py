@@ -1,6 +1,5 @@
 """Births, doublings and ends of orbits: right in another map, and weaker certificates refused."""
 
-import dataclasses
 import re
 from fractions import Fraction
 
@@ -9,7 +8,7 @@ import pytest
 from certificates import with_field
 from flint import arb, ctx
 from independent_solver import exact_map
-from judges import refused
+from judges import refused, with_bounds
 
 from pseudorigid.dynamics.fixed_point import resonance
 from pseudorigid.proofs import THEOREMS
@@ -199,9 +198,8 @@ def test_a_consistent_certificate_of_another_ball_is_refused():
     theorem = THEOREMS["six-inverse-birth"]
     ball = {"k": Fraction(1, 5), "g": Fraction(1, 20)}
     energy = str(float(Fraction("0.009682501945") * Fraction(25, 16)))
-    bounds = theorem.bounds | ball | {"energies": (Fraction("0.015"), Fraction("0.0152"))}
-    other = dataclasses.replace(theorem, bounds=bounds)
-    text = event_search.propose_grazing([energy], other.holds_for_any_radius, **bounds)
+    other = with_bounds(theorem, **ball, energies=(Fraction("0.015"), Fraction("0.0152")))
+    text = event_search.propose_grazing([energy], other.holds_for_any_radius, **other.bounds)
     assert other.check(text).verdict == "proved"
     assert "the certificate is of g" in refused("six-inverse-birth", text)
 

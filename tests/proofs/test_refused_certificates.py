@@ -23,7 +23,7 @@ from certificates import (
     with_rows,
 )
 from flint import arb, ctx
-from judges import by_both, refused
+from judges import by_both, refused, with_bounds
 from second_checker import STATEMENTS, ImpactMap, check, prove_orbit
 from second_checker import NotProvedError as SecondNotProvedError
 from slowly import slowly
@@ -286,7 +286,7 @@ def test_every_number_of_a_statement_is_given_to_its_checker(name):
 def test_a_longer_chain_is_refused_for_its_entropy(checker):
     theorem = THEOREMS["horseshoe-outer"]
     surface = theorem.bounds["surface"]
-    weaker = dataclasses.replace(theorem, bounds=theorem.bounds | {"entropy": Fraction(0)})
+    weaker = with_bounds(theorem, entropy=Fraction(0))
     points = approximate_orbits.points(surface, 6, "hyperbolic")
     plan = horseshoe_search.Plan(side=1, steps=72, size=3e-5, room=1.06)
     text = horseshoe_search.propose(surface, points, plan, weaker.prove)
