@@ -10,6 +10,7 @@ from samples import (
     SPACE,
     VIEW,
     drawn,
+    exponents,
     manifolds,
     module,
     motion,
@@ -176,3 +177,11 @@ def test_a_sharp_fold_has_a_dot_and_a_straight_line_none(turn_back):
     figure = module("tangle").draw(SCENES["tangle"], orbits(), folded(turn_back), periodic())
     dots = [a for a in figure.artists if a.get_marker() == "o" and a.get_markersize() == 2.0]
     assert sum(len(a.get_xdata()) for a in dots) == 1 + turn_back  # one is the key's
+
+
+def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
+    assert "saddle" in [text.get_text() for text in drawn("closeup").texts]
+    axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
+    figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
+    labels = [text.get_text() for text in figure.texts]
+    assert labels.count("0.4") == 1 and labels.count("1.2") == 2  # ticks from 0.5 on, twice

@@ -100,3 +100,19 @@ def test_zeros_are_drawn_at_an_end_named_zero():
 def test_the_logarithm_of_axes():
     assert panel.log10([1e-12, 1.0, 1e3]) == pytest.approx([-12, 0, 3], abs=1e-14)
     assert np.isnan(panel.log10([0.0, -1.0])).all()
+
+
+def test_scans_that_differ_in_their_step_have_one_entry():
+    names = ["scan 0.5, 1e-12", "scan 0.1, 1e-12", "scan 0.01, 1e-12", "scan 0.1, 1e-06"]
+    families = ["scan 0.5 + bisection"] * 4 + ["time stepping"]
+    apart = {"apart": (("method", "impact"), np.full((5, 3), 1e-9)), "impact": [1, 2, 3]}
+    figure = study.separation(xr.Dataset(named(families, [*names, "engine 1e-03"]) | apart))
+    texts = [text.get_text() for text in figure.texts]
+    assert texts[-3:] == ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$", "engine $10^{-3}$"]
+
+
+@pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
+def test_the_worst_right_root_is_in_the_key_if_it_is_drawn(wrong, drawn):
+    figure = study.work(work_data(100.0, wrong=wrong), 1, "evaluations")
+    entries = [text.get_text() for text in figure.texts if "worst" in text.get_text()]
+    assert [("1 %" in text) for text in entries] == [True] * drawn
