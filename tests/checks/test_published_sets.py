@@ -47,7 +47,7 @@ def test_a_broken_or_edited_manifest(moved, change):
     found = verified(moved)
     (words,) = found.findings
     assert words.startswith("paper_figures/MANIFEST.json: ")
-    assert [*found.wrong.values()] == 11 * [["file: as in SHA256SUMS"]]
+    assert (found.status, found.wrong) == (1, {})
 
 
 def test_sums_with_a_missing_or_broken_line(moved):
@@ -61,12 +61,13 @@ def test_sums_with_a_missing_or_broken_line(moved):
         (words,) = found.findings
         return words.removeprefix("paper_figures/SHA256SUMS: ")
 
+    other = "is not as MANIFEST.json has it"
     path.write_text("".join(line for line in lines if "fig3.svg" not in line))
-    assert finding() == "the line of fig3.svg is not as in MANIFEST.json"
+    assert finding() == other
     path.write_text(text.replace(lines[0][:64], "0" * 64))
-    assert finding() == f"the line of {lines[0].split()[1]} is not as in MANIFEST.json"
+    assert finding() == other
     path.write_text("not a sum\n")
-    assert finding() == "line 1 is not a sha256 and a file's name"
+    assert finding() == other
     path.unlink()
     assert finding() == "missing"
 

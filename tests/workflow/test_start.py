@@ -231,7 +231,6 @@ def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
     shutil.rmtree(with_uv.venv)
     with_uv.venv.mkdir()
     assert with_uv.run() == MADE
-    line = "reproduce: the Python of .venv does not start: making .venv again\n"
     python = with_uv.venv / "bin" / "python"
     for target in ("nowhere", "/bin/false", None):
         python.unlink()
@@ -240,7 +239,7 @@ def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
         else:
             shutil.rmtree(python.parent)
             python.parent.mkdir()
-        assert with_uv.run() == (0, f"handed over\n{line}"), target
+        assert with_uv.run() == MADE, target
         assert with_uv.run() == READY, target
     assert not list((with_uv.folder / "tmp").iterdir())
     (with_uv.tree / "requirements" / "lock.txt").write_text(wheel(with_uv.wheels, "other"))
@@ -346,7 +345,7 @@ def test_the_venv_works_in_any_folder_and_moved(with_uv, name):
 
 
 @pytest.mark.slow
-def test_a_package_that_is_missing_is_installed_again_and_additions_stay(with_either):
+def test_a_venv_without_a_package_is_made_anew_and_additions_stay_otherwise(with_either):
     set_up = with_either
     add = "from pipeline.cli.packages import add_packages as add; add('test'); add('test')"
     environment = set_up.environment | {"PYTHONPATH": str(set_up.tree / "src")}
@@ -357,14 +356,14 @@ def test_a_package_that_is_missing_is_installed_again_and_additions_stay(with_ei
     pip = "PIP_NO_INDEX=1 .venv/bin/python -m pip install -q --find-links .. mine"
     assert mine == "mine" and set_up.shell(pip) == ""
     assert set_up.run() == READY
-    for names in (["extra", "needed", "pseudorigid.pth"], ["needed-1.0.dist-info"]):
-        for name in names:
-            (set_up.site / name).rename(set_up.folder / name)
-        line = f"reproduce: .venv lacks {names[0]}: installing its packages again\n"
-        assert set_up.run() == (0, f"handed over\n{line}")
-    assert set_up.run() == READY
     for package in ("needed", "extra", "mine"):
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
+    for name in ("extra", "needed", "pseudorigid.pth", "needed-1.0.dist-info"):
+        path = set_up.site / name
+        if path.exists():
+            path.rename(set_up.folder / name)
+            assert set_up.run() == MADE, name
+    assert set_up.run() == READY
 
 
 @pytest.mark.slow
@@ -379,8 +378,7 @@ def test_a_run_that_fails_in_a_damaged_package_says_so_and_the_next_one_mends_it
         damage()
         line = "reproduce: .venv is damaged: needed/__init__.py: run ./reproduce again to mend it\n"
         assert with_uv.run() == (1, line)
-        line = "reproduce: .venv lacks needed/__init__.py: installing its packages again\n"
-        assert with_uv.run() == (0, f"{with_uv.venv}\n{line}")
+        assert with_uv.run() == (0, f"{with_uv.venv}\n{LINE}")
         assert with_uv.run() == (0, f"{with_uv.venv}\n")
 
 

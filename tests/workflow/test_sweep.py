@@ -5,7 +5,6 @@ import os
 import shutil
 import signal
 import sys
-from types import SimpleNamespace
 
 import pytest
 from project import ROOT, fresh_tree, of_scenes, run, wait_for
@@ -13,7 +12,6 @@ from runs import rows
 
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import sweep
-from pipeline.cli.running import require_space
 from pipeline.cli.session import UsageError
 from pipeline.config import build_specs, paths
 from pipeline.records.artifacts import load
@@ -27,14 +25,6 @@ SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 2
 def specs():
     """Build specifications of a sweep of six cells."""
     return build_specs.of_sweeps({"plane": SMALL})
-
-
-def test_a_full_disk_is_reported_before_anything_starts(monkeypatch):
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=10_100_000))
-    with pytest.raises(UsageError, match=r"^the disk is full: about 10 MB are needed here, 10 are"):
-        require_space(specs().values())
-    blocks = paths.block_files("plane", SMALL)
-    require_space(each for path, each in specs().items() if path not in blocks)
 
 
 @pytest.mark.parametrize(

@@ -49,11 +49,11 @@ def _renew(root: Path, findings: Findings) -> None:
     folder, noun = published_set.folder, published_set.noun
     fresh = manifest.build(root, published_set)
     try:
-        committed, sums = manifest.read(root, folder), read_sums(root, folder)
+        committed = manifest.read(root, folder)
     except ChecksumError as error:
         changes = [f"a new manifest ({error})"]
     else:
-        if fresh == committed and sums == manifest.sums(fresh):
+        if fresh == committed and read_sums(root, folder) == manifest.sums(fresh):
             print(f"{folder}: nothing changed")
             return
         changes = _changes(root, findings, committed) or [f"other changes behind the same {noun}"]

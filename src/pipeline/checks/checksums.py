@@ -22,23 +22,12 @@ def format_sums(sums: Mapping[str, str]) -> str:
 
 
 def read_sums(root: Path, folder: str) -> dict[str, str]:
-    """Read file name -> sha256 of a folder; raises ChecksumError for a missing or broken list."""
-    path = f"{folder}/{SUMS}"
-    sums = {}
-    for number, line in enumerate(read_published_text(root, path).splitlines(), 1):
-        match = _LINE.fullmatch(line)
-        if match is None:
-            raise ChecksumError(f"{path}: line {number} is not a sha256 and a file's name")
-        sums[match[2]] = match[1]
-    return sums
-
-
-def known_sums(root: Path, folder: str) -> dict[str, str]:
-    """Read a folder's SHA256SUMS; return an empty dict if it cannot be read."""
+    """Return file name -> sha256 from a folder's list; empty if it cannot be read."""
     try:
-        return read_sums(root, folder)
+        lines = read_published_text(root, f"{folder}/{SUMS}").splitlines()
     except ChecksumError:
         return {}
+    return {match[2]: match[1] for match in map(_LINE.fullmatch, lines) if match}
 
 
 def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:

@@ -5,7 +5,7 @@ file. The first layer that differs is the cause of differences in the layers aft
 """
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,12 +14,7 @@ import numpy as np
 
 from ..config.build_specs import with_dependencies
 from ..records.artifacts import ArtifactError, load
-from ..records.differences import (
-    differing_block,
-    differing_files,
-    differing_keys,
-    differing_package,
-)
+from ..records.differences import differing_keys, differing_origin
 from ..records.files import FileError, file_hash, obstacle
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
@@ -39,7 +34,6 @@ class Comparison:
 
     def __init__(self, root: Path, published_set: PublishedSet, committed: manifest.Manifest):
         self.root, self.published_set, self.committed = root, published_set, committed
-        self.versions = versions()
         self.file_hash: Callable[[str], str | None] = cache(lambda path: file_hash(root / path))
         self.differing_data = cache(
             lambda path, name: dataset_difference(root, path, committed["data"][name])
@@ -51,16 +45,21 @@ class Comparison:
         entry = self._entry(scene)
         if name not in entry["figures"]:
             return None
-        sources = {path: self.committed["sources"].get(path) for path in entry["sources"]}
-        here = {path: syntax_hash(self.root / path) for path in self.published_set.sources(scene)}
-        blocks, was = (entry["config"], self.published_set.config[scene]), "in the manifest"
-        layers = {
-            "config": differing_block(*blocks, was, "in config.yaml"),
-            "source": differing_files(sources, here),
-            "environment": differing_package(self.committed["environment"], self.versions, was),
-            "data": next(iter(self._differing_datasets(scene).values()), None),
-        } | self._drawing_or_file(name, entry["figures"][name])
-        return {layer: words for layer, words in layers.items() if words}
+        configs = entry["config"], self.published_set.config[scene]
+        layers = self._origin(configs, entry["sources"], self.published_set.sources(scene))
+        for words in [*self._differing_datasets(scene).values()][:1]:
+            layers["data"] = words
+        return layers | self._drawing_or_file(name, entry["figures"][name])
+
+    def _origin(
+        self, configs: Iterable[dict[str, Any]], before: Iterable[str], after: Iterable[str]
+    ) -> dict[str, str]:
+        """Describe differing layers of two configs, of the sources before and after, and so on."""
+        known, (then, now) = self.committed["sources"], configs
+        committed = {"config": then, "sources": {file: known.get(file) for file in before}}
+        here = {"config": now, "sources": {file: syntax_hash(self.root / file) for file in after}}
+        committed["environment"], here["environment"] = self.committed["environment"], versions()
+        return differing_origin(committed, here, "in the manifest", "in config.yaml")
 
     def _entry(self, scene: str) -> dict[str, Any]:
         """Return what the manifest has on a scene."""
@@ -132,18 +131,12 @@ class Comparison:
         """Return whether what makes a result may differ from what made the committed one."""
         build_specs = self.published_set.build_specs
         specs = [build_specs[each] for each in with_dependencies(build_specs, [path])]
+        blocks = self._entry(scene)["config"], self.published_set.config[scene]
         keys = {key for spec in specs for key in spec.config}
-        before, after = (
-            {key: block.get(key) for key in keys}
-            for block in (self._entry(scene)["config"], self.published_set.config[scene])
-        )
-        sources = {file: self.committed["sources"].get(file) for s in specs for file in s.sources}
-        return bool(
-            any(used not in build_specs for spec in specs for used in spec.inputs)
-            or differing_package(self.committed["environment"], self.versions)
-            or differing_block(before, after)
-            or any(syntax_hash(self.root / file) != known for file, known in sources.items())
-        )
+        files = [file for spec in specs for file in spec.sources]
+        configs = ({key: block.get(key) for key in keys} for block in blocks)
+        foreign = any(used not in build_specs for spec in specs for used in spec.inputs)
+        return foreign or bool(self._origin(configs, files, files))
 
 
 def dataset_difference(root: Path, path: str, before: dict[str, Any]) -> str | None:

@@ -6,13 +6,19 @@ from pathlib import Path
 from typing import Any
 
 from ..records.build_spec import BuildSpec
-from ..records.differences import differing_block, differing_files, differing_package
+from ..records.differences import differing_files, differing_origin
 from ..records.files import file_hash, obstacle
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import syntax_hash
 
 MISSING = "missing"
 DAMAGED = "changed after it was made"
+# Differing layer -> how the reason to make a result again begins.
+_MADE = {
+    "config": "made from another config:",
+    "source": "made by other code than this tree's:",
+    "environment": "made with",
+}
 
 
 class Freshness:
@@ -73,14 +79,10 @@ class Freshness:
 
     def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
         """Return how what made a result, by its record, differs from what would make it now."""
-        if words := differing_block(record["config"], spec.config):
-            return f"made from another config: {words}"
         sources = {file: self.syntax_hash(file) for file in spec.sources}
-        if words := differing_files(record["sources"], sources):
-            return f"made by other code than this tree's: {words}"
-        if words := differing_package(record["environment"], self.packages):
-            return f"made with {words}"
-        inputs = {used: self.digest(used) for used in spec.inputs}
-        if words := differing_files(record["inputs"], inputs):
-            return f"made from another {words.split()[0]}"
-        return None
+        here = {"config": spec.config, "sources": sources, "environment": self.packages}
+        if layers := differing_origin(record, here):
+            layer, words = next(iter(layers.items()))
+            return f"{_MADE[layer]} {words}"
+        words = differing_files(record["inputs"], {used: self.digest(used) for used in spec.inputs})
+        return f"made from another {words.split()[0]}" if words else None

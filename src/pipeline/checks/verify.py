@@ -12,7 +12,7 @@ from typing import Any
 
 from ..records.files import file_hash, obstacle
 from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, read_sums, unlisted_files
+from .checksums import SUMS, ChecksumError, format_sums, read_published_text, unlisted_files
 from .difference import UPSTREAM, Comparison
 from .freshness import MISSING, Freshness
 from .published_sets import PublishedSet
@@ -26,8 +26,8 @@ class Findings:
 
     published_set: PublishedSet
     committed: manifest.Manifest | None = None  # None if it cannot be read
-    # Name of each published file -> differing layer -> words; None for a new file. Without a
-    # manifest the only layer is the file.
+    # Name of each published file -> differing layer -> words; None for a new file. Empty without a
+    # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
     problems: list[str] = field(default_factory=list)  # of manifest, sums, texts, surplus files
@@ -61,8 +61,6 @@ class Findings:
 
     def _harmless(self, name: str) -> bool:
         """Return whether the layers of a listed file leave its committed bytes."""
-        if self.committed is None:
-            return False
         # Another config does not matter once results made with it have the committed bytes.
         published_set = self.published_set
         current = published_set.on_request or published_set.drawn[name] not in self.stale
@@ -121,58 +119,24 @@ def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
 def inspect(root: Path, published_set: PublishedSet) -> Findings:
     """Compare one published set of a tree with its committed state."""
     folder, findings = published_set.folder, Findings(published_set)
-    comparison, sums = None, {}
     try:
-        findings.committed = manifest.read(root, folder)
-        comparison = Comparison(root, published_set, findings.committed)
-        findings.problems += _other_files(root, published_set, findings.committed)
-    except ChecksumError as error:
-        findings.problems.append(f"{error}: the layers cannot be compared")
-    try:
-        sums = read_sums(root, folder)
-        listed = manifest.sums(findings.committed) if findings.committed else sums
-        findings.problems += [
-            f"{folder}/{SUMS}: the line of {name} is not as in {manifest.MANIFEST}"
-            for name in sorted({*sums, *listed})
-            if sums.get(name) != listed.get(name)
-        ]
+        findings.committed = committed = manifest.read(root, folder)
+        comparison = Comparison(root, published_set, committed)
+        findings.layers = {name: comparison.layers(name) for name in published_set.drawn}
+        # If the manifest lists a result and all that makes it is as committed, the result must be
+        # the committed one too, whatever its record says.
+        findings.stale = comparison.unexplained()
+        findings.problems += _other_files(root, published_set, committed)
+        if read_published_text(root, f"{folder}/{SUMS}") != format_sums(manifest.sums(committed)):
+            findings.problems.append(f"{folder}/{SUMS}: is not as {manifest.MANIFEST} has it")
     except ChecksumError as error:
         findings.problems.append(str(error))
-    findings.stale = _not_as_made(root, published_set, comparison)
-    findings.layers = {
-        name: comparison.layers(name)
-        if comparison
-        else {"file": _by_sum(root / folder / name, sums.get(name))}
-        for name in published_set.drawn
-    }
-    return findings
-
-
-def _not_as_made(
-    root: Path, published_set: PublishedSet, comparison: Comparison | None
-) -> dict[str, str]:
-    """Return result -> why, for the results of a set that are not what this tree makes.
-
-    A result's record decides. If the manifest lists the result and all that makes it is as
-    committed, the result must be the committed one too, whatever its record says.
-    """
-    reasons = comparison.unexplained() if comparison else {}
-    reasons |= Freshness(root, published_set.build_specs).outdated()
+    findings.stale |= Freshness(root, published_set.build_specs).outdated()
     for path, spec in published_set.build_specs.items():  # inputs come before results
         for used in spec.inputs:
-            if used in reasons:
-                reasons.setdefault(path, f"made from {used}, which is not current")
-    return reasons
-
-
-def _by_sum(path: Path, committed: str | None) -> str:
-    """Compare a published file with its line in SHA256SUMS, if there is no manifest."""
-    digest = file_hash(path)
-    if digest is None:
-        return obstacle(path) or MISSING
-    if committed is None:
-        return "nothing to compare it with"
-    return f"{'as in' if digest == committed else 'differs from'} {SUMS}"
+            if used in findings.stale:
+                findings.stale.setdefault(path, f"made from {used}, which is not current")
+    return findings
 
 
 def _other_files(

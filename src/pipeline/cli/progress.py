@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterable
 from typing import Any
 
-from ..checks.checksums import ChecksumError, known_sums
+from ..checks.checksums import ChecksumError, read_sums
 from ..checks.freshness import DAMAGED, MISSING, Freshness
 from ..checks.published_sets import PublishedSet
 from ..records.differences import brief, differing_keys
@@ -78,7 +78,7 @@ def _cause(freshness: Freshness, path: str) -> str:
 
 def committed(folder: str, paths: Iterable[str]) -> dict[str, str]:
     """Map each of the paths that lie in a published folder to how it compares with the commit."""
-    sums, states = known_sums(ROOT, folder), {}
+    sums, states = read_sums(ROOT, folder), {}
     for path in (path for path in paths if path.startswith(f"{folder}/")):
         name, digest = path.removeprefix(f"{folder}/"), file_hash(ROOT / path)
         if digest is None:

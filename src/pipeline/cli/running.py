@@ -3,7 +3,6 @@
 import argparse
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -15,12 +14,9 @@ from typing import Any, NoReturn
 
 import yaml
 
-from pseudorigid.sweep import grid
-
 from ..checks.freshness import DAMAGED, MISSING, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs import server
-from ..records.build_spec import BuildSpec
 from ..records.files import obstacle
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
@@ -41,14 +37,13 @@ _DRY_RUN_OPTIONS = (
     *("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary"),
     *("touch", "list_rules", "list_target_rules", "list_changes", "unlock"),
 )
-# Bytes on disk, rounded up from measurements: a cell in its block and in the dataset; a block with
-# snakemake's records of it; and snakemake's own files in any run.
-CELL_BYTES, BLOCK_BYTES, RUN_BYTES = 600, 60_000, 10_000_000
 # The options of most runs, which are read without importing snakemake: that takes long.
 _USUAL = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
 _USUAL.add_argument("-n", "--dry-run", "--dryrun", action="store_true", dest="dryrun")
 _USUAL.add_argument("-c", "--cores")
+_USUAL.add_argument("-j", "--jobs")
 _USUAL.add_argument("targets", nargs="*")
+_USUAL.set_defaults(special=False)
 
 
 @cache
@@ -66,10 +61,14 @@ def _snakemakes_parser() -> argparse.ArgumentParser:
 
 
 def options_of(arguments: list[str]) -> argparse.Namespace:
-    """Parse options of snakemake; CommandLineError if they are wrong or not used here."""
+    """Parse options of snakemake; CommandLineError if they are wrong or not used here.
+
+    The attribute `special` says whether there are others than -n and the number of cores.
+    """
     with suppress(argparse.ArgumentError):  # snakemake's parser then reports the mistake
         options, others = _USUAL.parse_known_args(arguments)
-        if not others and re.fullmatch("None|all|[1-9][0-9]*", str(options.cores)):
+        numbers = f"{options.cores} {options.jobs}"
+        if not others and re.fullmatch("(None|all|[1-9][0-9]*) (None|[1-9][0-9]*)", numbers):
             return options
     from snakemake.exceptions import CliException, WorkflowError
 
@@ -80,6 +79,7 @@ def options_of(arguments: list[str]) -> argparse.Namespace:
     for name, instead in _REFUSED.items():
         if getattr(options, name):
             raise CommandLineError(f"--{name} is not used here: {instead}")
+    options.special = True
     return options
 
 
@@ -87,20 +87,6 @@ def is_dry_run(arguments: list[str]) -> bool:
     """Whether snakemake makes nothing with these options."""
     options = options_of(arguments)
     return any(getattr(options, name, None) for name in _DRY_RUN_OPTIONS)
-
-
-def _special_options(arguments: list[str]) -> set[str]:
-    """Names of the options that differ from the defaults, apart from numbers of cores."""
-    options, defaults = vars(options_of(arguments)), vars(options_of([]))
-    if options.keys() != defaults.keys():
-        defaults = vars(_snakemakes_parser().parse_args([]))
-    # Objects without equality are compared by their attributes.
-    given, usual = (
-        {name: getattr(value, "__dict__", value) for name, value in values.items()}
-        for values in (options, defaults)
-    )
-    different = {name for name in given if given[name] != usual[name]}
-    return different - {"cores", "jobs", "targets"}
 
 
 def make(
@@ -121,38 +107,25 @@ def make(
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
     _require_folders(outdated)
-    options = _special_options(arguments)
-    if options == {"dryrun"}:
+    options = options_of(arguments)
+    if options.dryrun and not options.special:
         print(*plan(freshness, paths), sep="\n")
         return 0
-    if not outdated and not options:
+    if not outdated and not options.special:
         return 0
     specs = freshness.build_specs
-    require_space(specs[path] for path in outdated)
 
     # If an input keeps its bytes, what was made from it stays current: that is decided when the
     # job begins. With special options, snakemake decides.
     def current(path: str) -> bool:
-        return not options and Freshness(ROOT, specs).own_reason(path) is None
+        return not options.special and Freshness(ROOT, specs).own_reason(path) is None
 
     forced = [path for path, reason in outdated.items() if reason != MISSING]
     # ./reproduce has its own lock: a killed snakemake would leave one that stops the next run.
     command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
     command += ["--forcerun", *forced] if forced else []
-    command += ["--nolock", "--workflow-profile", "none", *(paths if options else outdated)]
+    command += ["--nolock", "--workflow-profile", "none", *(paths if options.special else outdated)]
     return _run(command, arguments, server.Plan(checked, specs, set(outdated)), current)
-
-
-def require_space(specs: Iterable[BuildSpec]) -> None:
-    """Raise UsageError if the disk has too little space for the blocks among these results."""
-    swept = [spec for spec in specs if spec.program == "sweep"]
-    blocks = [len(spec.config["cells"]) for spec in swept if "cells" in spec.config]
-    joined = [grid.cells(spec.config) for spec in swept if "cells" not in spec.config]
-    need = RUN_BYTES + CELL_BYTES * max(sum(blocks), sum(joined)) + BLOCK_BYTES * len(blocks)
-    free = shutil.disk_usage(".").free
-    if blocks and free < need:
-        sizes = f"about {need / 1e6:.0f} MB are needed here, {free / 1e6:.0f} are free"
-        raise UsageError(f"the disk is full: {sizes}")
 
 
 def _require_folders(results: Iterable[str]) -> None:
@@ -171,7 +144,7 @@ def _run(
 ) -> int:
     """Run snakemake with further arguments and return its exit status."""
     options = options_of(arguments)
-    if options.cores is None and getattr(options, "jobs", None) is None:
+    if options.cores is None and options.jobs is None:
         command += ["--cores", "all"]
     if is_dry_run(arguments):
         result = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)

@@ -21,7 +21,7 @@ import numpy as np
 import xarray as xr
 
 from ..checks import manifest, published_sets, verify
-from ..checks.checksums import SUMS, ChecksumError, format_sums, known_sums
+from ..checks.checksums import SUMS, ChecksumError, format_sums, read_sums
 from ..checks.difference import Comparison, dataset_difference
 from ..checks.published_sets import PublishedSet
 from ..config.paths import EXPLORER, LEDGER, LEDGER_DATA, PAPER, PUBLISHED
@@ -114,7 +114,7 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
         paths += published_set.texts
         if not manifest.is_present(root, published_set):
             continue
-        names = [*known_sums(root, published_set.folder), SUMS, manifest.MANIFEST]
+        names = [*read_sums(root, published_set.folder), SUMS, manifest.MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]
         data = sorted({path for stages in published_set.data.values() for path in stages.values()})
         present = [path for path in data if (root / path).is_file()]

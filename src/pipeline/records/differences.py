@@ -62,6 +62,21 @@ def differing_package(
     return "; ".join(words) or None
 
 
+def differing_origin(
+    before: Mapping[str, Any], after: Mapping[str, Any], was: str = "then", now: str = "now"
+) -> dict[str, str]:
+    """Describe what differs in what made a result: layer -> words.
+
+    Both mappings have the block of config, the hashes of the sources and the environment.
+    """
+    layers = {
+        "config": differing_block(before["config"], after["config"], was, now),
+        "source": differing_files(before["sources"], after["sources"]),
+        "environment": differing_package(before["environment"], after["environment"], was),
+    }
+    return {layer: words for layer, words in layers.items() if words}
+
+
 def brief(value: Any) -> str:
     """Text of a value for a part of a line, cut to 40 characters."""
     text = value if isinstance(value, str) else json.dumps(value)

@@ -5,7 +5,7 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 
 import base64
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,18 +22,15 @@ from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
 from .. import published_sets
-from ..checksums import known_sums
+from ..checksums import read_sums
 from ..claims import ledger
 from ..claims.schema import CORRECTED, FALSE, Verdict
 from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
 from .captions import caption_of
 
-# What other commands write into results/: name, pattern of its files, command.
-_OTHERS = (
-    ("Article", "article.pdf", "./reproduce article"),
-    ("Archive", "archive/pseudorigid*.tar", "./reproduce archive"),
-)
+# What other commands write into results/: name -> pattern of its files.
+_OTHERS = {"Article": "article.pdf", "Archive": "archive/pseudorigid*.tar"}
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -80,11 +77,26 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
 
 def _others(results: Path) -> Iterator[tuple[str, str, str]]:
     """Yield name, file and command of what other commands write; the file is empty if absent."""
-    for name, pattern, command in _OTHERS:
-        files = sorted(results.glob(pattern))
+    for name, pattern in _OTHERS.items():
+        files, command = sorted(results.glob(pattern)), f"./reproduce {name.lower()}"
         yield from ((f"{name} ({f.name})", f"{f.relative_to(results)}", command) for f in files)
         if not files:
             yield name, "", command
+
+
+def _described(identifier: str, variant: str, name: str, block: dict[str, Any] | None) -> Picture:
+    """Return a picture's caption and its place in the explorer, without an image."""
+    scene = block if block and "picture" in block else None
+    explorer = address(variant, name, scene) if scene else None
+    picture = {"id": identifier, "image": None, "rows": [], "headline": None, "explorer": explorer}
+    return caption_of(name, block)._asdict() | picture
+
+
+def _image(file: Path) -> Picture:
+    """Return a PNG as text, with its size in pixels."""
+    high, wide, _ = pixels(file).shape
+    data = base64.b64encode(read_bytes(file)).decode()
+    return {"image": {"data": data, "wide": wide, "high": high}}
 
 
 class _Page:
@@ -103,19 +115,17 @@ class _Page:
         """Return the pictures of a variant; those that are not current have no image."""
         pictures = []
         for scene, block in self.variants[name].items():
-            file = paths.drawn(scene, "png", name)
+            drawing = paths.drawn(scene, "png", name)
+            picture = _described(f"{name}-{scene}", name, scene, block)
             reason = self.absent.get(name, {}).get(scene)
-            if not reason and (stale := self.outdated.get(file)):
+            if not reason and (stale := self.outdated.get(drawing)):
                 reason = "not made" if stale == MISSING else f"not current: {stale}"
-            picture = caption_of(scene, block)._asdict() | {"id": f"{name}-{scene}"}
-            picture |= {"missing": reason, "image": None, "rows": [], "headline": None}
-            picture["explorer"] = address(name, scene, block)
-            if not reason:
-                picture |= self._image(file) | self._measured(name, scene)
-                picture["file"] = self._file(name, scene)
+            if reason:
+                pictures.append(picture | {"missing": reason})
+            else:
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
-                self.shown |= dict.fromkeys([*data, file])
-            pictures.append(picture)
+                measured = self._measured(name, scene) | {"file": self._file(name, scene)}
+                pictures.append(picture | self._made(drawing, data) | measured)
         return pictures
 
     def on_request(self) -> list[tuple[str, list[Picture]]]:
@@ -133,20 +143,15 @@ class _Page:
         published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
         scene = published_set.scenes.get(name, name.removesuffix(".png"))
-        block = published_set.config.get(scene)
-        picture: Picture = caption_of(scene, block)._asdict()
-        picture |= {"headline": None, "image": None, "id": published.replace("/", "-")}
-        picture["explorer"] = None
-        if scene_block := block if block and "picture" in block else None:
-            picture["explorer"] = address(Path(published_set.results).name, scene, scene_block)
+        block, variant = published_set.config.get(scene), Path(published_set.results).name
+        picture = _described(published.replace("/", "-"), variant, scene, block)
         if drawing and drawing not in findings.stale:
-            if scene_block:
-                picture |= self._measured(Path(published_set.results).name, scene)
-            self.shown |= dict.fromkeys([*published_set.data[scene].values(), drawing])
-            return picture | self._image(drawing) | {"file": published}
+            measured = self._measured(variant, scene) if variant in self.variants else {}
+            made = self._made(drawing, published_set.data[scene].values())
+            return picture | made | measured | {"rows": [], "file": published}
         if not (self.root / published).is_file():
             return None
-        committed_hash = known_sums(self.root, published_set.folder).get(name)
+        committed_hash = read_sums(self.root, published_set.folder).get(name)
         if drawing and file_hash(self.root / published) != committed_hash:
             missing = f"{published} is not the committed one, nor made by this tree"
             return picture | {"missing": missing}
@@ -156,7 +161,12 @@ class _Page:
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
             origin += "; made from other values than config.yaml's"
         file = f"{published}: the committed one ({origin}), not made by this tree"
-        return picture | self._image(published) | {"file": file}
+        return picture | _image(self.root / published) | {"file": file}
+
+    def _made(self, drawing: str, data: Iterable[str]) -> Picture:
+        """Return the image of a current drawing, and list it with its data as shown."""
+        self.shown |= dict.fromkeys([*data, drawing])
+        return _image(self.root / drawing)
 
     def claims(self) -> list[Verdict]:
         """Return the rows of CLAIMS.json in the order of CLAIMS.md, or none."""
@@ -188,19 +198,13 @@ class _Page:
         headline = KINDS[block["picture"]].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
 
-    def _image(self, file: str) -> Picture:
-        """Return a PNG as text, with its size in pixels."""
-        high, wide, _ = pixels(self.root / file).shape
-        data = base64.b64encode(read_bytes(self.root / file)).decode()
-        return {"image": {"data": data, "wide": wide, "high": high}}
-
     def _file(self, variant: str, scene: str) -> str:
         """Return where a picture is published, and whether it is the committed one."""
         drawn = paths.drawn(scene, "png", variant)
         if variant != PAPER:
             return drawn
         folder = PUBLISHED[variant]
-        committed_hash = known_sums(self.root, folder).get(f"{scene}.png")
+        committed_hash = read_sums(self.root, folder).get(f"{scene}.png")
         same = "identical to" if committed_hash == file_hash(self.root / drawn) else "not"
         state = f"{same} the committed one" if committed_hash else "not among the committed ones"
         return f"{folder}/{scene}.png: {state}"

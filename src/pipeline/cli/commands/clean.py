@@ -1,6 +1,5 @@
 """./reproduce clean: delete generated files in results/."""
 
-import json
 import shutil
 import sys
 from contextlib import suppress
@@ -8,7 +7,6 @@ from pathlib import Path
 
 from ...config import ConfigError, build_specs
 from ...config.paths import EXPLORER
-from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
@@ -83,20 +81,17 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     with suppress(ConfigError):  # records alone then say which files are results
         specs = build_specs.of_all(args.checked)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
-    for record in RESULTS.glob("*/provenance/*.json"):
-        # A record may be forged: its path is only compared with the two possible ones.
-        folder = record.parents[1]
-        files = (folder / record.stem, folder / "figures" / record.stem)
-        results = {str(file.relative_to(ROOT)): file for file in files}
-        with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
-            candidates |= {results[json.loads(read_text(record))["output"]["file"]], record}
-    there = sorted(file for file in candidates if file.is_file() and _is_inside(file))
-    chosen = (
+    for record in RESULTS.glob("*/provenance/*.json"):  # what it says may be forged
+        folder, name = record.parents[1], record.stem
+        candidates |= {record, folder / name, folder / "figures" / name}
+    return [
         file
-        for file in there
-        if file.parent == RESULTS or file.relative_to(RESULTS).parts[0] in names
-    )
-    return [file for file in chosen if str(file.relative_to(ROOT)) not in committed]
+        for file in sorted(candidates)
+        if file.is_file()
+        and _is_inside(file)
+        and str(file.relative_to(ROOT)) not in committed
+        and (file.parent == RESULTS or file.relative_to(RESULTS).parts[0] in names)
+    ]
 
 
 def _is_inside(file: Path) -> bool:

@@ -47,26 +47,20 @@ def add_packages(name: str) -> None:
 
 
 def report_damage() -> bool:
-    """Report whether a file of a locked package is missing or cut.
-
-    The file is removed and listed in CONTENTS, so that the next ./reproduce installs the packages
-    again.
-    """
-    if Path(sys.prefix).resolve() != VENV.resolve() or not CONTENTS.is_file():
+    """Report whether a file of a locked package is missing or cut; the next run installs anew."""
+    if Path(sys.prefix).resolve() != VENV.resolve() or not STAMP.is_file():
         return False
     for file, path in _files(_requirement_names()):
         size = path.stat().st_size if path.is_file() else None
         if file.suffix != ".pyc" and size != (file.size or size):
-            path.unlink(missing_ok=True)
-            with CONTENTS.open("a") as contents:
-                contents.write(f"{file}\n")
+            STAMP.unlink()
             print_error(f".venv is damaged: {file}: run ./reproduce again to mend it")
             return True
     return False
 
 
 def set_up(stamp: str, arguments: list[str]) -> None:
-    """Make or mend .venv, then replace this process by `python -m pipeline` with the arguments.
+    """Make .venv, then replace this process by `python -m pipeline` with the arguments.
 
     `stamp` is the text of STAMP: what .venv is made from and for.
     """
@@ -75,14 +69,9 @@ def set_up(stamp: str, arguments: list[str]) -> None:
             signal.signal(number, signal.default_int_handler)
     try:
         with chdir(ROOT), locked():
-            complete = CONTENTS.is_file() and STAMP.is_file() and STAMP.read_text() == stamp
-            if complete and _python_starts():
-                _mend()
-            elif complete:
-                _make("the Python of .venv does not start: making .venv again")
-            else:
-                _make("installing the locked packages into .venv (once)")
-            write_whole(STAMP, stamp)
+            if not _is_complete(stamp):  # as another process may have made it meanwhile
+                _make()
+                write_whole(STAMP, stamp)
     except KeyboardInterrupt:
         print_error("interrupted: run it again to go on")
         sys.exit(130)
@@ -98,36 +87,29 @@ def set_up(stamp: str, arguments: list[str]) -> None:
     os.execv(python, [python, "-P", "-m", "pipeline", *arguments])
 
 
-def _python_starts() -> bool:
+def _is_complete(stamp: str) -> bool:
+    """Return whether .venv has its packages and its Python starts."""
     try:
-        return _run([VENV / "bin" / "python", "-I", "-S", "-c", ""])
-    except OSError:
+        if STAMP.read_text() != stamp or not _run([VENV / "bin" / "python", "-I", "-S", "-c", ""]):
+            return False
+        return all((_site_packages() / name).exists() for name in CONTENTS.read_text().splitlines())
+    except (OSError, ValueError):
         return False
 
 
-def _make(message: str) -> None:
+def _make() -> None:
     """Make .venv from nothing."""
     _remove()
     VENV.mkdir()
     LOG.touch()
     with _plain_path() as root:
         _make_environment(f"{root}/.venv")
-    _install(["build", "lock"], message)
+    _install(["build", "lock"], "installing the locked packages into .venv (once)")
 
 
 def _make_environment(path: str | Path) -> None:
     """Make a virtual environment, or only its scripts if it is there."""
     _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", path]))
-
-
-def _mend() -> None:
-    """Install the packages again if some are missing; a user's own packages stay."""
-    STAMP.unlink()
-    names = CONTENTS.read_text().splitlines()
-    missing = [name for name in names if not (_site_packages() / name).exists()]
-    if missing:
-        message = f".venv lacks {missing[0]}: installing its packages again"
-        _install(_requirement_names(), message, again=True)
 
 
 def _remove() -> None:
