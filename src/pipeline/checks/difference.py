@@ -41,7 +41,7 @@ class Comparison:
 
     def layers(self, name: str) -> dict[str, str] | None:
         """Return differing layer -> words, the cause first; None if the manifest lacks the file."""
-        scene = self.published_set.scenes[name]
+        scene = Path(name).stem
         entry = self._entry(scene)
         if name not in entry["figures"]:
             return None
@@ -120,7 +120,7 @@ class Comparison:
         """
         results = []
         for name, drawing in self.published_set.drawn.items():
-            scene = self.published_set.scenes[name]
+            scene = Path(name).stem
             differing, figure = [*self._differing_datasets(scene)], self._entry(scene)["figures"]
             if name in figure and self.file_hash(drawing) not in (None, figure[name]["sha256"]):
                 differing.append(drawing)

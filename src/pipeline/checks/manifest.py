@@ -100,7 +100,7 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
                 "figures": {
                     name: {"drawing": describe(folder / name), "sha256": file_hash(folder / name)}
                     for name in sorted(published_set.drawn)
-                    if published_set.scenes[name] == scene
+                    if Path(name).stem == scene
                 },
             }
             for scene, block in published_set.config.items()

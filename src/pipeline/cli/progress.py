@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Iterable
+from pathlib import PurePath
 from typing import Any
 
 from ..checks.checksums import ChecksumError, read_sums
@@ -105,7 +106,7 @@ def states(published_set: PublishedSet) -> list[Row]:
         scenes = {}
     rows = []
     for name, drawing in published_set.drawn.items():
-        scene, path, stale = published_set.scenes[name], f"{folder}/{name}", ""
+        scene, path, stale = PurePath(name).stem, f"{folder}/{name}", ""
         if file_hash(ROOT / drawing):
             outdated = list(freshness.outdated([*published_set.data[scene].values(), drawing]))
             stale = why(freshness, outdated) if outdated else ""

@@ -142,8 +142,8 @@ class _Page:
         """Return the picture of this tree if it is current, else the committed one, or None."""
         published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
-        scene = published_set.scenes.get(name, name.removesuffix(".png"))
-        block, variant = published_set.config.get(scene), Path(published_set.results).name
+        scene, variant = Path(name).stem, Path(published_set.results).name
+        block = published_set.config.get(scene)
         picture = _described(published.replace("/", "-"), variant, scene, block)
         if drawing and drawing not in findings.stale:
             measured = self._measured(variant, scene) if variant in self.variants else {}
