@@ -78,7 +78,6 @@ COMMANDS = {
         _name("a", "a variant of config.yaml, or paper"),
         _name("b", "another one"),
         _names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
-        _switch("--all", "print a line for each variable and each orbit that differs"),
     ),
     "sweep": SnakemakeCommand("compute grids over k and E/g^2, in results/sweep/", *_SWEEPS),
     "atlas": SnakemakeCommand("draw these grids, in more_figures/atlas/", *_SWEEPS, module="sweep"),

@@ -13,7 +13,7 @@ from ...config.paths import Variants
 from ...config.schema.fields import YamlMapping
 from ...records.artifacts import canonical_json, load
 from ...records.differences import brief, differing_keys
-from . import cycles, exponents, norms, orbits, picture
+from . import cycles, picture, summaries
 
 Pair = tuple[xr.Dataset, xr.Dataset]  # the datasets of a stage of both variants
 
@@ -24,12 +24,10 @@ def compare(
     names: Sequence[str],
     absent: Sequence[Mapping[str, str]],
     scenes: Sequence[str],
-    everything: bool,
 ) -> None:
     """Print what differs between two variants and save their figures side by side.
 
-    `absent` has, for each of the two, scene -> why its figure cannot exist. If `everything`, each
-    variable and each orbit that differs has a line, otherwise each stage has one.
+    `absent` has, for each of the two, scene -> why its figure cannot exist.
     """
     artifact_paths = paths.artifact_paths(variants)
     blocks = {scene: [variants[name][scene] for name in names] for scene in scenes}
@@ -40,41 +38,33 @@ def compare(
 
     print(f"{names[0]} | {names[1]}")
     for scene, pair in blocks.items():
-        reasons = dict(zip(names, (reasons.get(scene) for reasons in absent), strict=True))
+        reasons = {
+            name: why[scene] for name, why in zip(names, absent, strict=True) if scene in why
+        }
         lines = [*_config_differences(*pair)]
-        lines += [f"cannot exist in {name}: {reason}" for name, reason in reasons.items() if reason]
-        for stage in paths.stages(pair[0]) if not any(reasons.values()) else ():
+        lines += [f"cannot exist in {name}: {reason}" for name, reason in reasons.items()]
+        for stage in paths.stages(pair[0]) if not reasons else ():
             if stage != "periodic":
-                texts = _stage_differences(stage, data(scene, stage), names, everything)
+                both = data(scene, stage)
+                texts = [summaries.norms(*both)]
+                texts += summaries.orbits(*both) if stage == "orbits" else []
                 lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
         image = root / f"results/compare/{names[0]}..{names[1]}/{scene}.png"
-        if all(reasons.values()):
+        if len(reasons) == 2:
             image.unlink(missing_ok=True)
         else:
-            drawings = {
-                name: None if reason else root / paths.drawn(scene, "png", name)
-                for name, reason in reasons.items()
-            }
-            picture.side_by_side(drawings, image)
+            drawn = {name: root / paths.drawn(scene, "png", name) for name in names}
+            picture.side_by_side(drawn | dict.fromkeys(reasons), image)
             lines.append(f"side by side: {image.relative_to(root)}")
         print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
     _print_periodic_orbits(blocks, names, data)
     for scene, (block, _) in blocks.items():
         if "lyapunov" in paths.stages(block):
-            quantity = "mean over its orbits ± their standard deviation"
-            print(f"\nLyapunov exponents of {scene}: {quantity}")
             print(
-                *(f"  {line}" for line in exponents.table(*data(scene, "lyapunov"), names)),
-                sep="\n",
+                f"\nLyapunov exponents of {scene}: mean over its orbits ± their standard deviation"
             )
-
-
-def _stage_differences(stage: str, pair: Pair, names: Sequence[str], everything: bool) -> list[str]:
-    """Describe how the two datasets of a stage differ."""
-    lines = norms.table(*pair, names) if everything else [norms.summary(*pair, names)]
-    if stage == "orbits":
-        lines += orbits.table(*pair) if everything else orbits.summary(*pair)
-    return lines
+            lines = summaries.exponents(*data(scene, "lyapunov"), names)
+            print(*(f"  {line}" for line in lines), sep="\n")
 
 
 def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:

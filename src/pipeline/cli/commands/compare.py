@@ -20,7 +20,7 @@ def run(args: Arguments) -> int:
     with locked():
         for name in names:
             files = figures.of_scenes(checked, name, args.figure)
-            status = figures.make(checked, name, files, args.options, brief=not args.all)
+            status = figures.make(checked, name, files, args.options, brief=True)
             if status and not (name in config.PUBLISHED and figures.absent(checked, name)):
                 return status
         if running.is_dry_run(args.options):
@@ -31,5 +31,5 @@ def run(args: Arguments) -> int:
         print()
         with interruptible(), one_line():
             absent = [figures.absent(checked, name) for name in names]
-            compare(ROOT, variants, names, absent, scenes, args.all)
+            compare(ROOT, variants, names, absent, scenes)
     return 0
