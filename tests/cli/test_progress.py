@@ -72,13 +72,17 @@ def test_a_plan_names_what_changed_by_scene(made):
         return root, specs | new
 
     changed = with_config(DRAWING, view={"elevation": 30})
-    assert planned(changed) == ["fig2: view.elevation 40 -> 30: drawing"]
+    assert planned(changed) == [
+        "fig2: made from another config: view.elevation: 40 then, 30 now: drawing"
+    ]
     changed = with_config(*specs, energy=0.008)
-    assert planned(changed) == ["fig2: energy 0.01 -> 0.008: orbits, drawing"]
+    words = "fig2: made from another config: energy: 0.01 then, 0.008 now: orbits, drawing"
+    assert planned(changed) == [words]
     (root / "b.py").write_text("other")
-    assert planned(made) == ["fig2: its source changed: b.py: orbits, drawing"]
+    other = "made by other code than this tree's"
+    assert planned(made) == [f"fig2: {other}: b.py differs: orbits, drawing"]
     (root / "a.py").write_text("other")
-    both = "its source changed: a.py and 1 more; its source changed: b.py"
+    both = f"{other}: a.py differs (and 1 more); {other}: b.py differs"
     assert planned(made) == [f"fig2: {both}: orbits, drawing"]
 
 
@@ -92,9 +96,9 @@ def test_a_plan_names_damaged_and_missing_results(made):
     (root / DRAWING).unlink()
     assert planned(made) == ["fig2: not made yet: drawing"]
     (root / ORBITS).write_text("other")
-    assert planned(made) == [f"fig2: {ORBITS} was changed after it was made: orbits, drawing"]
+    assert planned(made) == ["fig2: changed after it was made: orbits, drawing"]
     (root / record_path(ORBITS)).write_text("{")
-    assert planned(made)[0].startswith(f"fig2: {ORBITS}: its record ")
+    assert planned(made)[0].startswith("fig2: its record results/paper/")
     for name in (record_path(ORBITS), ORBITS):
         (root / name).unlink()
     assert planned(made) == ["fig2: not made yet: orbits, drawing"]

@@ -73,15 +73,17 @@ def test_a_plan_is_in_our_words_and_makes_nothing(done):
     done.edit("fig7", records=5)
     done.edit("fig3", duration=30)
     before = done.published()
-    fig7 = "fig7: records 6 -> 5: lyapunov, drawing\n"
+    fig7 = "fig7: made from another config: records: 6 then, 5 now: lyapunov, drawing\n"
     hidden = "fig3: duration 30 lies outside axes.t.limits [0, 16]: widen them, or leave axes.t out"
     result = done.run("-n", "--cores", "1")
     assert result.returncode == 0
-    assert result.stdout.startswith("fig2: energy 0.01 -> 0.0098: orbits, drawing\nfig3: ")
+    plan = "fig2: made from another config: energy: 0.01 then, 0.0098 now: orbits, drawing\nfig3: "
+    assert result.stdout.startswith(plan)
     assert fig7 in result.stdout and hidden in result.stdout.splitlines()
     assert done.run("fig7", "-n").stdout == fig7
     assert done.run("fig4", "-n").stdout == "nothing to make\n"
-    listed = "fig3  paper_figures/fig3.png  stale: duration 16 -> 30\n"
+    stale = "stale: made from another config: duration: 16 then, 30 now"
+    listed = f"fig3  paper_figures/fig3.png  {stale}\n"
     assert listed in done.run("list").stdout
     assert done.published() == before
 
@@ -107,7 +109,8 @@ def test_deleted_results_come_back_for_the_named_figures_alone(done):
 def test_data_that_keep_their_bytes_have_nothing_drawn_from_them(done):
     """Edits of sources leave the numbers as they are, and a missing drawing is made."""
     append(done, "motion.py")
-    plan = "fig3: its source changed: motion.py: motion; perhaps drawing\n"
+    code = "made by other code than this tree's: src/pseudorigid/dynamics/motion.py differs"
+    plan = f"fig3: {code}: motion; perhaps drawing\n"
     assert done.run("fig3", "-n").stdout == plan
     append(done, "periodic.py")
     folder = done.path / PAPER

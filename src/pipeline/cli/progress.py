@@ -1,16 +1,13 @@
 """Describe to a user what a run would make and why, and the state of files."""
 
-import os
 from collections.abc import Iterable
 from pathlib import PurePath
-from typing import Any
 
 from ..checks.checksums import ChecksumError, read_sums
-from ..checks.freshness import DAMAGED, MISSING, Freshness
+from ..checks.freshness import MISSING, Freshness
 from ..checks.published_sets import PublishedSet
-from ..records.differences import brief, differing_keys
+from ..records.differences import differing_block
 from ..records.files import file_hash
-from ..records.record import RecordError, read_record, record_path
 from ..records.sources import ROOT
 
 NOT_YET = "not made yet"
@@ -40,41 +37,13 @@ def plan(freshness: Freshness, paths: Iterable[str]) -> list[str]:
 
 
 def why(freshness: Freshness, paths: list[str]) -> str:
-    """Say why outdated results must be made: key, old -> new, or what else differs."""
-    own = [path for path in paths if freshness.own_reason(path)]
-    causes = dict.fromkeys(_cause(freshness, path) for path in own)
+    """Say why outdated results must be made."""
+    causes = dict.fromkeys(filter(None, map(freshness.own_reason, paths)))
     if len(causes) > 1:
-        causes.pop(NOT_YET, None)
-    shown = list(causes)[:_MOST_CAUSES]
+        causes.pop(MISSING, None)
+    shown = [NOT_YET if cause == MISSING else cause for cause in [*causes][:_MOST_CAUSES]]
     more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
     return "; ".join(shown + more) or str(freshness.reason(paths[0]))
-
-
-def _changes(before: dict[str, Any], after: dict[str, Any]) -> str:
-    """Say which keys of two blocks of config differ: `key old -> new` for each."""
-    keys = differing_keys(before, after)
-    return ", ".join(f"{key} {brief(old)} -> {brief(new)}" for key, old, new in keys)
-
-
-def _cause(freshness: Freshness, path: str) -> str:
-    """Say why a result must be made, apart from its inputs."""
-    spec, reason = freshness.build_specs[path], str(freshness.reason(path))
-    if reason == MISSING:
-        return NOT_YET
-    if reason == DAMAGED:
-        return f"{path} was {reason}"
-    try:
-        record = read_record(freshness.root, record_path(path))
-    except RecordError as error:
-        return f"{path}: {error}"
-    if changed_keys := _changes(record["config"], spec.config):
-        return changed_keys
-    before, after = record["sources"], {file: freshness.syntax_hash(file) for file in spec.sources}
-    files = [f for f in sorted({*before, *after}) if before.get(f) != after.get(f)]
-    if files:
-        others = f" and {len(files) - 1} more" if len(files) > 1 else ""
-        return f"its source changed: {os.path.basename(files[0])}{others}"
-    return reason
 
 
 def committed(folder: str, paths: Iterable[str]) -> dict[str, str]:
@@ -111,7 +80,7 @@ def states(published_set: PublishedSet) -> list[Row]:
             outdated = list(freshness.outdated([*published_set.data[scene].values(), drawing]))
             stale = why(freshness, outdated) if outdated else ""
         elif scene in scenes:
-            stale = _changes(scenes[scene]["config"], published_set.config[scene])
+            stale = differing_block(scenes[scene]["config"], published_set.config[scene]) or ""
         state = as_committed[path]
         text = f"stale: {stale}" if stale and state != MISSING else _LISTED.get(state, state)
         rows.append((scene, path, text))
