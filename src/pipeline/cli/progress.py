@@ -6,6 +6,7 @@ from pathlib import PurePath
 from ..checks.checksums import ChecksumError, read_sums
 from ..checks.freshness import MISSING, Freshness
 from ..checks.published_sets import PublishedSet
+from ..config.build_specs import with_dependencies
 from ..records.differences import differing_block
 from ..records.files import file_hash
 from ..records.sources import ROOT
@@ -60,6 +61,12 @@ def committed(folder: str, paths: Iterable[str]) -> dict[str, str]:
     return states
 
 
+def staleness(freshness: Freshness, path: str) -> str:
+    """Say why a result is outdated, or return an empty text."""
+    outdated = freshness.outdated(with_dependencies(freshness.build_specs, [path]))
+    return f"stale: {why(freshness, [*outdated])}" if outdated else ""
+
+
 def states(published_set: PublishedSet) -> list[Row]:
     """State of each file of a published set.
 
@@ -77,11 +84,12 @@ def states(published_set: PublishedSet) -> list[Row]:
     for name, drawing in published_set.drawn.items():
         scene, path, stale = PurePath(name).stem, f"{folder}/{name}", ""
         if file_hash(ROOT / drawing):
-            outdated = list(freshness.outdated([*published_set.data[scene].values(), drawing]))
-            stale = why(freshness, outdated) if outdated else ""
+            stale = staleness(freshness, drawing)
         elif scene in scenes:
-            stale = differing_block(scenes[scene]["config"], published_set.config[scene]) or ""
+            blocks = scenes[scene]["config"], published_set.config[scene]
+            stale = f"stale: {words}" if (words := differing_block(*blocks)) else ""
         state = as_committed[path]
-        text = f"stale: {stale}" if stale and state != MISSING else _LISTED.get(state, state)
-        rows.append((scene, path, text))
+        rows.append(
+            (scene, path, stale if stale and state != MISSING else _LISTED.get(state, state))
+        )
     return rows

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import xarray as xr
 
-from . import chaos, closure, impacts, model, periodic, schema
+from . import chaos, model, periodic, schema
 
 # MODULE.FUNCTION -> each public function of the modules with checks.
 CHECKS = {
     f"{module.__name__.rpartition('.')[2]}.{name}": function
-    for module in (model, impacts, periodic, chaos, closure)
+    for module in (model, periodic, chaos)
     for name, function in getmembers(module, isfunction)
     if function.__module__ == module.__name__ and not name.startswith("_")
 }

@@ -120,8 +120,8 @@ def independent(spread: xr.Dataset) -> Outcome:
 
 def chaotic_nature(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of chaotic orbits with the bound for regular ones of their length."""
-    impacts = spread.sizes["block"] * int(spread.attrs["block_impacts"])
-    least, bound = _largest_exponents(spread).min(), regular_bound(impacts)
+    impacts, least = _impacts(spread), _largest_exponents(spread).min()
+    bound = regular_bound(impacts)
     positive = least > CHAOTIC_EXPONENT_RATIO * bound
     return outcome_of(positive, least=least, impacts=impacts, bound=bound, **_orbits(spread))
 
@@ -150,11 +150,23 @@ def long_run(spread: xr.Dataset) -> Outcome:
 
 def opposite(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Find how far exponents are from vanishing in pairs, beside the algebra of determinants."""
-    means = spread["exponent"].values.mean(axis=0)
-    impacts = int(spread.attrs["block_impacts"]) * spread.sizes["block"]
+    means, impacts = spread["exponent"].values.mean(axis=0), _impacts(spread)
     drift = max(np.abs(means[:, 0] + means[:, 2]).max(), np.abs(means[:, 1]).max())
     holds = formula(algebra, "determinants")[0] and drift < 100.0 / impacts
     return outcome_of(holds, drift=drift, impacts=impacts)
+
+
+def third_exponent(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
+    """Find the largest middle exponent, beside the algebra of the energy."""
+    middle = np.abs(spread["exponent"].values[:, :, 1].mean(axis=0)).max()
+    impacts = _impacts(spread)
+    kept = formula(algebra, "conserved_energy", "jump_conditions")[0]
+    return outcome_of(kept and middle < 100.0 / impacts, middle=middle, impacts=impacts)
+
+
+def _impacts(spread: xr.Dataset) -> int:
+    """Return the number of impacts of each orbit."""
+    return int(spread.attrs["block_impacts"]) * spread.sizes["block"]
 
 
 def depends_on_energy(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:

@@ -10,7 +10,7 @@ CAPTIONS = tomllib.loads(Path(__file__).with_name("captions.toml").read_text(enc
 
 
 class Caption(NamedTuple):
-    """The texts of a picture; `shows` and `see` are empty if it has no caption."""
+    """The texts of a picture."""
 
     name: str
     title: str
@@ -22,13 +22,12 @@ def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
     """Return the caption of a complete scene or sweep, or of a chart, which has no block."""
     block = block or {}
     if "picture" in block:
-        texts = CAPTIONS["kinds"].get(block["picture"])
+        texts = CAPTIONS["kinds"][block["picture"]]
     elif "k" in block:
         kind = "chains" if "chains" in block else "line" if len(block["k"]) == 1 else "plane"
         texts = CAPTIONS["sweeps"][kind]
     else:
-        texts = CAPTIONS["charts"].get(name)
-    texts = texts or {"title": "a picture without a caption", "shows": "", "see": ""}
+        texts = CAPTIONS["charts"][name]
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
     return Caption(shown_name, *(_filled(texts[part], block) for part in ("title", "shows", "see")))

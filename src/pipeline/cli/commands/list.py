@@ -11,7 +11,7 @@ from ...records.differences import columns
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import Arguments
-from ..progress import Row, states, why
+from ..progress import Row, staleness, states
 
 
 def run(args: Arguments) -> int:
@@ -39,14 +39,12 @@ def _states(freshness: Freshness, results: Iterable[str], absent: dict[str, str]
     """Return (scene, file, state) of results that are not published."""
     rows = []
     for path in results:
-        scene, state = PurePath(path).stem, "current"
+        scene = PurePath(path).stem
         if scene in absent:
             state = f"cannot exist: {absent[scene]}"
-        elif not (ROOT / path).is_file():
-            state = MISSING
-        elif freshness.reason(path):
-            upstream = build_specs.with_dependencies(freshness.build_specs, [path])
-            state = f"stale: {why(freshness, list(freshness.outdated(upstream)))}"
+        else:
+            missing = not (ROOT / path).is_file()
+            state = MISSING if missing else staleness(freshness, path) or "current"
         rows.append((scene, path, state))
     return rows
 

@@ -31,15 +31,8 @@ def download(folder: Path, python: str, machine: str | None) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     lines = [line for name in REQUIREMENTS for line in _requirements(name, python, machine)]
     pip = [sys.executable, "-I", "-m", "pip"]
-    options = [
-        "--no-deps",
-        "--require-hashes",
-        "--quiet",
-        "--progress-bar=off",
-        "--dest",
-        str(folder),
-    ]
-    options += [f"--python-version={python}"]
+    options = ["--no-deps", "--require-hashes", "--quiet", "--progress-bar=off"]
+    options += [f"--dest={folder}", f"--python-version={python}"]
     if machine:  # pip tries only the tags that it is given
         options += [f"--platform=manylinux_2_{glibc}_{machine}" for glibc in range(_GLIBC, 4, -1)]
         options += [f"--platform=manylinux2014_{machine}", f"--platform=linux_{machine}"]
@@ -85,11 +78,8 @@ def _requirements(name: str, python: str, machine: str | None) -> list[str]:
     from packaging.markers import Marker
 
     target = {"python_version": python, "python_full_version": f"{python}.0"}
-    target |= {
-        "platform_machine": machine or platform.machine(),
-        "sys_platform": "linux",
-        "platform_system": "Linux",
-    }
+    target |= {"sys_platform": "linux", "platform_system": "Linux"}
+    target["platform_machine"] = machine or platform.machine()
     needed = []
     for line in _logical_lines(name):
         pin, _, marker = line.partition(" --hash")[0].partition(";")
