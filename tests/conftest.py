@@ -2,6 +2,7 @@
 
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 
@@ -105,15 +106,56 @@ def accepted(shared, finished):
     return Tree(shared("accepted here", lambda folder: finished.copy(folder).succeed("accept")))
 
 
-def _compare_variants(folder):
-    tree = fresh_tree(folder, of_scenes("fig3", "fig4", "fig7", variants=VARIANTS))
-    (folder / "said of paper and low").write_text(tree.succeed("compare", "paper", "low"))
+@pytest.fixture(scope="session")
+def variants(shared, finished):
+    """A read-only copy with three small scenes and two variants, one of them compared."""
+
+    def compare(folder):
+        tree = fresh_tree(folder, of_scenes("fig3", "fig4", "fig7", variants=VARIANTS), finished)
+        (folder / "said of paper and low").write_text(tree.succeed("compare", "paper", "low"))
+
+    return Tree(shared("variants in a folder with spaces", compare))
+
+
+OTHER_STRAIN = """_MOTION = scene_motion
+
+
+def scene_motion(*given, **fields):
+    found = _MOTION(*given, **fields)
+    return found.assign(strain=found["strain"] * 1.01)
+"""
 
 
 @pytest.fixture(scope="session")
-def variants(shared):
-    """A read-only copy with three small scenes and two variants, one of them compared."""
-    return Tree(shared("variants in a folder with spaces", _compare_variants))
+def edited(shared, accepted):
+    """A read-only fresh clone with results from a cache and edits, and what a run printed.
+
+    Figures 3 and 4 have another source with other data, orbits another source with the same data,
+    figure 7 another config. One scene is new, another one cannot exist, and a figure has no scene.
+    """
+
+    def make(path):
+        tree = fresh_tree(path, results_of=accepted)
+        figures = path / "paper_figures"
+        shutil.copytree(
+            accepted.path / "paper_figures", figures, copy_function=shutil.copy, dirs_exist_ok=True
+        )
+        shutil.copy(figures / "fig3.png", figures / "fig9.png")
+        tree.edit("fig7", records=5)
+        document = tree.document()
+        scenes = document["scenes"]
+        scenes["again"] = scenes["fig7"] | {"impacts": 40, "formats": ["png"]}
+        scenes["absent"] = scenes["fig3"] | {"type": "inverse hyperbolic", "formats": ["png"]}
+        tree.write(document)
+        tree.append("pseudorigid/dynamics/motion.py", OTHER_STRAIN)
+        tree.append("pseudorigid/dynamics/orbits.py")
+        for i, file in enumerate(sorted(path.glob("src/**/*.py"))):
+            os.utime(file, (4e9, 4e9) if i % 2 else (0, 0))
+        result = tree.run()
+        assert result.returncode == 1  # a figure is missing
+        (path / "output").write_text(result.stdout)
+
+    return Tree(shared("with edits", make))
 
 
 @pytest.fixture

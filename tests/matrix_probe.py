@@ -16,17 +16,14 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import paper_probe
 from numba import njit
 from numpy._core._multiarray_umath import __cpu_features__
 
-from pipeline import config
-from pseudorigid.dynamics import lyapunov, orbits, variables
+# `short` needs no more than this; what imports xarray and matplotlib is imported where it is used.
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.kernel import arithmetic
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.sweep import cell
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01
@@ -81,6 +78,8 @@ def chaotic_orbit(impacts):
 
 def scanned():
     """The hash of orbits, exponents and inverses by the paper's own method."""
+    from pseudorigid.dynamics import lyapunov, orbits, variables
+
     ball = Ball(BALL.k, BALL.g, ImpactMap((0.1, 1e-12)))
     state = ball.start(SEA, ENERGY)
     track = orbits.orbit(ball, state, 1000)
@@ -92,7 +91,11 @@ def scanned():
 
 def everything():
     """Yield (name, hash) of the tables, and of data and figures of each kind, as saved."""
+    import paper_probe
     from project import shipped, small
+
+    from pipeline import config
+    from pseudorigid.dynamics import lyapunov
 
     yield "table", table(200_000)
     yield from short()
@@ -137,6 +140,8 @@ def may_fuse(a, b):
 
 def compiled():
     """Yield (function, library calls and fused operations) of every compiled function."""
+    from pseudorigid.sweep import cell
+
     dict(everything())
     BALL.inverse_impact(0.1, 0.1, 0.1)
     cell.cell(0.2, 6.25, 16, 1000)

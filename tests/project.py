@@ -139,17 +139,28 @@ class Tree:
             for file in (self.path / "paper_figures").iterdir()
         }
 
+    def append(self, file, text="_EDITED = 1\n"):
+        """Append code to a source file, by default a line without an effect."""
+        with (self.path / "src" / file).open("a") as source:
+            source.write(text)
+
+    def take(self, other, word):
+        """Copy the results and published figures of another tree that have a word in the name."""
+        for folder in ("results/paper", "paper_figures"):
+            for file in (other.path / folder).rglob(f"*{word}*"):
+                shutil.copy(file, self.path / file.relative_to(other.path))
+
     def copy(self, path):
         """Copy it with its results."""
         shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)
         return Tree(path, cold=True)
 
 
-def fresh_tree(path, document=None):
+def fresh_tree(path, document=None, results_of=None):
     """Make the files of a fresh clone: sources, a config, and figures newer than anything.
 
     `document` is its config, by default the shipped scenes with little work. A text file stands for
-    each committed figure.
+    each committed figure. `results_of` is a tree whose results are copied, as from a cache.
     """
     path.mkdir(parents=True)
     for part in PARTS:
@@ -167,6 +178,8 @@ def fresh_tree(path, document=None):
             file = figures / f"{scene}.{extension}"
             file.write_text("committed")
             os.utime(file, (4e9, 4e9))
+    if results_of:
+        shutil.copytree(results_of.path / "results", path / "results", copy_function=shutil.copy)
     return tree
 
 

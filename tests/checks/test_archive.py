@@ -10,6 +10,9 @@ import pytest
 from verdicts import against
 
 from pipeline import config
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import verify
+from pipeline.cli.session import UsageError
 from pipeline.config.paths import EXPLORER
 from pipeline.explorer import page
 from pipeline.publication import archive
@@ -121,7 +124,10 @@ def test_only_another_archive_is_replaced(accepted, packed, tmp_path):
     assert written(accepted, tmp_path / "old.tar") == sha256(packed)
 
 
-def test_damaged_and_foreign_archives_are_refused_in_one_line(accepted, packed, tmp_path):
+def test_damaged_and_foreign_archives_are_refused_in_one_line(
+    accepted, packed, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(verify, "ROOT", accepted.path)
     good = packed.read_bytes()
     path = tmp_path / "a.tar"
 
@@ -142,7 +148,9 @@ def test_damaged_and_foreign_archives_are_refused_in_one_line(accepted, packed, 
         (f"{tmp_path}/empty", 1, "no tree of this project"),
         ("", 2, "no archive or folder ''"),
     ):
-        result = accepted.run("verify", "--against", argument)
-        assert result.returncode == status
-        (line,) = result.stdout.splitlines()
-        assert line.startswith("reproduce: verify: ") and argument in line and words in line
+        args = Arguments(against=argument, start=tmp_path, config=config.load(accepted.config))
+        with pytest.raises(UsageError) as raised:
+            verify.run(args)
+        line = str(raised.value)
+        assert (raised.value.status, line.count("\n")) == (status, 0)
+        assert line.startswith("verify: ") and argument in line and words in line

@@ -78,8 +78,6 @@ def test_a_figure_that_no_scene_makes(moved):
     assert (found.status, found.wrong) == (1, {})
     line = "paper_figures/fig9.png: no scene of config.yaml makes it: delete it, "
     assert found.findings == [f"{line}or put its scene back"]
-    result = moved.run("fig3")  # the table of a run says so too
-    assert found.findings[0] in result.stdout.splitlines()
 
 
 def test_the_pictures_of_a_removed_scene_are_listed(moved):
@@ -103,11 +101,17 @@ def of_the_paper(lines):
     return [line for line in lines if not line.startswith("more_figures/")]
 
 
-def test_an_added_scene_is_a_note_until_it_is_accepted(moved):
-    document = moved.document()
-    document["scenes"]["again"] = document["scenes"]["fig3"] | {"duration": 7, "formats": ["png"]}
-    moved.write(document)
-    assert moved.run("paper_figures/again.png").returncode == 0
+def with_scenes(tree, other, *names):
+    """Give a tree some scenes of another one, with the results that it made of them."""
+    document = tree.document()
+    document["scenes"] |= {name: other.document()["scenes"][name] for name in names}
+    tree.write(document)
+    for name in names:
+        tree.take(other, name)
+
+
+def test_an_added_scene_is_a_note_until_it_is_accepted(moved, edited):
+    with_scenes(moved, edited, "again")
     found = verified(moved)
     assert found.notes == ["again.png: new: ./reproduce accept adds it to the manifest"]
     assert (found.status, found.findings) == (0, [])
@@ -125,18 +129,18 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved):
 # ---- accept ----
 
 
-def test_accept_says_what_changed_and_repeats_itself(moved):
+def test_accept_says_what_changed_and_repeats_itself(moved, edited):
     status, lines = accepting(moved)
     assert (status, of_the_paper(lines)) == (0, ["paper_figures: nothing changed"])
-    moved.edit("fig7", impacts=61)
+    moved.edit("fig7", records=5)
     status, (refusal,) = accepting(moved)
     assert status == 1
-    assert "made from another config: impacts: 60 then, 61 now" in refusal
-    assert moved.run("paper_figures/fig7.png", "paper_figures/fig7.svg").returncode == 0
+    assert "made from another config: records: 6 then, 5 now" in refusal
+    with_scenes(moved, edited, "fig7")
     assert set(verified(moved).wrong) == {"fig7.png", "fig7.svg"}
     status, lines = accepting(moved)
     assert status == 0
-    assert lines[0] == "fig7.png  config: impacts: 60 in the manifest, 61 in config.yaml"
+    assert lines[0] == "fig7.png  config: records: 6 in the manifest, 5 in config.yaml"
     assert any(line.startswith("fig7.png  data: results/paper/lyapunov_fig7.nc") for line in lines)
     assert any(line.startswith("fig7.svg  drawing: ") for line in lines)
     assert not any(line.startswith("fig2.png") for line in lines)

@@ -11,7 +11,8 @@ from html.parser import HTMLParser
 from itertools import pairwise
 
 import pytest
-from project import ROOT, Tree, fresh_tree, shipped, small
+from project import ROOT, Tree, fresh_tree, of_scenes
+from runs import VARIANTS
 
 from pipeline import config
 from pipeline.checks import claims
@@ -41,22 +42,15 @@ document.body.appendChild(note);
 """
 
 
-def make(folder):
-    """Make three small scenes, one of them in a variant too, and their report."""
-    document = small(shipped())
-    document["variants"] = {"lower": {"energy": 0.0098, "scenes": {"fig3": {"duration": 9}}}}
-    document["scenes"] = {name: document["scenes"][name] for name in ("fig3", "fig6", "fig7")}
-    tree = fresh_tree(folder, document)
-    shutil.copy(ROOT / "CLAIMS.json", folder)
-    result = tree.run("results/lower/figures/fig3.png")
-    assert result.returncode == 0, result.stdout
-    result = tree.run("report")
-    assert result.returncode == 0, result.stdout
-    (folder / "said").write_text(result.stdout)
-
-
 @pytest.fixture(scope="module")
-def reported(shared):
+def reported(shared, variants):
+    """A read-only copy with three small scenes, two of them also in a variant, and their report."""
+
+    def make(folder):
+        tree = fresh_tree(folder, of_scenes("fig3", "fig6", "fig7", variants=VARIANTS), variants)
+        shutil.copy(ROOT / "CLAIMS.json", folder)
+        (folder / "said").write_text(tree.succeed("report"))
+
     return Tree(shared("reported in a folder with spaces", make))
 
 
@@ -95,7 +89,7 @@ def rendered(tree, absent=()):
 def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
     results = reported.path / "results"
     figures = [results / f"paper/figures/{name}.png" for name in ("fig3", "fig6", "fig7")]
-    for path in (*figures, results / "lower/figures/fig3.png"):
+    for path in (*figures, results / "low/figures/fig3.png"):
         assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1
     assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
@@ -116,7 +110,7 @@ def test_the_page_needs_no_network_and_its_links_have_targets(reported, text):
     explorer = [link for link in links if link.startswith("../explorer.html")]
     opened = {link.partition("#")[2] for link in explorer} - {""}
     scenes = {*collect(config.load(reported.config), reported.path)["scenes"]}
-    assert {"fig3", "fig6", "fig7", "lower/fig3"} <= opened <= scenes
+    assert {"fig3", "fig6", "fig7", "low/fig3"} <= opened <= scenes
     assert "../explorer.html" in explorer
     assert {*links} - {*explorer} <= {f"#{name}" for name in ids}
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h\d", tag)]
@@ -167,7 +161,7 @@ def test_the_page_depends_on_results_alone_but_for_provenance(reported, text, tm
     record = reported.path / "results" / "paper" / "provenance" / "fig3.png.json"
     assert json.loads(record.read_text())["output"]["sha256"] in text
     made = re.findall(r'class="break">(results/\S+)</th>.*data-label="seconds">([^<]*)<', text)
-    assert len(made) == 11 and all(re.fullmatch(r"\d+\.\d", seconds) for _, seconds in made)
+    assert len(made) == 8 + 5 and all(re.fullmatch(r"\d+\.\d", seconds) for _, seconds in made)
     assert rendered(reported) == text
     copy = reported.copy(tmp_path / "elsewhere")
     for path in copy.path.glob("results/*/provenance/*.json"):
@@ -181,12 +175,12 @@ def test_the_page_depends_on_results_alone_but_for_provenance(reported, text, tm
 def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     tree = reported.copy(tmp_path / "poor")
     (tree.path / "CLAIMS.json").write_text("nothing <b> of the kind")
-    shutil.rmtree(tree.path / "results" / "lower")
+    shutil.rmtree(tree.path / "results" / "low")
     with open(tree.path / "results" / "paper" / "lyapunov_fig7.nc", "r+b") as file:
         file.truncate(1000)
     text = rendered(tree, {"paper": {"fig6": "no hyperbolic orbit"}}.items())
     assert "no readable <code>CLAIMS.json</code>" in text
-    assert "did not make: lower" in text and '<h2 id="variants"' not in text
+    assert "did not make: low" in text and '<h2 id="variants"' not in text
     damaged = r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc"
     assert re.search(damaged, text) and "<td>approximately 0.235" not in text
     assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
@@ -310,7 +304,7 @@ def test_in_a_browser(reported, text, tmp_path, width):
     found = json.loads(re.search(r'<pre id="found">(.*?)</pre>', dom)[1])
     assert found["needed"] <= found["room"] <= width
     assert set(found["requests"]) <= {"data:"}
-    scenes = [("paper", "fig3"), ("paper", "fig6"), ("paper", "fig7"), ("lower", "fig3")]
+    scenes = [("paper", "fig3"), ("paper", "fig6"), ("paper", "fig7"), ("low", "fig3")]
     shapes = [
         pixels(reported.path / "results" / variant / "figures" / f"{scene}.png").shape
         for variant, scene in scenes

@@ -11,6 +11,7 @@ import shutil
 import sys
 from pathlib import Path
 
+import matrix_probe
 import pytest
 from fontTools.ttLib import TTFont
 from matplotlib import get_data_path
@@ -89,24 +90,23 @@ def probe(folder, mode, environment, src=ROOT / "src", python=(sys.executable,))
 
 
 @pytest.fixture
-def answer(shared):
-    """name -> the answer of that probe, run once for all tests."""
+def answer(shared, pickled):
+    """name -> the answer of that probe, run once for all tests; "as it is" in this process."""
 
     def ask(name):
+        if name == "as it is":
+            return pickled(name, lambda: dict(matrix_probe.everything()))
+
         def make(folder):
-            own_cache = {"NUMBA_CACHE_DIR": str(folder / "code")}
-            mode, environment, src = "everything", SETTINGS.get(name, {}), ROOT / "src"
+            own_cache, plain = {"NUMBA_CACHE_DIR": str(folder / "code")}, {"NUMBA_DISABLE_JIT": "1"}
+            mode, environment, src = "everything", SETTINGS.get(name, plain), ROOT / "src"
             if "NUMBA_CPU_NAME" in environment:
                 environment = environment | own_cache
-            elif name == "not compiled":
-                mode, environment = "short", {"NUMBA_DISABLE_JIT": "1"}
-            elif name == "compiled here":
-                mode, environment = "compiled", own_cache
-            elif name == "compiled for all":
-                mode, environment = "compiled", GENERIC | own_cache
-            elif name in edits():
-                src = edited_source(folder / "src", name)
-                mode, environment = "short", {"NUMBA_DISABLE_JIT": "1"}
+            elif name.startswith("compiled"):
+                mode, environment = "compiled", own_cache | (GENERIC if "all" in name else {})
+            elif name not in SETTINGS:
+                mode = "short"
+                src = edited_source(folder / "src", name) if name in edits() else src
             found = probe(folder / name, mode, environment, src)
             (folder / "answer.json").write_text(json.dumps(found))
 
