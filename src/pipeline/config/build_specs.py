@@ -100,9 +100,8 @@ def _of_claims(checked: YamlMapping) -> dict[str, BuildSpec]:
 def of_study(variants: Variants) -> dict[str, BuildSpec]:
     """Specify each dataset and chart of the study; inputs come first."""
     scenes, artifact_paths = variants[paths.PAPER], paths.artifact_paths(variants)
-    external = ("pseudorigid.study.methods.scipy_events", "pseudorigid.study.methods.taylor")
-    modules = {"verdicts": ("pseudorigid.study.verdicts",)}
-    modules |= dict.fromkeys(parts.MEASURED, external)
+    external = ["pseudorigid.study.methods.scipy_events", "pseudorigid.study.methods.taylor"]
+    modules = dict.fromkeys(parts.MEASURED, external) | {"verdicts": ["pseudorigid.study.verdicts"]}
     specs = {}
     for part in (*parts.FIXED, *parts.MEASURED):
         path, block = parts.data(part), parts.block(part, scenes)

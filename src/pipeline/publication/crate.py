@@ -68,7 +68,7 @@ def _ref(identifier: str) -> Entity:
     return {"@id": identifier}
 
 
-def _refs(identifiers: Iterable[str], form: str = "{}") -> list[Entity]:
+def _refs(identifiers: Iterable[object], form: str = "{}") -> list[Entity]:
     return [_ref(form.format(identifier)) for identifier in identifiers]
 
 
