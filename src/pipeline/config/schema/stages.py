@@ -11,7 +11,7 @@ class Stage(NamedTuple):
     function: str
     fields: tuple[str, ...]  # the scene's fields that it takes, as far as the scene has them
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
-    follows: bool = True  # it follows orbits, so that a scene's `method` decides its data too
+    follows: bool = False  # it follows orbits, so that a scene's `method` decides its data too
     exact: tuple[str, str] | None = None  # module and function for `method: {exact: true}`
 
     def maker(self, block: Mapping[str, Any]) -> tuple[str, str]:
@@ -31,20 +31,22 @@ STAGES = {
         f"{_DYNAMICS}.orbits",
         "scene_orbits",
         ("starts", "impacts"),
+        follows=True,
         exact=(f"{_PROOFS}.true_orbits.scene", "true_scene_orbits"),
     ),
-    "periodic": Stage(f"{_DYNAMICS}.periodic", "symmetric_orbits", ("period",), follows=False),
+    "periodic": Stage(f"{_DYNAMICS}.periodic", "symmetric_orbits", ("period",)),
     "motion": Stage(
-        f"{_DYNAMICS}.motion", "scene_motion", ("period", "type", "duration"), ("periodic",)
+        f"{_DYNAMICS}.motion", "scene_motion", ("period", "type", "duration"), ("periodic",), True
     ),
     "manifolds": Stage(
         f"{_DYNAMICS}.manifolds",
         "scene_manifolds",
         ("period", "type", "branches", "point", "window", "length", "resolution"),
         ("periodic",),
+        follows=True,
     ),
     **{
-        name: Stage(f"pseudorigid.analyses.{name}", name, tuple(fields.split()), follows=False)
+        name: Stage(f"pseudorigid.analyses.{name}", name, tuple(fields.split()))
         for name, fields in {
             "spread": "orbits length blocks regular regular_impacts cells visits",
             "clusters": "between orbits impacts cuts lags resamples seed",
@@ -61,21 +63,19 @@ STAGES = {
         "shares",
         ("parameter", "span", "step", "starts", "impacts"),
         ("families",),
-        follows=False,
     ),
     "horseshoe": Stage(
         f"{_PROOFS}.theorems.scenes",
         "scene_horseshoe",
         ("period", "type", "connection"),
         ("periodic",),
-        follows=False,
     ),
-    "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",), follows=False),
-    "curves": Stage(
-        f"{_PROOFS}.theorems.curve_scene", "scene_curves", ("rotation_numbers",), follows=False
+    "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",)),
+    "curves": Stage(f"{_PROOFS}.theorems.curve_scene", "scene_curves", ("rotation_numbers",)),
+    "graph": Stage(f"{_PROOFS}.theorems.graph_scene", "scene_graph", ()),
+    "lyapunov": Stage(
+        f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records"), follows=True
     ),
-    "graph": Stage(f"{_PROOFS}.theorems.graph_scene", "scene_graph", (), follows=False),
-    "lyapunov": Stage(f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records")),
 }
 
 

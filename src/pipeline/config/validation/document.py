@@ -6,9 +6,8 @@ from typing import Annotated, Any
 from ..schema.fields import BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.published import PAPER, PUBLISHED
 from ..schema.variant import Prove
-from . import sweeps, variants
+from . import scenes, sweeps
 from .mistakes import complete, mistakes
-from .scenes import checked
 from .words import ConfigError, refusal
 
 # Commands of ./reproduce. A scene of the same name could not be asked for.
@@ -44,17 +43,17 @@ def check(document: object) -> YamlMapping:
     given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
     ball = None if mistakes(BallBlock, given.get("ball"), ()) else given["ball"]
     derived: dict[str, YamlMapping] = {variant: {} for variant in PUBLISHED}
-    for variant, scenes in derived.items():
+    for variant, blocks in derived.items():
         key = "scenes" if variant == PAPER else variant
         for name, block in given.get(key, {}).items():
-            scenes[name], scene_lines = checked(block, ball, (key, name))
+            blocks[name], scene_lines = scenes.checked(block, ball, (key, name))
             lines += scene_lines
             if name in COMMANDS:
                 lines.append(refusal((key,), name, "a name that is no command of ./reproduce"))
             if variant != PAPER and name in given.get("scenes", {}):
                 lines.append(refusal((key,), name, "a name that no scene of the paper has"))
     for name, block in given["variants"].items() if not lines else ():
-        derived[name], variant_lines = variants.derive(given, name, block)
+        derived[name], variant_lines = scenes.derive(given, name, block)
         lines += variant_lines
     grids = {}
     for name, block in given["sweeps"].items():
