@@ -25,11 +25,11 @@ class Ball:
     """A pseudo-rigid ball, dimensionless: lengths in R, times in 1/omega.
 
     A state (x, xdot, udot) is taken just before an impact, where u = -x; x points downwards. States
-    lie on the section xdot + udot >= 0, eq. (22). Methods take scalars or arrays that broadcast.
-    They return floats for scalars, and otherwise arrays of the broadcast shape. Each element has
-    the bits of the scalar call, and is NaN where an argument is not finite. `help(pseudorigid)`
-    says what counts as a number. Two balls are equal if they have equal k and g and their maps find
-    impacts in the same way.
+    lie on the section xdot + udot >= 0, eq. (22). Energies are in m omega^2 R^2, eqs. (15)-(20).
+    Methods take scalars or arrays that broadcast. They return floats for scalars, and otherwise
+    arrays of the broadcast shape. Each element has the bits of the scalar call, and is NaN where an
+    argument is not finite. `help(pseudorigid)` says what counts as a number. Two balls are equal if
+    they have equal k and g and their maps find impacts in the same way.
 
     Parameters
     ----------
@@ -44,10 +44,6 @@ class Ball:
     ------
     ValueError
         k or g is out of range. Methods raise it for a state with xdot + udot < 0.
-
-    Notes
-    -----
-    Positions are in R, xdot in R omega, udot in omega, energies in m omega^2 R^2, eqs. (15)-(20).
 
     References
     ----------

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 
@@ -130,16 +131,11 @@ class Panel:
         (x,), (y,) = self.place(x, y)
         across = float(x), shift[0] * POINT, ha
         up = float(y), shift[1] * POINT, va
-        other_across, other_up = _mirrored(*across), _mirrored(*up)
+        mirrored = _mirrored(*across), _mirrored(*up)
         wide, high = width(text, self.small), self.small * POINT
-        for position in (
-            (across, up), (other_across, other_up), (across, other_up), (other_across, up)
-        ):  # fmt: skip
-            fits_across = _fits(*position[0], wide, left, right)
-            if fits_across and _fits(*position[1], high, bottom, top):
-                across, up = position
-                break
-        (x, right_by, ha), (y, up_by, va) = across, up
+        places = (across, up), mirrored, (across, mirrored[1]), (mirrored[0], up)
+        fits = (_fits(*a, wide, left, right) and _fits(*b, high, bottom, top) for a, b in places)
+        (x, right_by, ha), (y, up_by, va) = next(compress(places, fits), (across, up))
         self.sheet.text(x + right_by, y + up_by, text, ha=ha, va=va, size=self.small)
 
     def _label(self, x, text):
