@@ -1,7 +1,7 @@
 """Coloured cells between axes, their colour scale, and round ticks."""
 
 from fractions import Fraction
-from itertools import cycle
+from itertools import cycle, pairwise
 
 import matplotlib
 import numpy as np
@@ -53,14 +53,22 @@ def minor(panel, across=True):
     left, bottom, right, top = panel.frame
     line_style, size = {"color": style.FRAME, "lw": 0.5}, _MINOR * POINT
     if across:
-        for x in left + panel.across.between(_minor_ticks(panel.across)) * (right - left):
+        for x in left + panel.across.between(minor_ticks(panel.across)) * (right - left):
             panel.sheet.draw([x, x], [bottom, bottom - size], **line_style)
-    for y in bottom + panel.up.between(_minor_ticks(panel.up)) * (top - bottom):
+    for y in bottom + panel.up.between(minor_ticks(panel.up)) * (top - bottom):
         panel.sheet.draw([left, left - size], [y, y], **line_style)
 
 
-def _minor_ticks(axis):
-    return decades(*axis.limits) if axis.decades else between(axis.ticks, *axis.limits)
+def minor_ticks(axis):
+    """Return the middles between equally spaced ticks, or 2, 3, ... 9 times powers of ten."""
+    low, high = axis.limits
+    if axis.decades:
+        logs = log10(np.arange(2, 10))
+        values = [n + part for n in range(int(np.floor(low)), int(np.ceil(high))) for part in logs]
+    else:
+        steps, halves = [b - a for a, b in pairwise(axis.ticks)], range(len(axis.ticks) + 1)
+        values = [axis.ticks[0] + (i - 0.5) * step for step in steps[:1] for i in halves]
+    return [float(value) for value in values if low <= value <= high]
 
 
 def palette(name):
@@ -124,19 +132,3 @@ def ticks(low, high, count):
     first = int(np.ceil(low / step - 1e-9))
     last = int(np.floor(high / step + 1e-9))
     return [float(f"{i * step:.10g}") for i in range(first, last + 1)]
-
-
-def between(values, low, high):
-    """Return minor ticks from low to high, halfway between equally spaced ticks."""
-    if len(values) < 2:
-        return []
-    step = values[1] - values[0]
-    halves = [values[0] + (i - 0.5) * step for i in range(len(values) + 1)]
-    return [half for half in halves if low <= half <= high]
-
-
-def decades(low, high):
-    """Return minor ticks of a logarithmic axis: exponents of 2, 3, ... 9 times powers of ten."""
-    logs = log10(np.arange(2, 10))
-    exponents = [n + part for n in range(int(np.floor(low)), int(np.ceil(high))) for part in logs]
-    return [float(exponent) for exponent in exponents if low <= exponent <= high]
