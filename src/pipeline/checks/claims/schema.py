@@ -13,7 +13,8 @@ from pseudorigid.proofs.derivations import FORMULAS
 
 from ...config import ConfigError, paths
 from ...config.schema.stages import STAGES
-from ...config.validation.words import dotted, meant
+from ...config.validation.words import dotted
+from ...records.names import suggestion
 
 VerdictWord = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
 VERDICT_WORDS = get_args(VerdictWord)
@@ -57,7 +58,7 @@ class Verdict:
 
 
 def _hint(name: str, known: Iterable[str]) -> str:
-    (hint,) = meant(name, known) or [f"known are {', '.join(known)}"]
+    hint = suggestion(name, known) or f"known are {', '.join(known)}"
     return f"{name!r} is not known: {hint}"
 
 

@@ -9,18 +9,16 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+from ...records.names import suggestion
 from ..schema.fields import TAGS, Block, YamlMapping, fields_of
-from .words import Place, dotted, meant, refusal
+from .words import Place, dotted, refusal
 
 _UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the second for keys not text
 _OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
 
 
 def mistakes(model: Any, given: object, place: Place) -> list[str]:
-    """Return a line for each mistake in `given`, which stands at `place`; the topmost first.
-
-    `model` is a Block, or any other type that says what it allows.
-    """
+    """Return a line for each mistake in `given`, which stands at `place`; the topmost first."""
     errors = _errors(model, given)
     # A misspelt key leaves the right one missing: report the former only, and first.
     rank = dict.fromkeys(_UNKNOWN_KEY, 0) | {"missing": 1}
@@ -77,13 +75,11 @@ def allowed_at(annotation: Any, loc: tuple[int | str, ...]) -> tuple[Any, str]:
 def _words(annotation: Any, metadata: list[Any]) -> str | None:
     """Return the words that `schema.fields.allowed` gave to a field, or describe its type.
 
-    Texts, and mappings whose keys are texts, are described by a list of the texts. In other files
-    than config.yaml, a field's description says what is allowed.
+    Texts, and mappings whose keys are texts, are described by a list of the texts.
     """
-    fields = [item for item in metadata if isinstance(item, FieldInfo)]
-    for extra in (field.json_schema_extra for field in fields):
-        if isinstance(extra, dict):
-            return str(extra["allowed"])
+    for item in metadata:
+        if isinstance(item, FieldInfo) and isinstance(item.json_schema_extra, dict):
+            return str(item.json_schema_extra["allowed"])
     if typing.get_origin(annotation) is typing.Literal:
         return f"one of {', '.join(typing.get_args(annotation))}"
     if typing.get_origin(annotation) is dict:
@@ -91,7 +87,7 @@ def _words(annotation: Any, metadata: list[Any]) -> str | None:
         if typing.get_origin(key_type) is typing.Literal:
             *keys, last = typing.get_args(key_type)
             return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
-    return next((field.description for field in fields if field.description), None)
+    return None
 
 
 def _is_of_unknown_key(error: ErrorDetails) -> bool:
@@ -116,12 +112,9 @@ def _line(model: Any, error: ErrorDetails, place: Place) -> str:
     if error["type"] in _UNKNOWN_KEY:
         known = list(fields_of(allowed_at(model, loc[:-1])[0]))
     elif _is_of_unknown_key(error):
-        names = allowed_at(model, loc)[0]
-        if typing.get_origin(names) is typing.Annotated:
-            names = typing.get_args(names)[0]
-        known, where = list(typing.get_args(names)), where[:-1]
+        known, where = list(typing.get_args(allowed_at(model, loc)[0])), where[:-1]
     if known:
-        (hint,) = meant(where[-1], known) or [f"allowed here: {', '.join(known)}"]
+        hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
         return f"{dotted(where)}: unknown key: {hint}"
     if loc[-1:] == ("[key]",):
         where = where[:-2]

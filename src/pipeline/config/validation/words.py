@@ -30,12 +30,7 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Say that there is no such thing, what may be meant, and what there is."""
     names = list(known)
     inventory = f"config.yaml has {', '.join(names) or 'none'}"
-    return f"no {kind} {name}: {' '.join([*meant(name, names), inventory])}"
-
-
-def meant(name: object, known: Iterable[str]) -> list[str]:
-    """Return a question that suggests the known name nearest to `name`; empty if none is near."""
-    return [*filter(None, [suggestion(name, known)])]
+    return f"no {kind} {name}: " + f"{suggestion(name, names)} {inventory}".strip()
 
 
 def dotted(place: Place) -> str:

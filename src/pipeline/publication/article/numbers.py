@@ -88,18 +88,15 @@ def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) ->
         digests = "".join(variables[name]["sha256"] for name in sorted(variables))
         digest = hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]
         hashes.append(f"{file} {digest}")
+    # The SVG file of the picture if it has one, else its PNG file.
+    file = min(entry["figures"], key=lambda name: not name.endswith(".svg"))
     return {
         "name": caption.name,
         "title": title if caption.name == scene else f"{caption.name}: {caption.title}",
         "shows": caption.shows,
         "see": caption.see,
-        "file": f"{folder}/{_vector_or_raster(entry['figures'])}",
+        "file": f"{folder}/{file}",
         "scene": scene,
         "command": command,
         "datasets": ", ".join(hashes),
     }
-
-
-def _vector_or_raster(figures: Table) -> str:
-    """Return the name of a picture's SVG file if it has one, else of its PNG file."""
-    return min(figures, key=lambda name: not name.endswith(".svg"))

@@ -18,6 +18,7 @@ HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 STABLE, UNSTABLE = "#4fa82a", "#123fb0"
 MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
+MANY_HUES = (*HUES, SEA)
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = "#7a5c3a"
 

@@ -13,7 +13,6 @@ from ..canvas.sheet import POINT, Sheet
 _LEFT, _RIGHT = 125, 1000  # pixels
 _NAME = 50  # pixels: room for the name of a resonance
 # Colours by period; a longer period has that of the period less a multiple of their number.
-_HUES = (*style.HUES, style.SEA)
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
 _RESIDUES = -0.6, 1.6
@@ -83,7 +82,7 @@ def _family(panel, scene, families, index, values):
 
 
 def _hue(period):
-    return _HUES[(period - 1) % len(_HUES)]
+    return style.MANY_HUES[(period - 1) % len(style.MANY_HUES)]
 
 
 def _events(panel, scene, families, shown):

@@ -10,7 +10,6 @@ from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 150, 1005  # pixels
 _CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
-_HUES = (*style.HUES, style.SEA)
 _MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
@@ -32,7 +31,7 @@ def draw(scene, last_curve):
 
 
 def _key(sheet, names, top):
-    entries = [(name, hue, "o") for name, hue in zip(names, _HUES, strict=False)]
+    entries = [(name, hue, "o") for name, hue in zip(names, style.MANY_HUES, strict=False)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
@@ -46,7 +45,7 @@ def _residues(sheet, frame, last_curve):
     panel = Panel(sheet, frame, across, up)
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
     for i in range(len(periods)):
-        hue = _HUES[i]
+        hue = style.MANY_HUES[i]
         panel.line(periods[i], size[i], color=hue, lw=0.9)
         above = residues[i] > 0.0
         panel.dots(periods[i][above], size[i][above], hue)
@@ -69,4 +68,4 @@ def _orbits(sheet, frame, last_curve):
     )
     panel = Panel(sheet, frame, across, up, grid=False)
     for i in reversed(range(x.shape[0])):
-        panel.dots(x[i], y[i], _HUES[i], size=0.9)
+        panel.dots(x[i], y[i], style.MANY_HUES[i], size=0.9)

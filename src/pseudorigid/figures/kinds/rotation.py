@@ -12,7 +12,6 @@ from ..canvas.sheet import Sheet
 _LEFT, _RIGHT = 135, 1005  # pixels
 _STARTS = "Start on $y=0$, section radii from the centre"
 _FAR = 4.0  # a curve longer than this times the median does not set the lowest axis
-_HUES = (*style.HUES, style.SEA)
 
 
 @style.pinned()
@@ -101,7 +100,7 @@ def _energies(sheet, frame, rotation):
     for number, (energy, start, change) in enumerate(curves):
         shown = within[number]
         cut = shown.size if shown.all() else int(np.argmin(shown))
-        hue, dashed = _HUES[number % len(_HUES)], number >= len(_HUES)
+        hue, dashed = style.MANY_HUES[number % len(style.MANY_HUES)], number >= len(style.MANY_HUES)
         panel.line(start[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
     rows = -(-len(entries) // 2)
