@@ -7,9 +7,8 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from certificates import numbers, with_field, with_rows
+from certificates import numbers, refused, with_bounds, with_field, with_rows
 from flint import acb, arb, ctx
-from judges import refused, with_bounds
 from matplotlib.path import Path
 from scipy import ndimage
 from sections import BALL

@@ -5,10 +5,9 @@ from fractions import Fraction
 
 import mpmath
 import pytest
-from certificates import with_field
+from certificates import refused, with_bounds, with_field
 from flint import arb, ctx
 from independent_solver import exact_map
-from judges import refused, with_bounds
 
 from pseudorigid.dynamics.fixed_point import resonance
 from pseudorigid.proofs import THEOREMS

@@ -8,9 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from certificates import OTHER_CONSTANTS, numbers, with_field, with_rows
+from certificates import OTHER_CONSTANTS, numbers, refused, with_bounds, with_field, with_rows
 from flint import arb, ctx
-from judges import refused, with_bounds
 from slowly import slowly
 
 from pseudorigid.proofs import THEOREMS

@@ -4,9 +4,8 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from certificates import numbers, with_field, with_rows
+from certificates import numbers, refused, with_field, with_rows
 from flint import arb, ctx
-from judges import refused
 
 from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import one_zero, periodic

@@ -13,9 +13,8 @@ import mpmath
 import numpy as np
 import pytest
 import second_checker
-from certificates import with_field
+from certificates import refused, with_field
 from flint import arb, ctx
-from judges import refused
 from second_checker import STATEMENTS, ImpactMap, Interval, NotProvedError, Series, check
 from sections import sea
 

@@ -1,12 +1,33 @@
-"""Refusals by both checkers of certificates: the package's and the second one."""
+"""Certificates with other numbers, and their refusal by both checkers."""
 
 import dataclasses
+import re
 
 import pytest
 import second_checker
 from slowly import slowly
 
 from pseudorigid.proofs import THEOREMS
+
+OTHER_CONSTANTS = [("k", "1/4"), ("g", "1/24"), ("energy", "1/99")]
+
+
+def numbers(text, field):
+    """The numbers in each row of a field of a certificate, as text."""
+    block = re.search(rf"^{field} = \[\n(.*?)^\]", text, re.MULTILINE | re.DOTALL).group(1)
+    return [re.findall(r"[-\d.e]+", line) for line in block.splitlines()]
+
+
+def with_field(text, field, value):
+    """The certificate with another value of a field of one line."""
+    return re.sub(rf"^{field} = .*$", f"{field} = {value}", text, flags=re.MULTILINE)
+
+
+def with_rows(text, field, rows):
+    """The certificate with other rows of a field."""
+    lines = "".join(f"  [{', '.join(row)}],\n" for row in rows)
+    pattern = re.compile(rf"^{field} = \[\n.*?^\]", re.DOTALL | re.MULTILINE)
+    return pattern.sub(f"{field} = [\n{lines}]", text)
 
 
 def with_bounds(theorem, **bounds):
