@@ -46,6 +46,12 @@ class _Elements(HTMLParser):
             self.found[-1][2] += data
 
 
+def data_of(text):
+    """The text of the page's data, which is JSON."""
+    (data,) = (e[2] for e in _Elements(text).found if e[1].get("id") == "data")
+    return data
+
+
 def test_the_committed_copy_is_current(text):
     """Renew it by .venv/bin/python -m pipeline.explorer.page."""
     assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
@@ -53,8 +59,7 @@ def test_the_committed_copy_is_current(text):
 
 
 def test_the_code_is_small(text):
-    (stored,) = (e[2] for e in _Elements(text).found if e[1].get("id") == "data")
-    assert len(text.encode()) - len(stored.encode()) <= MOST_CODE
+    assert len(text.encode()) - len(data_of(text).encode()) <= MOST_CODE
 
 
 def test_only_the_scripts_of_the_page_may_run(text):
@@ -113,8 +118,7 @@ def test_the_page_follows_config_and_manifest(text, tmp_path):
 
 def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
     variants = config.load(SHIPPED)["variants"]
-    (stored,) = (e for e in _Elements(text).found if e[1].get("id") == "data")
-    scenes = json.loads(stored[2])["scenes"]
+    scenes = json.loads(data_of(text))["scenes"]
     assert {"fig2", "jumps", "curves", "below/fig8", "thin-shell/fig2"} <= set(scenes)
     assert "families" not in scenes and not any("exact" in name for name in scenes)
     assert scenes["thin-shell/fig2"]["ball"]["k"] == 0.3333333333333333
@@ -137,8 +141,8 @@ def test_every_kind_of_picture_with_a_section_has_a_preset():
 def test_data_cannot_end_their_script(text):
     document = config.load(SHIPPED)
     document["variants"]["paper"]["fig2"]["title"] = "</script><script>alert(1)"
-    (stored,) = (e for e in _Elements(page.render(document)).found if e[1].get("id") == "data")
-    assert json.loads(stored[2])["scenes"]["fig2"]["title"] == "</script><script>alert(1)"
+    stored = json.loads(data_of(page.render(document)))
+    assert stored["scenes"]["fig2"]["title"] == "</script><script>alert(1)"
 
 
 def test_the_atlas_has_the_values_of_a_sweep():
