@@ -7,6 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
+from independent_solver import flight
 from sections import BALL
 
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -33,19 +34,14 @@ def independent(impacts, digits):
     for i in range(impacts):
         level = digits - (digits - 60) * i // impacts
         with mpmath.workdps(level):
-            x, v, w = state
-            s = v + w
-            b, c = v - 2 * k * s / (1 + k), w - 2 * s / (1 + k)
-            t = mpmath.mpf(BALL.time_to_impact(*map(float, state)))
-            known = 12
+            gap, b, c = flight(k, g, *state)
+            t, known = mpmath.mpf(BALL.time_to_impact(*map(float, state))), 12
             while known < level:
                 known *= 2
                 with mpmath.workdps(min(known, level) + 10):
-                    cosine, sine = mpmath.cos_sin(t)
-                    gap = x + t * (b + g * t / 2) - x * cosine + c * sine
-                    t = t - gap / (b + g * t + x * sine + c * cosine)
+                    t -= gap(t) / gap.slope(t)
             cosine, sine = mpmath.cos_sin(t)
-            state = x * cosine - c * sine, b + g * t, x * sine + c * cosine
+            state = gap.x * cosine - c * sine, b + g * t, gap.x * sine + c * cosine
             rows.append((*state, t))
     return rows
 
