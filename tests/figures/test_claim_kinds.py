@@ -58,7 +58,7 @@ def families_along(parameter, span, levels, step, starts, impacts):
 
 def curves():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(curve_scene, "THEOREMS", {SMALL.name: SMALL})
+        patch.setattr(curve_scene, "theorems_at", lambda *_: [SMALL])
         data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
     return data, scene_orbits(BALL, 0.01, [0.1, 0.9], [200, 800])
 

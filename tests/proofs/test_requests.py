@@ -174,7 +174,7 @@ def test_the_twist_of_another_ball_and_its_proved_zero():
 
 
 def test_the_data_of_a_proved_curve(monkeypatch):
-    monkeypatch.setattr(curve_scene, "THEOREMS", {SMALL.name: SMALL})
+    monkeypatch.setattr(curve_scene, "theorems_at", lambda *_: [SMALL])
     data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
     assert data.sizes["curve"] == 1
     assert 0.0069 < data["share"].item() < 0.007
