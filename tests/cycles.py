@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from pseudorigid.dynamics.motion import scene_motion
+
 NAMES = ("x", "xdot", "udot", "tau")
 # (k, g, energy); orbits of the last four stretch the ball strongly.
 SETTINGS = [
@@ -25,3 +27,10 @@ PERIODS = range(1, 13)
 def points_of(orbits, i):
     """The points and flights of the i-th orbit, (4, period)."""
     return np.stack([orbits[name].values[i] for name in NAMES])
+
+
+def motion_of(ball, orbit, duration):
+    """The motion along one of the orbits that `symmetric_orbits` finds."""
+    kind, orbits = orbit["type"].item(), orbit.expand_dims("orbit")
+    period, energy = orbit.sizes["point"], orbit.attrs["energy"]
+    return scene_motion(ball, energy, orbits, period, kind, duration)

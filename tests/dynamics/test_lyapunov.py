@@ -6,7 +6,7 @@ import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
-from pipeline.checks.compare import exponents
+from pipeline.checks.compare import summaries
 from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.analyses.spread import stretches
@@ -118,7 +118,7 @@ def test_the_largest_exponent_is_the_largest_by_value():
     numbers = KINDS["exponents"].numbers(block, found)
     ours = [float(text) for text in numbers["largest exponent"].split(", ")]
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
-    line = exponents.table(found, found, ("one", "other"))[1]
+    line = summaries.exponents(found, found, ("one", "other"))[1]
     assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
 
     chaotic = last + 1.0  # in the same order, and above what regular orbits reach

@@ -4,11 +4,10 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from cycles import SETTINGS
+from cycles import SETTINGS, motion_of
 from sections import BALL
 
 from pseudorigid import Ball, orbit, symmetric_orbits
-from pseudorigid.dynamics.motion import motion
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
@@ -128,7 +127,7 @@ def test_motion_touches_the_floor_at_impacts_only(k, g, energy, period):
         one = orbits.isel(orbit=i)
         total = float(one["total_time"])
         for duration in (2.37 * total, total, 0.4 * float(one["tau"][0])):
-            found = motion(ball, one, duration)
+            found = motion_of(ball, one, duration)
             t, position, strain = (found[n].values for n in ("t", "position", "strain"))
             impact_t, impact_position = found["impact_t"].values, found["impact_position"].values
             assert (t[0], t[-1]) == (0.0, duration)
@@ -145,7 +144,7 @@ def test_motion_touches_the_floor_at_impacts_only(k, g, energy, period):
             assert np.allclose(np.diff(impact_t), expected, rtol=0, atol=1e-13 * max(1, duration))
             for curve in (position, strain):  # without gaps
                 assert np.max(np.abs(np.diff(curve))) < 0.2 * np.ptp(curve)
-        found = motion(ball, one, 2.0 * total)
+        found = motion_of(ball, one, 2.0 * total)
         turns = [np.linspace(0, total, 777) + turn * total for turn in (0, 1)]
         first, second = (np.interp(turn, found["t"], found["position"]) for turn in turns)
         stretch = max(1.0, abs(float(one["multiplier"])) / 50.0)
@@ -154,7 +153,7 @@ def test_motion_touches_the_floor_at_impacts_only(k, g, energy, period):
 
 def test_motion_is_the_flight_of_equation_26():
     one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
-    found = motion(BALL, one, float(one["total_time"]))
+    found = motion_of(BALL, one, float(one["total_time"]))
     x, v, w, tau = (float(one[name][0]) for name in NAMES)
     e = 2.0 * (v + w) / (1.0 + BALL.k)
     t = found["t"].values

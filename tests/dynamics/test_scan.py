@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from cycles import motion_of
 from sections import BALL
 
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.dynamics.motion import motion
 from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.scan import scan
 
@@ -56,10 +56,10 @@ def test_exponents_belong_to_the_scanned_orbit():
 
 def test_a_motion_follows_the_scanned_impacts():
     one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
-    exact = motion(BALL, one, 60)
+    exact = motion_of(BALL, one, 60)
     for tolerance in (1e-12, 1e-4):
         ball = scanned(tolerance=tolerance)
-        found = motion(ball, one, 60)
+        found = motion_of(ball, one, 60)
         assert ball.map.impacts >= found.sizes["impact"]
         at = found["impact_t"].values
         off = np.max(np.abs(at - exact["impact_t"].values))

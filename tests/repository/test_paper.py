@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from cycles import motion_of
 from project import shipped
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
-from pseudorigid.dynamics.motion import motion
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.paper import BALL as PAPER_BALL
 from pseudorigid.dynamics.paper import EXPONENT, FIGURES, WINDOW
@@ -68,7 +68,7 @@ def test_figures_3_and_4_close_on_themselves(scene):
     one = the_orbit(scene)
     duration = SCENES[scene]["duration"]
     total = float(one["total_time"])
-    found = motion(BALL, one, duration)
+    found = motion_of(BALL, one, duration)
     t, position, strain = (found[name].values for name in ("t", "position", "strain"))
     assert (t[0], t[-1]) == (0.0, duration)
     assert np.max(position + strain) <= 1e-16 * 4
