@@ -99,6 +99,7 @@ COMMANDS = {
     ),
     "families": SnakemakeCommand(
         "follow periodic orbits from birth to end: more_figures/families/",
+        module="variant",
         details=" Takes minutes; a killed search continues.",
     ),
     "prove": Command(
@@ -154,10 +155,12 @@ COMMANDS = {
     ),
     "benchmark": Command(
         "measure speeds and print a table of their ratios",
+        module="program",
         details=" Installs the packages of the study first (once).",
     ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
+        module="program",
         details=" Installs the packages of the tests first (once).",
     ),
     "help": Command(

@@ -1,4 +1,4 @@
-"""./reproduce variant NAME [FIGURE ...]: make the figures of a variant."""
+"""./reproduce variant NAME [FIGURE ...] and ./reproduce families: make the scenes of one set."""
 
 from ... import config
 from .. import figures
@@ -7,13 +7,19 @@ from ..session import CommandLineError, locked
 
 
 def run(args: Arguments) -> int:
-    """Make all figures of the variant, or the named ones."""
+    """Make all figures of a variant, or the named ones, or the pictures of families."""
+    name = "families" if args.word == "families" else _variant(args)
+    files = figures.of_scenes(args.checked, name, getattr(args, "figure", ()))
+    with locked():
+        return figures.make(args.checked, name, files, args.options)
+
+
+def _variant(args: Arguments) -> str:
+    """Return the name of a variant of config.yaml."""
     variants = [name for name in args.checked["variants"] if name not in config.PUBLISHED]
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
     if args.variant not in variants:
         raise CommandLineError(config.unknown("variant", args.variant, variants))
-    files = figures.of_scenes(args.checked, args.variant, args.figure)
-    with locked():
-        return figures.make(args.checked, args.variant, files, args.options)
+    return str(args.variant)

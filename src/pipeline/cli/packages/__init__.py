@@ -203,14 +203,10 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
 def _pip(python: str) -> list[str]:
     """Return a command that runs pip for .venv: its own, this interpreter's, or a new one."""
     if not (_site_packages() / "pip").is_dir():
-        if importlib.util.find_spec("pip") and _version("pip") >= (22, 3):
+        if importlib.util.find_spec("pip"):
             return [sys.executable, "-I", "-m", "pip", f"--python={python}"]
         _check(_run([python, "-I", "-m", "ensurepip", "--default-pip"]))
     return [python, "-I", "-m", "pip"]
-
-
-def _version(package: str) -> tuple[int, ...]:
-    return tuple(int(part) for part in re.findall(r"\d+", metadata.version(package))[:2])
 
 
 def _uv() -> str | None:
