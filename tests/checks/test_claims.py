@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from pipeline.checks import claims
-from pipeline.checks.claims import VERDICTS, chaos, ledger, schema
+from pipeline.checks.claims import VERDICTS, chaos, schema
 from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from pipeline.cli.commands import claims as claim_verdicts
 from pipeline.cli.session import UsageError
@@ -260,11 +260,11 @@ def test_a_dataset_that_is_missing_is_named():
 
 def test_the_committed_page_is_rendered_from_the_committed_verdicts():
     text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
-    verdicts = ledger.read_json(text)
+    verdicts = claims.read_json(text)
     assert [verdict.number for verdict in verdicts] == list(ALL)
-    assert ledger.to_json(verdicts) == text
+    assert claims.to_json(verdicts) == text
     page = (ROOT / "CLAIMS.md").read_text(encoding="utf-8")
-    assert ledger.render(verdicts) == ledger.render(verdicts[::-1]) == page
+    assert claims.render(verdicts) == claims.render(verdicts[::-1]) == page
     titles = re.findall(r"^## (.*)$", page, flags=re.M)
     assert titles == [word.capitalize() for word in VERDICTS]
     for verdict in verdicts:
@@ -283,13 +283,13 @@ ROW = schema.Verdict(1, "1", "a", HOLDS, "a value", "", "", [])
         "{}",
         "[1]",
         '[{"number": 1}]',
-        ledger.to_json([ROW]).replace(HOLDS, "true"),
-        ledger.to_json([ROW]).replace("a value", ""),
+        claims.to_json([ROW]).replace(HOLDS, "true"),
+        claims.to_json([ROW]).replace("a value", ""),
     ],
 )
 def test_what_is_no_list_of_verdicts_is_refused(text):
     with pytest.raises(ValueError, match="validation error"):
-        ledger.read_json(text)
+        claims.read_json(text)
 
 
 # Lines of claims.toml with a mistake: line -> (another, how the message begins).
@@ -422,7 +422,7 @@ def test_rises_are_counted_by_the_share_and_its_intervals():
 def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():
     """One rule of rounding: rows 42 to 44 of CLAIMS.md, as committed, and docs/atlas.md."""
     text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
-    rows = {row.number: row for row in ledger.read_json(text)}
+    rows = {row.number: row for row in claims.read_json(text)}
     page = (ROOT / "docs" / "atlas.md").read_text(encoding="utf-8")
     rises = re.findall(r"(0\.\d+) at (0\.\d+)", rows[44].value)
     assert len(rises) == 6

@@ -16,8 +16,6 @@ from runs import VARIANTS
 
 from pipeline import config
 from pipeline.checks import claims
-from pipeline.checks.claims import ledger
-from pipeline.checks.claims.schema import CORRECTED, FALSE
 from pipeline.checks.report import captions, figures_page, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
@@ -147,7 +145,7 @@ def test_each_figure_has_its_caption_and_numbers(reported, text):
 
 
 def test_corrections_first_and_the_whole_table(text):
-    rows = ledger.read_json((ROOT / "CLAIMS.json").read_text(encoding="utf-8"))
+    rows = claims.read_json((ROOT / "CLAIMS.json").read_text(encoding="utf-8"))
     wrong = [row for row in rows if row.verdict in (FALSE, CORRECTED)]
     assert len(rows) == len(claims.CLAIMS) and 0 < len(wrong) < len(claims.CLAIMS)
     above, _, whole = text.partition('id="claims"')

@@ -130,7 +130,7 @@ def test_no_path_in_a_record_is_followed(root):
 
 
 @pytest.mark.parametrize("name", ["results", "results/paper", "results/paper/logs", ".snakemake"])
-def test_no_link_is_followed(root, tmp_path, capsys, name):
+def test_no_link_is_followed(root, tmp_path, name):
     outside, link = tmp_path / "outside", root / name
     link.rename(outside)
     link.symlink_to(outside)
@@ -139,5 +139,3 @@ def test_no_link_is_followed(root, tmp_path, capsys, name):
     assert run(root) == 0
     assert sorted(outside.rglob("*")) == before
     assert link.is_symlink()
-    if name == "results/paper":
-        assert "results/paper links to another folder" in capsys.readouterr().err

@@ -33,11 +33,7 @@ def impacts(checked: dict[str, Any]) -> int:
         k, g = (Fraction(str(block["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:
-            path = artifact_paths[PAPER, scene, stage]
-            if not (ROOT / path).is_file():
-                raise ValueError(f"{path} is missing: run ./reproduce first")
-            dataset: xr.Dataset = load(ROOT / path)
-            return dataset
+            return load(ROOT / artifact_paths[PAPER, scene, stage])
 
         for name, (before, after, tau) in _impacts_behind(block, data, sample):
             result = proofs.prove_impacts(k, g, before, after, tau, name=f"{scene} {name}")

@@ -21,9 +21,8 @@ from ...records.artifacts import load
 from ...records.files import file_hash, read_bytes, read_text
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
-from .. import published_sets
+from .. import claims, published_sets
 from ..checksums import read_sums
-from ..claims import ledger
 from ..claims.schema import CORRECTED, FALSE, Verdict
 from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
@@ -171,10 +170,10 @@ class _Page:
     def claims(self) -> list[Verdict]:
         """Return the rows of CLAIMS.json in the order of CLAIMS.md, or none."""
         try:
-            verdicts = ledger.read_json(read_text(self.root / paths.LEDGER_DATA))
+            verdicts = claims.read_json(read_text(self.root / paths.LEDGER_DATA))
         except (OSError, ValueError):
             return []
-        return [row for rows in ledger.by_verdict(verdicts).values() for row in rows]
+        return [row for rows in claims.by_verdict(verdicts).values() for row in rows]
 
     def provenance(self) -> Iterator[dict[str, Any]]:
         """Yield path, packages and record of each result shown."""

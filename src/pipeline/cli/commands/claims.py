@@ -8,7 +8,7 @@ from typing import Any
 import xarray as xr
 
 from ...checks import claims
-from ...checks.claims import ledger, soundness
+from ...checks.claims import soundness
 from ...checks.claims.schema import UNDECIDED, Verdict
 from ...config import PAPER, paths
 from ...records import artifacts
@@ -72,18 +72,16 @@ def _load(
 
 
 def write(checked: dict[str, Any]) -> list[Verdict]:
-    """Judge all claims, and write CLAIMS.json and then CLAIMS.md if they differ."""
+    """Judge all claims, and write CLAIMS.json and then CLAIMS.md."""
     datasets = _load(checked, claims.required_datasets(), {})
     proofs = {
         name: artifacts.load(ROOT / paths.theorem(name)).attrs["verdict"]
         for name in claims.required_theorems()
     }
-    data = ledger.to_json(claims.judge_claims(datasets, proofs))
-    verdicts = ledger.read_json(data)
-    for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: ledger.render(verdicts)}.items():
-        path = ROOT / name
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            write_whole(path, text)
+    data = claims.to_json(claims.judge_claims(datasets, proofs))
+    verdicts = claims.read_json(data)
+    for name, text in {paths.LEDGER_DATA: data, paths.LEDGER: claims.render(verdicts)}.items():
+        write_whole(ROOT / name, text)
     return verdicts
 
 

@@ -10,7 +10,7 @@ from ...config.paths import EXPLORER
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
-from ..session import CommandLineError, UsageError, locked, print_error
+from ..session import CommandLineError, UsageError, locked
 
 RESULTS = ROOT / "results"
 # Files that commands and jobs write besides results and their records.
@@ -29,15 +29,12 @@ _OTHER_FILES = (
 
 def run(args: Arguments) -> int:
     """Delete generated files in some folders of results/, or in all and in .snakemake."""
-    present = sorted(f.name for f in RESULTS.glob("*/"))
+    present = sorted(f.name for f in RESULTS.glob("*/") if _is_inside(f / "file"))
     for name in args.folder:
         if name not in present:
             meant = hint(name, present) or f": there are {', '.join(present) or 'none'}"
             raise CommandLineError(f"no folder results/{name}{meant}")
-    names = [name for name in args.folder or present if _is_inside(RESULTS / name / "file")]
-    for name in args.folder or present:
-        if name not in names:
-            print_error(f"results/{name} links to another folder, where nothing is deleted")
+    names = args.folder or present
     with locked():
         files = _generated_files(args, names)
         own = ROOT / ".snakemake"

@@ -10,9 +10,8 @@ from typing import Any
 from pseudorigid.dynamics.paper import EXPONENT
 from pseudorigid.proofs.theorems.statements import THEOREMS
 
-from ...checks import manifest, published_sets
+from ...checks import claims, manifest, published_sets
 from ...checks.checksums import ChecksumError
-from ...checks.claims import ledger
 from ...checks.claims.schema import VERDICT_WORDS
 from ...checks.report.captions import caption_of
 from ...checks.report.page import PAPER_NUMBERS
@@ -32,7 +31,7 @@ def numbers_of(root: Path, checked: Table) -> str:
     Raises ValueError, which names the file, if a manifest is missing or broken.
     """
     facts = metadata.citation()
-    verdicts = ledger.read_json(read_text(root / paths.LEDGER_DATA))
+    verdicts = claims.read_json(read_text(root / paths.LEDGER_DATA))
     counts = Counter(row.verdict for row in verdicts)
     sets = published_sets.committed_sets(checked)
     try:
