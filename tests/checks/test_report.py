@@ -16,6 +16,7 @@ from runs import VARIANTS
 
 from pipeline import config
 from pipeline.checks import claims
+from pipeline.checks.claims.schema import CORRECTED, FALSE
 from pipeline.checks.report import captions, figures_page, page
 from pipeline.config import paths
 from pipeline.config.schema.kinds import KINDS
