@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+from contextlib import nullcontext
 from html.parser import HTMLParser
 
 import numpy as np
@@ -16,6 +17,7 @@ from project import ROOT, SHIPPED
 from slowly import slowly
 
 from pipeline import config
+from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import explore
 from pipeline.config.paths import EXPLORER
 from pipeline.config.schema.kinds import KINDS
@@ -195,8 +197,13 @@ def test_a_construct_that_is_not_translated_is_one_line(tree):
     assert result.stdout == f"reproduce: {place}: {words}\n"
 
 
-def test_no_display_means_no_browser(monkeypatch):
+def test_no_display_means_no_browser(monkeypatch, tmp_path):
+    (tmp_path / EXPLORER).parent.mkdir()
+    (tmp_path / EXPLORER).touch()
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(explore, "ROOT", tmp_path)
+    monkeypatch.setattr(explore, "locked", nullcontext)
+    monkeypatch.setattr(explore, "write", lambda checked: None)
     monkeypatch.setattr(explore.webbrowser, "open", lambda *_: pytest.fail("opened"))
-    assert not explore._open()
+    assert explore.run(Arguments(no_open=False, config={})) == 0

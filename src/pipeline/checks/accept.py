@@ -1,10 +1,9 @@
 """Make the published files as they are now the committed ones."""
 
-import shutil
 from pathlib import Path
 from typing import Any
 
-from ..records.files import replacing
+from ..records.files import read_bytes, write_whole
 from . import manifest, published_sets
 from .checksums import SUMS, ChecksumError, read_sums
 from .difference import UPSTREAM
@@ -39,8 +38,7 @@ def _publish_measured(root: Path, published_set: PublishedSet) -> None:
     for name in published_set.measured:
         drawing = root / published_set.results / "figures" / name
         if drawing.is_file():
-            with replacing(root / published_set.folder / name) as part:
-                shutil.copyfile(drawing, part)
+            write_whole(root / published_set.folder / name, read_bytes(drawing))
 
 
 def _renew(root: Path, findings: Findings) -> None:

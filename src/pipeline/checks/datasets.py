@@ -17,8 +17,9 @@ from pseudorigid.proofs.derivations import derivations
 from pseudorigid.sweep import blocks
 from pseudorigid.sweep.chains import chains
 
+from ..config.paths import DERIVATIONS
 from ..config.schema.stages import STAGES
-from ..config.schema.study import FIXED, MEASURED
+from ..config.schema.study import MEASURED
 from ..config.schema.study import data as study_path
 from ..records import artifacts
 from ..records.files import write_whole
@@ -60,17 +61,10 @@ def page() -> str:
 def _stages() -> dict[str, File]:
     files = {}
     for name, stage in STAGES.items():
-        fields = SMALL[name]
-        inputs = [_computed(used, _fields_of(used, fields)) for used in stage.inputs]
-        title = artifacts.title_of(_function(name))
-        data = _computed(name, fields, *inputs)
-        files[name] = _saved(f"results/VARIANT/{name}_SCENE.nc", data, stage=name, title=title)
+        inputs = [_computed(used, SMALL[used] | SMALL[name]) for used in stage.inputs]
+        data, path = _computed(name, SMALL[name], *inputs), f"results/VARIANT/{name}_SCENE.nc"
+        files[name] = _saved(path, data, artifacts.title_of(_function(name)), stage=name)
     return files
-
-
-def _fields_of(stage: str, fields: dict[str, Any]) -> dict[str, Any]:
-    """Return the fields of an input: those of the stage that takes it, or those of its own run."""
-    return {name: fields.get(name, SMALL[stage].get(name)) for name in STAGES[stage].fields}
 
 
 def _function(stage: str) -> Any:
@@ -78,25 +72,27 @@ def _function(stage: str) -> Any:
 
 
 def _computed(stage: str, fields: dict[str, Any], *inputs: xr.Dataset) -> xr.Dataset:
-    dataset: xr.Dataset = _function(stage)(BALL, ENERGY, *inputs, **fields)
+    own = {name: fields[name] for name in STAGES[stage].fields if name in fields}
+    dataset: xr.Dataset = _function(stage)(BALL, ENERGY, *inputs, **own)
     return dataset
 
 
 def _sweep_and_derivations() -> dict[str, File]:
     block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
     whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
-    algebra, path = derivations(BALL, ENERGY), "results/sweep/SWEEP"
-    functions = blocks.join, blocks.compute, chains, derivations
-    join, compute, follow, derive = (artifacts.title_of(function) for function in functions)
     curves = chains({"k": [0.19, 0.21], "energy": [10.0, 11.0], "chains": [5]})
-    return {
-        "sweep": _saved(f"{path}.nc", whole, ball=False, title=join),
-        "sweep, a block": _saved(f"{path}_0000.nc", block, ball=False, title=compute),
-        "sweep, chains": _saved("results/sweep/SWEEP_chains.nc", curves, ball=False, title=follow),
-        "derivations": _saved(
-            "results/claims/derivations.nc", algebra, stage="derivations", title=derive
-        ),
+    swept = {
+        "sweep": ("SWEEP", blocks.join, whole),
+        "sweep, a block": ("SWEEP_0000", blocks.compute, block),
+        "sweep, chains": ("SWEEP_chains", chains, curves),
     }
+    files = {
+        name: _saved(f"results/sweep/{file}.nc", data, artifacts.title_of(function), ball=False)
+        for name, (file, function, data) in swept.items()
+    }
+    title, algebra = artifacts.title_of(derivations), derivations(BALL, ENERGY)
+    files["derivations"] = _saved(DERIVATIONS, algebra, title, stage="derivations")
+    return files
 
 
 def _study() -> dict[str, File]:
@@ -116,19 +112,21 @@ def _study() -> dict[str, File]:
         "edges_all": failures.edges(methods, 2),
         "missed_all": failures.missed(methods, 10_000),
     }
-    files = {}
-    for part in (*FIXED, *MEASURED):
-        attributes = {"stage": "study", "title": f"Methods compared: {part}"}
-        ball = part != "verdicts"
-        files[f"study: {part}"] = _saved(study_path(part), parts[part], ball, **attributes)
-    return files
+    return {
+        f"study: {part}": _saved(
+            study_path(part), data, f"Methods compared: {part}", part != "verdicts", stage="study"
+        )
+        for part, data in parts.items()
+    }
 
 
-def _saved(path: str, data: xr.Dataset, ball: bool = True, **attributes: object) -> File:
+def _saved(
+    path: str, data: xr.Dataset, title: str, ball: bool = True, **attributes: object
+) -> File:
     """Return a dataset after a round through its file."""
     attributes |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
     with tempfile.TemporaryDirectory() as folder:
-        artifacts.save(data, f"{folder}/data.nc", {}, **attributes)
+        artifacts.save(data, f"{folder}/data.nc", {}, title=title, **attributes)
         return File(path, artifacts.load(f"{folder}/data.nc"))
 
 

@@ -27,7 +27,7 @@ class Command:
     Each argument is a name with the keyword arguments of argparse's add_argument.
     """
 
-    runs_snakemake = False
+    runs_snakemake = False  # and passes options that it does not know on
 
     def __init__(
         self,
@@ -41,7 +41,7 @@ class Command:
 
 
 class SnakemakeCommand(Command):
-    """A command that runs snakemake, which gets the options that the command does not know."""
+    """A command that runs snakemake."""
 
     runs_snakemake = True
 

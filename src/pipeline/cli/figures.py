@@ -1,7 +1,6 @@
 """Make the figures of a variant, publish them, and print what became of each."""
 
 import filecmp
-import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
@@ -12,7 +11,7 @@ from ..config import build_specs, paths, unknown
 from ..config.schema.kinds import KINDS
 from ..config.schema.published import FOLDERS, PUBLISHED
 from ..records.differences import columns
-from ..records.files import FileError, identity, obstacle, replacing
+from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import progress, running
@@ -122,8 +121,7 @@ def _publish(drawings: dict[str, str]) -> dict[str, str]:
             problems[path] = words
         elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
             try:
-                with replacing(published) as part:
-                    shutil.copyfile(ROOT / drawing, part)
+                write_whole(published, read_bytes(ROOT / drawing))
             except FileError as error:
                 problems[path] = str(error).removeprefix(f"{published}: ")
     return problems

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from ...records.files import replacing
 from ...records.pictures import pixels
@@ -14,19 +14,17 @@ _SIZE = 42  # pixels
 
 def side_by_side(drawings: Mapping[str, Path | None], path: Path) -> None:
     """Save two PNG side by side, each below its name. None is a figure that cannot exist."""
-    images = {name: Image.fromarray(pixels(file)) for name, file in drawings.items() if file}
-    for name in drawings.keys() - images.keys():
-        images[name] = Image.new("RGB", next(iter(images.values())).size, "white")
-        _write(images[name], "cannot exist", images[name].height / 2)
-    width = sum(image.width for image in images.values())
-    height = max(image.height for image in images.values())
-    both, left = Image.new("RGB", (width, _HEAD + height), "white"), 0
-    for name in drawings:
-        head = Image.new("RGB", (images[name].width, _HEAD), "white")
-        _write(head, name, _HEAD / 2)
-        both.paste(head, (left, 0))
-        both.paste(images[name], (left, _HEAD))
-        left += images[name].width
+    images = [Image.fromarray(pixels(file)) if file else None for file in drawings.values()]
+    blank = Image.new("RGB", next(filter(None, images)).size, "white")
+    columns = [ImageOps.expand(image or blank, (0, _HEAD, 0, 0), "white") for image in images]
+    size = sum(column.width for column in columns), max(column.height for column in columns)
+    both, left = Image.new("RGB", size, "white"), 0
+    for name, image, column in zip(drawings, images, columns, strict=True):
+        _write(column, name, _HEAD / 2)
+        if image is None:
+            _write(column, "cannot exist", (_HEAD + column.height) / 2)
+        both.paste(column, (left, 0))
+        left += column.width
     with replacing(path) as part:
         both.save(part, "PNG")
 

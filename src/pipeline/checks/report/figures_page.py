@@ -15,23 +15,14 @@ from ...config.schema import study
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import manifest, published_sets
-from .captions import caption_of
-
-HEADINGS = (
-    "The paper's figures",
-    "Statements of the paper",
-    "Families of periodic orbits",
-    "Theorems",
-    "Accuracy and speed of methods",
-    "The atlas",
-)
+from .captions import CAPTIONS, caption_of
 
 
 def page() -> str:
     """Return the text of docs/figures.md."""
     sections = []
     sets = published_sets.committed_sets(load(ROOT / "config.yaml"))
-    for heading, published_set in zip(HEADINGS, sets, strict=True):
+    for heading, published_set in zip(CAPTIONS["headings"], sets, strict=True):
         scenes = manifest.read(ROOT, published_set.folder)["scenes"]
         names = study.CHARTS if published_set.folder == study.FOLDER else scenes
         captions = [(name, caption_of(name, scenes.get(name, {}).get("config"))) for name in names]

@@ -15,7 +15,9 @@ def run(args: Arguments) -> int:
     """Write the page; unless told otherwise, open it where there is a display."""
     with locked():
         write(args.checked)
-    opened = not args.no_open and _open()
+    # Without a display, Python would start a browser for terminals, which waits for keys.
+    display = any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))
+    opened = display and not args.no_open and webbrowser.open((ROOT / EXPLORER).as_uri())
     size = (ROOT / EXPLORER).stat().st_size / 1e6
     print(f"{EXPLORER}  {size:.1f} MB: {'opened' if opened else 'open it'} in a browser")
     return 0
@@ -27,16 +29,3 @@ def write(checked: dict[str, Any]) -> None:
 
     with one_line():
         write_whole(ROOT / EXPLORER, page.render(checked))
-
-
-def _open() -> bool:
-    """Open the page in the user's browser, and return whether there is one.
-
-    Without a display, Python would start a browser for terminals, which waits for keys.
-    """
-    if not {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"} & {n for n, v in os.environ.items() if v}:
-        return False
-    try:
-        return webbrowser.open((ROOT / EXPLORER).as_uri())
-    except (webbrowser.Error, OSError):
-        return False

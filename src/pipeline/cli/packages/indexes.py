@@ -8,7 +8,6 @@ import os
 import re
 import ssl
 import subprocess
-from pathlib import Path
 
 # Settings of pip that choose where packages come from, and their names for uv.
 _SOURCES = {
@@ -62,15 +61,9 @@ def pip_environment(settings: dict[str, str]) -> dict[str, str]:
 
 
 def uv_environment(settings: dict[str, str]) -> dict[str, str]:
-    """Return the environment for uv: its own settings or, without any index, those of pip."""
+    """Return the environment for uv: its own settings, which override those of pip."""
     own = {name: value for name, value in os.environ.items() if re.match(_UV, name)}
-    home = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
-    files = [Path(home, "uv", "uv.toml"), Path("/etc/uv/uv.toml"), Path("/etc/xdg/uv/uv.toml")]
     of_pip = {_SOURCES[name]: value for name, value in settings.items() if name in _SOURCES}
-    if any("INDEX" in name or name == "UV_CONFIG_FILE" for name in own) or any(
-        file.exists() for file in files
-    ):
-        of_pip = {}
     # As pip does, search all indexes for a version; its hash decides what is installed.
     defaults = {"UV_INDEX_STRATEGY": "unsafe-best-match"}
     if ssl.get_default_verify_paths().cafile:
