@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ..config.paths import SHOWN
-from ..records.files import FileError, read_text
+from ..records.files import read_text
 
 SUMS = "SHA256SUMS"
 # A name that contains a folder could lead out of this folder.
@@ -45,7 +45,6 @@ def read_published_text(root: Path, name: str) -> str:
         return str(read_text(root / name))
     except (FileNotFoundError, NotADirectoryError):
         raise ChecksumError(f"{name}: missing") from None
-    except FileError as error:
-        raise ChecksumError(str(error).replace(f"{root}/", "")) from None
-    except UnicodeDecodeError as error:
-        raise ChecksumError(f"{name}: cannot be read: {error}") from None
+    except ValueError as error:  # of another kind of file, or no text
+        reason = str(error).removeprefix(f"{root / name}: ")
+        raise ChecksumError(f"{name}: {reason}") from None

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from pseudorigid.analyses.branches import branch_stretching, half_turns, trace_by_differences
 from pseudorigid.analyses.regularity import regular
 from pseudorigid.analyses.rotation import island, plateaus
 from pseudorigid.dynamics.ball import Ball
@@ -102,17 +103,11 @@ def differences(orbits: xr.Dataset) -> Outcome:
     points, period = states_of(orbits)[:, :, 0].T, orbits.sizes["point"]
     worst = 0.0
     for point, exact in zip(points, orbits["trace"].values, strict=True):
-        traces = np.array([_trace(ball, point, 1.0 / (1 << bits), period) for bits in STEP_BITS])
+        traces = np.array(
+            [trace_by_differences(ball, point, 1.0 / (1 << bits), period) for bits in STEP_BITS]
+        )
         worst = max(worst, np.min(np.abs(traces - exact)) / max(1.0, abs(exact)))
     return outcome_of(worst < TRACE_ERROR, period=period, worst=worst)
-
-
-def _trace(ball: Ball, point: np.ndarray, step: float, period: int) -> float:
-    """Return the trace of the map's iterate on the energy surface by forward differences."""
-    states = np.concatenate([point[:, None], point[:, None] + step * np.eye(3)], axis=1)
-    x, v, w = after = [row.copy() for row in states]
-    ball.map.steps(x, v, w, ball.k, ball.g, period, np.empty(4))
-    return sum(float(row[i + 1] - row[0]) for i, row in enumerate(after)) / step - 1.0
 
 
 def transversal(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
@@ -143,28 +138,13 @@ def stretching(manifolds: xr.Dataset) -> Outcome:
         for side in ("inner", "outer")
     )
     ball = Ball(k, g)
-    short, long = (np.median([_stretched(ball, states) for states in s]) for s in (inner, outer))
-    turns = min(_half_turns(k, states) for states in outer)
+    short, long = (
+        np.median([branch_stretching(ball, states, STRETCHED_IMPACTS) for states in s])
+        for s in (inner, outer)
+    )
+    turns = min(half_turns(k, states) for states in outer)
     large = long > 10.0 and long > 3.0 * short and turns > 1.0
     return outcome_of(large, impacts=STRETCHED_IMPACTS, inner=short, outer=long, turns=turns)
-
-
-def _stretched(ball: Ball, states: np.ndarray) -> float:
-    """Return the length of a branch's image after STRETCHED_IMPACTS, in lengths of the branch."""
-    steps = np.diff(states, axis=1)
-    # The tangent map adds no length where the map jumps.
-    x, v, w = states[:, :-1]
-    matrices = ball.jacobian(x, v, w, impacts=STRETCHED_IMPACTS)
-    images = (matrices * steps.T[:, None, :]).sum(axis=2).T
-    before, after = (np.hypot(*chart(ball.k, *vectors)) for vectors in (steps, images))
-    return float(np.nansum(after) / np.nansum(before))
-
-
-def _half_turns(k: float, states: np.ndarray) -> float:
-    """Return by how many half turns the direction of a branch in (x, y) changes in all."""
-    x, y = np.diff(chart(k, *states), axis=1)
-    direction = x + 1j * y
-    return float(np.nansum(np.abs(np.angle(direction[1:] / direction[:-1]))) / np.pi)
 
 
 def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:

@@ -28,7 +28,7 @@ from ..freshness import MISSING, Freshness
 from ..verify import Findings, inspect
 from .captions import caption_of
 
-# What other commands write into results/: name -> pattern of its files.
+# What the commands of these names write into results/: pattern of the files.
 _OTHERS = {"Article": "article.pdf", "Archive": "archive/pseudorigid*.tar"}
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -53,7 +53,7 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
     `absent` maps a variant and a scene to the reason why there is no figure. Raises ValueError,
     which names the file, if a result cannot be read.
     """
-    page = _Page(root, checked, absent)
+    page, results = _Page(root, checked, absent), root / "results"
     figures = page.variant(PAPER)
     variants = {name: page.variant(name) for name in page.variants if name not in PUBLISHED}
     made = {
@@ -69,18 +69,12 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
         claims=page.claims(),
         corrected=(FALSE, CORRECTED),
         results=list(page.provenance()),
-        others=list(_others(root / "results")),
+        others={
+            name: sorted(str(file.relative_to(results)) for file in results.glob(pattern))
+            for name, pattern in _OTHERS.items()
+        },
         identifiers=swhid.identifiers(root),
     )
-
-
-def _others(results: Path) -> Iterator[tuple[str, str, str]]:
-    """Yield name, file and command of what other commands write; the file is empty if absent."""
-    for name, pattern in _OTHERS.items():
-        files, command = sorted(results.glob(pattern)), f"./reproduce {name.lower()}"
-        yield from ((f"{name} ({f.name})", f"{f.relative_to(results)}", command) for f in files)
-        if not files:
-            yield name, "", command
 
 
 def _described(identifier: str, variant: str, name: str, block: dict[str, Any] | None) -> Picture:

@@ -75,11 +75,8 @@ def set_up(stamp: str, arguments: list[str]) -> None:
     except KeyboardInterrupt:
         print_error("interrupted: run it again to go on")
         sys.exit(130)
-    except (UsageError, FileError) as error:
+    except (UsageError, FileError, OSError) as error:
         print_error(str(error))
-        sys.exit(1)
-    except OSError as error:
-        print_error(f"cannot make .venv: {error.strerror}: {error.filename}")
         sys.exit(1)
     if os.environ.get("PSEUDORIGID_WHEELS") == str(ROOT / wheels.FOLDER):
         del os.environ["PSEUDORIGID_WHEELS"]  # it has not the packages that other commands add
