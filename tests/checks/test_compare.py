@@ -95,9 +95,12 @@ def test_a_comparison_prints_every_difference(variants):
     assert "  energy: 0.01 | 0.0017\n" in output
     assert "  cannot exist in low: no elliptic orbit of period 6 at energy 0.0017" in output
     assert "  motion      5 of 5 variables differ; 5 of other lengths" in output
-    assert "    period 1: kept: elliptic (rotation 0.179) | elliptic (rotation 0.1281)" in output
-    assert "    period 6: lost: elliptic (rotation 0.1794)" in output
-    assert "  impacts   3 of 60 " in output and "lambda 1" in output
+    assert (
+        "  periodic    period 1: kept: elliptic (rotation 0.179) | elliptic (rotation 0.1281)"
+        in output
+    )
+    assert "  periodic    period 6: lost: elliptic (rotation 0.1794)" in output
+    assert "  impacts           3 of 60 " in output and "lambda 1" in output
 
 
 def test_both_figures_are_side_by_side(variants):

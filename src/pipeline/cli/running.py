@@ -9,7 +9,6 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext, suppress
 from functools import cache
-from pathlib import Path
 from typing import Any, NoReturn
 
 import yaml
@@ -18,7 +17,6 @@ from ..checks.freshness import DAMAGED, MISSING, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs import server
 from ..records.files import obstacle
-from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import explain
 from .progress import plan
@@ -106,7 +104,6 @@ def make(
             raise UsageError(f"{path}: {reason}")
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
-    _require_folders(outdated)
     options = options_of(arguments)
     if options.dryrun and not options.special:
         print(*plan(freshness, paths), sep="\n")
@@ -126,17 +123,6 @@ def make(
     command += ["--forcerun", *forced] if forced else []
     command += ["--nolock", "--workflow-profile", "none", *(paths if options.special else outdated)]
     return _run(command, arguments, server.Plan(checked, specs, set(outdated)), current)
-
-
-def _require_folders(results: Iterable[str]) -> None:
-    """Raise UsageError if a file stands in the place of a folder that a run needs."""
-    files = [place(path) for path in results for place in (str, record_path, log_path)]
-    own = ROOT / ".snakemake"
-    folders = [ROOT / folder for file in files for folder in Path(file).parents]
-    for folder in dict.fromkeys([*folders, own, *(own.iterdir() if own.is_dir() else ())]):
-        if folder.exists() and not folder.is_dir():
-            name = folder.relative_to(ROOT)
-            raise UsageError(f"{name}: a file stands in a folder's place, move it away")
 
 
 def _run(

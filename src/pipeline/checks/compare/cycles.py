@@ -23,7 +23,7 @@ def table(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> list[s
     for i, j, distance in pairs:
         kept = first["type"].values[i] == second["type"].values[j]
         change = "kept" if kept else "changed in type"
-        lines.append(f"{change}: {before[i]} | {after[j]}, moved {distance:.3g}")
+        lines.append(f"{change}: {before[i]} | {after[j]}, moved {distance:.3g} section radii")
     lines += [f"lost: {before[i]}" for i in lost]
     lines += [f"gained: {after[j]}" for j in gained]
     return [f"period {periods[0]}: {line}" for line in lines or ["none in either"]]

@@ -64,8 +64,8 @@ def orbits(first: xr.Dataset, second: xr.Dataset) -> list[str]:
 
 
 def exponents(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> list[str]:
-    """Tabulate mean and spread over the orbits of each Lyapunov exponent's final value."""
-    rows = [("exponent", *names)]
+    """Tabulate mean ± standard deviation over the orbits of each final Lyapunov exponent."""
+    rows = [("mean ± deviation", *names)]
     for index in range(first.sizes["index"]):
         texts = [spread(final_exponents(data)[:, index]) for data in (first, second)]
         rows.append((f"lambda {index + 1}", *texts))
