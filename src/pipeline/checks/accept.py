@@ -7,7 +7,6 @@ from ..records.files import read_bytes, write_whole
 from . import manifest, published_sets
 from .checksums import SUMS, ChecksumError, read_sums
 from .difference import UPSTREAM
-from .published_sets import PublishedSet
 from .verify import Findings, inspect, unlisted
 
 
@@ -24,7 +23,10 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
         findings = inspect(root, published_set)
         problem = findings.not_published(root)
         if problem is None:
-            _publish_measured(root, published_set)
+            for name in published_set.measured:
+                drawing = root / published_set.results / "figures" / name
+                if drawing.is_file():
+                    write_whole(root / published_set.folder / name, read_bytes(drawing))
             _renew(root, findings)
         elif published_set.on_request:
             print(f"{published_set.folder} stays as it is: {problem}: run {command} first")
@@ -32,13 +34,6 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
             print(f"reproduce accept: {problem}: run {command} first")
             return 1
     return 0
-
-
-def _publish_measured(root: Path, published_set: PublishedSet) -> None:
-    for name in published_set.measured:
-        drawing = root / published_set.results / "figures" / name
-        if drawing.is_file():
-            write_whole(root / published_set.folder / name, read_bytes(drawing))
 
 
 def _renew(root: Path, findings: Findings) -> None:

@@ -5,6 +5,7 @@ Run `.venv/bin/python -m pipeline.checks.datasets` to renew it.
 
 import tempfile
 import tomllib
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -81,7 +82,7 @@ def _sweep_and_derivations() -> dict[str, File]:
     block = blocks.compute({"cells": [[0.2, 6.25]], "starts": 12, "impacts": 100})
     whole = blocks.join({"k": [0.2], "energy": [6.25]}, [block])
     curves = chains({"k": [0.19, 0.21], "energy": [10.0, 11.0], "chains": [5]})
-    swept = {
+    swept: dict[str, tuple[str, Callable[..., xr.Dataset], xr.Dataset]] = {
         "sweep": ("SWEEP", blocks.join, whole),
         "sweep, a block": ("SWEEP_0000", blocks.compute, block),
         "sweep, chains": ("SWEEP_chains", chains, curves),

@@ -84,5 +84,6 @@ class Freshness:
         if layers := differing_origin(record, here):
             layer, words = next(iter(layers.items()))
             return f"{_MADE[layer]} {words}"
-        words = differing_files(record["inputs"], {used: self.digest(used) for used in spec.inputs})
-        return f"made from another {words.split()[0]}" if words else None
+        inputs = {used: self.digest(used) for used in spec.inputs}
+        other = differing_files(record["inputs"], inputs)
+        return f"made from another {other.split()[0]}" if other else None

@@ -26,7 +26,7 @@ Text = Annotated[str, Field(min_length=1)]
 class Outcome(NamedTuple):
     """What a check found: a verdict, the numbers of its sentences, and which sentences apply."""
 
-    verdict: str
+    verdict: VerdictWord
     numbers: dict[str, Any] = {}  # noqa: RUF012  (never changed)
     case: str = ""  # a key of the claim's `cases`; empty for `value` and `error`
 

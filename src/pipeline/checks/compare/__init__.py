@@ -37,8 +37,8 @@ def compare(
         lines += [f"cannot exist in {name}: {reason}" for name, reason in reasons.items()]
         for stage in paths.stages(blocks[0]):
             if stage == "periodic" or not reasons:
-                data = [load(root / artifact_paths[name, scene, stage]) for name in names]
-                texts = _stage_differences(stage, *data, names)
+                first, second = (load(root / artifact_paths[name, scene, stage]) for name in names)
+                texts = _stage_differences(stage, first, second, names)
                 lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
         image = root / f"results/compare/{names[0]}..{names[1]}/{scene}.png"
         if len(reasons) == 2:

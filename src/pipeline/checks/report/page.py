@@ -80,9 +80,9 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
 def _described(identifier: str, variant: str, name: str, block: dict[str, Any] | None) -> Picture:
     """Return a picture's caption and its place in the explorer, without an image."""
     scene = block if block and "picture" in block else None
-    explorer = address(variant, name, scene) if scene else None
-    picture = {"id": identifier, "image": None, "rows": [], "headline": None, "explorer": explorer}
-    return caption_of(name, block)._asdict() | picture
+    picture: Picture = caption_of(name, block)._asdict()
+    picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
+    return picture | {"explorer": address(variant, name, scene) if scene else None}
 
 
 def _image(file: Path) -> Picture:

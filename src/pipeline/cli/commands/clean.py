@@ -45,8 +45,10 @@ def run(args: Arguments) -> int:
         size = sum(file.lstat().st_size for file in files) / 1e6
         where = ", ".join([f"results/{name}" for name in names] + [f.name for f in folders])
         summary = f"{len(files)} files, {size:.1f} MB, in {where}"
-        if not args.yes and not _confirm(summary):
-            raise UsageError("nothing was deleted")
+        if not args.yes:
+            print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
+            if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+                raise UsageError("nothing was deleted")
         try:
             for file in files:
                 file.unlink()
@@ -60,14 +62,6 @@ def run(args: Arguments) -> int:
             raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
         print(f"deleted {summary}")
     return 0
-
-
-def _confirm(summary: str) -> bool:
-    """Ask whether to delete."""
-    print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
-    answer = sys.stdin.readline().strip().lower()
-    print(end="" if answer else "\n", file=sys.stderr)
-    return answer in ("y", "yes")
 
 
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:

@@ -1,7 +1,5 @@
 """./reproduce verify: whether everything here is as committed."""
 
-import os
-
 from ...records.sources import ROOT
 from ..arguments import Arguments
 from ..session import CommandLineError, one_line
@@ -18,9 +16,8 @@ def run(args: Arguments) -> int:
             status |= findings.fails(args.strict)
         return int(status)
     other = args.start / args.against
-    if not args.against or not os.path.exists(other):
-        place = other if args.against else "''"
-        raise CommandLineError(f"verify: no archive or folder {place}")
+    if not args.against or not other.exists():
+        raise CommandLineError(f"verify: no archive or folder {args.against or repr('')}")
     from ...publication import archive
 
     with one_line("verify: ", archive.ArchiveError):

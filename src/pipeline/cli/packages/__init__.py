@@ -150,8 +150,8 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
     With `again`, packages that are present are installed too.
     """
     with _plain_path() as root, _progress(message, names) as tick:
-        python = f"{root}/.venv/bin/python"
-        settings = indexes.pip_settings(_pip(python))
+        pip = _pip()
+        settings = indexes.pip_settings(pip)
         source = []
         if folder := os.environ.get("PSEUDORIGID_WHEELS"):
             wheels.refuse_damaged(Path(folder))
@@ -163,7 +163,7 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
             return ["--require-hashes", *source, "-r", f"{root}/requirements/{name}.txt"]
 
         def by_pip(name: str, *more: str) -> bool:
-            command = [*_pip(python), "install", "--no-compile", "--progress-bar=off", *more]
+            command = [*pip, "install", "--no-compile", "--progress-bar=off", *more]
             return _run([*command, *options(name)], indexes.pip_environment(settings), tick)
 
         uv = _uv() or (by_pip("uv", "--only-binary=:all:", "--retries=1") and _uv())
@@ -174,16 +174,16 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
         else:
             environment["UV_LINK_MODE"] = "copy"  # an edit of a package must not reach the cache
         if uv and "relocatable" not in (VENV / "pyvenv.cfg").read_text():
-            command = [uv, "venv", "--relocatable", "--allow-existing", f"--python={python}"]
-            uv = uv if _run([*command, f"{root}/.venv"], environment) else None
-        if not uv:  # scripts by pip have the path of their Python, which has to be the lasting one
-            python = str(VENV / "bin" / "python")
+            command = [uv, "venv", "--relocatable", "--allow-existing"]
+            command += [f"--python={root}/.venv/bin/python", f"{root}/.venv"]
+            uv = uv if _run(command, environment) else None
+        if not uv:
             _make_environment(VENV)
         for name in names:
             installed = False
             if uv:
-                command = [uv, "pip", "install", f"--python={python}", "--no-build-isolation"]
-                command += ["--reinstall"] * again
+                command = [uv, "pip", "install", f"--python={root}/.venv/bin/python"]
+                command += ["--no-build-isolation", *["--reinstall"] * again]
                 installed = _run([*command, *options(name)], environment, tick)
             if not (installed and any(_files([name]))):
                 _check(by_pip(name, "--no-build-isolation", *["--force-reinstall"] * again))
@@ -197,8 +197,9 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
     CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
 
 
-def _pip(python: str) -> list[str]:
+def _pip() -> list[str]:
     """Return a command that runs pip for .venv: its own, this interpreter's, or a new one."""
+    python = str(VENV / "bin" / "python")  # the scripts that pip writes have this path
     if not (_site_packages() / "pip").is_dir():
         if importlib.util.find_spec("pip"):
             return [sys.executable, "-I", "-m", "pip", f"--python={python}"]
