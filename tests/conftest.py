@@ -117,21 +117,39 @@ def variants(shared, finished):
     return Tree(shared("variants in a folder with spaces", compare))
 
 
-OTHER_STRAIN = """_MOTION = scene_motion
+@pytest.fixture(scope="session")
+def packed(shared, accepted):
+    """The archive of `accepted`."""
+    from pipeline import config
+    from pipeline.publication import archive
+
+    def pack(folder):
+        archive.write(accepted.path, config.load(accepted.config), folder / "a.tar")
+
+    return shared("archive", pack) / "a.tar"
+
+
+# File of pseudorigid/dynamics -> code appended to it: other data, the same data, and a bug.
+EDITS = {
+    "motion.py": """_MOTION = scene_motion
 
 
 def scene_motion(*given, **fields):
     found = _MOTION(*given, **fields)
     return found.assign(strain=found["strain"] * 1.01)
-"""
+""",
+    "orbits.py": "_EDITED = 1\n",
+    "manifolds.py": "\n\ndef scene_manifolds(*_, **__):\n    return 1 / 0\n",
+}
 
 
 @pytest.fixture(scope="session")
 def edited(shared, accepted):
-    """A read-only fresh clone with results from a cache and edits, and what a run printed.
+    """A read-only fresh clone with results from a cache and with edits, in which a run was made.
 
-    Figures 3 and 4 have another source with other data, orbits another source with the same data,
-    figure 7 another config. One scene is new, another one cannot exist, and a figure has no scene.
+    EDITS are those of the stages of figures 3 and 4, of 2 and 8, and of 5 and 6. Figure 8 lacks its
+    drawing, and figure 7 has another config. One scene is new, one cannot exist, and a published
+    figure has no scene. The files `plan` and `output` hold what `-n` and the run printed.
     """
 
     def make(path):
@@ -141,18 +159,20 @@ def edited(shared, accepted):
             accepted.path / "paper_figures", figures, copy_function=shutil.copy, dirs_exist_ok=True
         )
         shutil.copy(figures / "fig3.png", figures / "fig9.png")
+        (path / "results/paper/figures/fig8.png").unlink()
         tree.edit("fig7", records=5)
         document = tree.document()
         scenes = document["scenes"]
         scenes["again"] = scenes["fig7"] | {"impacts": 40, "formats": ["png"]}
         scenes["absent"] = scenes["fig3"] | {"type": "inverse hyperbolic", "formats": ["png"]}
         tree.write(document)
-        tree.append("pseudorigid/dynamics/motion.py", OTHER_STRAIN)
-        tree.append("pseudorigid/dynamics/orbits.py")
+        for file, text in EDITS.items():
+            tree.append(f"pseudorigid/dynamics/{file}", text)
         for i, file in enumerate(sorted(path.glob("src/**/*.py"))):
             os.utime(file, (4e9, 4e9) if i % 2 else (0, 0))
+        (path / "plan").write_text(tree.run("-n").stdout)
         result = tree.run()
-        assert result.returncode == 1  # a figure is missing
+        assert result.returncode == 1  # figures are missing
         (path / "output").write_text(result.stdout)
 
     return Tree(shared("with edits", make))

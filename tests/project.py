@@ -6,7 +6,8 @@ import shutil
 import subprocess
 import sys
 import time
-from contextlib import contextmanager, suppress
+from contextlib import chdir, contextmanager, nullcontext, suppress
+from importlib import import_module
 from pathlib import Path
 
 import yaml
@@ -46,6 +47,17 @@ def run(*command, **how):
     """Run a command; its output is text, and a failure is no error."""
     how = {"capture_output": True, "text": True} | how
     return subprocess.run([*map(str, command)], check=False, **how)
+
+
+def check_jsonschema(*arguments):
+    """Return the exit status of check-jsonschema, called in this process, and what it prints."""
+    import pytest  # an emulated processor imports this module without these packages
+    from click.testing import CliRunner
+
+    result = CliRunner().invoke(
+        pytest.importorskip("check_jsonschema").main, [*map(str, arguments)]
+    )
+    return result.exit_code, result.output
 
 
 class Tree:
@@ -150,6 +162,13 @@ class Tree:
             for file in (other.path / folder).rglob(f"*{word}*"):
                 shutil.copy(file, self.path / file.relative_to(other.path))
 
+    def make_here(self, *targets):
+        """Make results with records in this process, whose code is that of this tree."""
+        from pipeline.config import build_specs, load
+        from pipeline.records.record import recorded
+
+        make_here(self.path, build_specs.of_all(load(self.config)), targets, recorded)
+
     def copy(self, path):
         """Copy it with its results."""
         shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)
@@ -181,6 +200,20 @@ def fresh_tree(path, document=None, results_of=None):
     if results_of:
         shutil.copytree(results_of.path / "results", path / "results", copy_function=shutil.copy)
     return tree
+
+
+def make_here(folder, specs, targets, around=nullcontext):
+    """Make results and what they need in a folder, by the code that this process has loaded.
+
+    `specs` are build specifications. Results that exist stay. `around(spec)` is a context manager.
+    """
+    from pipeline.config.build_specs import with_dependencies
+
+    with chdir(folder):
+        for path in with_dependencies(specs, targets):
+            if not Path(path).exists():
+                with around(specs[path]):
+                    import_module(f"pipeline.jobs.{specs[path].program}").make(specs[path])
 
 
 def small(document):

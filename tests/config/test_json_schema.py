@@ -1,27 +1,18 @@
 """config.schema.json accepts config.yaml and refuses mistakes in one value."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
+from project import ROOT, check_jsonschema
 from slowly import slowly
 
 from pipeline.config import json_schema
 from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
-from pipeline.records.sources import ROOT
 
 
-def _accepted(text: str, folder: Path) -> tuple[bool, str]:
-    """Return whether check-jsonschema accepts a config, and what it prints."""
-    pytest.importorskip("check_jsonschema")
+def check(text, folder):
+    """Check a config by the schema: return the exit status and what is printed."""
     (folder / "config.yaml").write_text(text)
-    command = [sys.executable, "-m", "check_jsonschema", "--schemafile", ROOT / json_schema.FILE]
-    run = subprocess.run(
-        [*command, folder / "config.yaml"], check=False, capture_output=True, text=True
-    )
-    return run.returncode == 0, run.stdout
+    return check_jsonschema("--schemafile", ROOT / json_schema.FILE, folder / "config.yaml")
 
 
 def test_the_committed_schema_is_up_to_date():
@@ -33,8 +24,8 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     for kind in KINDS:
         block = "".join(f"    {line}\n" for line in example(kind).splitlines())
         text = text.replace("scenes:\n", f"scenes:\n  another_{kind}:\n{block}", 1)
-    accepted, output = _accepted(text, tmp_path)
-    assert accepted, output
+    status, output = check(text, tmp_path)
+    assert status == 0, output
 
 
 @pytest.mark.parametrize(
@@ -54,6 +45,5 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
 def test_a_mistake_is_refused_and_named(tmp_path, old, new, named):
     text = (ROOT / "tests" / "scenes.yaml").read_text()
     assert old in text
-    accepted, output = _accepted(text.replace(old, new, 1), tmp_path)
-    assert not accepted
-    assert named in output
+    status, output = check(text.replace(old, new, 1), tmp_path)
+    assert status == 1 and named in output

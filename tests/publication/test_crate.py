@@ -7,19 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from pipeline import config
-from pipeline.publication import archive, crate
+from pipeline.publication import crate
 from pipeline.records import swhid
 
 SCRIPT = Path(__file__).with_name("validate_crate.py")
 
 
 @pytest.fixture(scope="module")
-def unpacked(accepted, tmp_path_factory):
+def unpacked(packed, tmp_path_factory):
     """The folder of an archive of `accepted`."""
     folder = tmp_path_factory.mktemp("crate")
-    archive.write(accepted.path, config.load(accepted.config), folder / "a.tar")
-    subprocess.run(["tar", "-xf", "a.tar"], cwd=folder, check=True)
+    subprocess.run(["tar", "-xf", packed], cwd=folder, check=True)
     return folder / "pseudorigid"
 
 
@@ -51,14 +49,14 @@ def references(graph):
                     yield item
 
 
-def test_the_identifier_of_a_folder_is_that_of_its_git_tree(unpacked, tmp_path):
+def test_the_identifier_of_a_folder_is_that_of_its_git_tree(packed, unpacked, tmp_path):
     shutil.copytree(unpacked, tmp_path / "copy")
     git = ["git", "-C", tmp_path / "copy"]
     subprocess.run([*git, "init", "-q"], check=True)
     subprocess.run([*git, "add", "-f", "."], check=True)
     tree = subprocess.run([*git, "write-tree"], check=True, capture_output=True, text=True)
     (tmp_path / "results" / "archive").mkdir(parents=True)
-    shutil.copy(unpacked.parent / "a.tar", tmp_path / "results" / "archive")
+    shutil.copy(packed, tmp_path / "results" / "archive")
     assert swhid.identifiers(tmp_path) == [("a.tar", f"swh:1:dir:{tree.stdout.strip()}")]
 
 

@@ -1,19 +1,17 @@
 """The workflow file for GitHub is valid by the published schema, pinned, and runs our commands."""
 
 import re
-import sys
 
 import yaml
-from project import ROOT, run
+from project import ROOT, check_jsonschema
 
 FILE = ROOT / ".github" / "workflows" / "reproduce.yml"
 JOB = yaml.safe_load(FILE.read_text(encoding="utf-8"))["jobs"]["reproduce"]
 
 
 def test_it_is_valid():
-    command = ["check_jsonschema", "--builtin-schema", "vendor.github-workflows"]
-    result = run(sys.executable, "-m", *command, FILE)
-    assert result.returncode == 0, result.stdout
+    status, output = check_jsonschema("--builtin-schema", "vendor.github-workflows", FILE)
+    assert status == 0, output
 
 
 def test_the_job_runs_on_two_processors_what_the_readme_says():
