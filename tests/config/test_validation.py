@@ -3,7 +3,6 @@
 import json
 import re
 import subprocess
-import sys
 
 import pytest
 from documents import complaints, good
@@ -71,17 +70,6 @@ def test_axes_and_formats_do_not_decide_data():
     other = block | {"axes": {}, "formats": ["png", "pdf"]}
     assert paths.stages(block) == paths.stages(other)
     assert json.dumps(paths.stages(block))
-
-
-def test_reading_the_config_imports_nothing_heavy():
-    program = (
-        "import sys\nfrom pipeline import config\n"
-        f"config.load({str(SHIPPED)!r})\n"
-        "print(*{'numpy', 'numba', 'xarray', 'matplotlib', 'netCDF4'} & set(sys.modules))"
-    )
-    environment = {"PYTHONPATH": str(ROOT / "src")}
-    out = subprocess.check_output([sys.executable, "-c", program], env=environment, text=True)
-    assert out.split() == []
 
 
 def test_the_shipped_config_has_the_papers_figures_and_no_numbers_in_quotes():

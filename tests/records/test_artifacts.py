@@ -153,15 +153,3 @@ def test_the_content_hash_of_the_tests_sees_content_and_only_content(tmp_path):
     ]
     hashes = {content_hash(each) for each in changed}
     assert len(hashes | {reference}) == len(changed) + 1
-
-
-def test_importing_the_module_imports_no_stage():
-    code = (
-        "import sys, pipeline.records.artifacts;"
-        "ours = ('pseudorigid', 'pipeline.', 'numba', 'matplotlib');"
-        "print(*[m for m in sys.modules if m.startswith(ours)])"
-    )
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
-    out = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)
-    records = {"pipeline.records", "pipeline.records.artifacts", "pipeline.records.files"}
-    assert set(out.split()) == records | {"pseudorigid"}  # its loader

@@ -1,11 +1,13 @@
-"""Imports point downwards between packages, without circles, and packages are small."""
+"""Imports point downwards, without circles; packages are small, and processes load little."""
 
 import ast
 import graphlib
+import os
+import sys
 from functools import cache
 
 import pytest
-from project import ROOT
+from project import ROOT, SHIPPED, run
 
 # Each part of a package may import those to its right, and the pipeline all of the science.
 LAYERS = {
@@ -193,3 +195,23 @@ def test_a_planted_fault_is_found(fault):
 def test_many_modules_that_no_sibling_imports_are_no_fault():
     planted = dict.fromkeys((f"pipeline/records/peers/{n}.py" for n in ("__init__", *NUMBERED)), "")
     assert list(violations(sources() | planted)) == []
+
+
+LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "pseudorigid.study")
+OURS = ("pseudorigid", "pipeline.", "numba", "matplotlib")
+RECORDS = ["pipeline.records", "pipeline.records.artifacts", "pipeline.records.files"]
+
+
+@pytest.mark.parametrize(
+    ("code", "names", "expected"),
+    [
+        (f"import pipeline.cli.running, pipeline.config as c; c.load({str(SHIPPED)!r})",
+         LIBRARIES, []),
+        ("import pipeline.records.artifacts", OURS, [*RECORDS, "pseudorigid"]),
+    ],
+    ids=["start of a run", "artifacts"],
+)  # fmt: skip
+def test_a_process_loads_no_more_than_it_needs(code, names, expected):
+    program = f"import sys\n{code}\nprint(*sorted(n for n in sys.modules if n.startswith({names})))"
+    result = run(sys.executable, "-c", program, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
+    assert result.stdout.split() == expected, result.stderr

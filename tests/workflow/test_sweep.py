@@ -4,10 +4,9 @@ import hashlib
 import os
 import shutil
 import signal
-import sys
 
 import pytest
-from project import ROOT, fresh_tree, of_scenes, run, wait_for
+from project import fresh_tree, of_scenes, wait_for
 from runs import rows
 
 from pipeline.cli.arguments import Arguments
@@ -167,10 +166,3 @@ def test_the_papers_figures_need_no_sweep():
     drawings = [upstream[-1] for _, upstream in paths.figures(checked["variants"]).values()]
     needed = build_specs.with_dependencies(build_specs.of_all(checked), drawings)
     assert needed and all(path.startswith("results/paper/") for path in needed)
-
-
-def test_the_start_imports_nothing_heavy():
-    code = "import sys, pipeline.config, pipeline.cli.running\n"
-    code += "print({'numpy', 'pseudorigid.study'} & set(sys.modules))"
-    result = run(sys.executable, "-c", code, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
-    assert result.stdout == "set()\n", result.stderr
