@@ -21,7 +21,7 @@ from ..kernel.arithmetic import log, sincos
 from ..kernel.compiled import jit
 from .perturbed_map import DA, DB, KEPT, MAPS, PerturbedMap, apply, perturbed_map, propagate
 from .regularity import GROWTH_THRESHOLD
-from .sea import section_points
+from .sea import half_axes, section_points
 
 _LENGTHS = 4  # numbers of impacts at which orbits are classified, each twice the one before
 # A ring of orbits around a periodic point measures its spiral: their number, their distance from
@@ -105,9 +105,8 @@ _DEFECT = "median of |S F S F z - z|, least over the reversors S tried"
 
 def _disk(ball: Ball, energy: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the points (a, b) in the unit disk as an array (2, n)."""
-    centre, radius = ball.section(energy)
-    high = math.sqrt(ball.k * (1.0 + ball.k)) * radius
-    return np.stack([(np.asarray(x) - centre) / radius, np.asarray(y) / high])
+    width, height = half_axes(ball, energy)
+    return np.stack([(np.asarray(x) - ball.section(energy)[0]) / width, np.asarray(y) / height])
 
 
 def _begin(points: np.ndarray) -> np.ndarray:
@@ -140,12 +139,10 @@ def _statistics(grown, area, impacts, resampled):
     counts = np.stack([np.sum(kinds == i, axis=1) for i in range(len(CLASSES))], axis=1)
     total = kinds.shape[1]
     intervals = np.array([[_wilson(int(n), total) for n in row] for row in counts])
-    rates = grown[-1] / (impacts - impacts // 2), area[-1] / (impacts - impacts // 2)
-    last = kinds[-1]
+    growth, contraction = (sums[-1] / (impacts - impacts // 2) for sums in (grown, area))
     means = [
-        _interval(rates[0], last == 2, resampled),
-        _interval(rates[1], last == 2, resampled),
-        _interval(rates[1], last == 1, resampled),
+        _interval(rate, kinds[-1] == kind, resampled)
+        for rate, kind in ((growth, 2), (contraction, 2), (contraction, 1))
     ]
     return counts / total, intervals, means
 
@@ -173,10 +170,14 @@ def _interval(values, chosen, resampled) -> tuple[float, float, float]:
 
 def images(perturbed: PerturbedMap, points: np.ndarray, impacts: int = 1) -> np.ndarray:
     """Return the images of points (2, n) after some impacts of a perturbed map."""
-    rows = _begin(points)
-    none = np.empty((0, points.shape[1]))
+    return _propagated(perturbed, _begin(points), impacts)[:2]
+
+
+def _propagated(perturbed: PerturbedMap, rows: np.ndarray, impacts: int) -> np.ndarray:
+    """Propagate rows of orbits in place without normalizing vectors, and return them."""
+    none = np.empty((0, rows.shape[1]))
     propagate(rows, *perturbed, impacts, np.empty((0, 2), dtype=np.int64), none, none, _NONE)
-    return rows[:2]
+    return rows
 
 
 @jit
@@ -204,8 +205,7 @@ def _defect(perturbed: PerturbedMap) -> float:
         for after in (None, perturbed.changes[1]):
             image = points
             for _ in range(2):
-                image = images(perturbed, image)
-                image = _combined(mirror, image)
+                image = _combined(mirror, images(perturbed, image))
                 image = image if after is None else _applied(after, image)
             off = image - points
             distance = np.sort(np.sqrt(off[0] * off[0] + off[1] * off[1]))
@@ -270,8 +270,7 @@ def _jacobian(perturbed: PerturbedMap, point: np.ndarray, steps: int):
     """Return the image (2, 1) of a point under some impacts, and the Jacobian (2, 2)."""
     rows = _begin(np.repeat(point, 2, axis=1))
     rows[DA], rows[DB] = (1.0, 0.0), (0.0, 1.0)
-    none = np.empty((0, 2))
-    propagate(rows, *perturbed, steps, np.empty((0, 2), dtype=np.int64), none, none, _NONE)
+    _propagated(perturbed, rows, steps)
     return rows[:2, :1], rows[[DA, DB]]
 
 
@@ -306,17 +305,9 @@ def _rate(perturbed, point, jacobian, steps, resampled) -> tuple[float, float, f
         return math.nan, math.nan, math.nan
     angles = np.array([_direction(i, _RING) for i in range(_RING)]).T
     out = np.empty((2, _RING, _RING_IMPACTS))
-    windows = np.array([[0, 1]])
-    none = np.zeros((1, _RING))
-    propagate(
-        _begin(point + _DISTANCE * angles),
-        *perturbed,
-        _RING_IMPACTS,
-        windows,
-        none,
-        none.copy(),
-        out,
-    )
+    windows, sums = np.array([[0, 1]]), np.zeros((2, 1, _RING))
+    ring = _begin(point + _DISTANCE * angles)
+    propagate(ring, *perturbed, _RING_IMPACTS, windows, *sums, out)
     a, b = out[:, :, steps - 1 :: steps] - point[:, :, None]
     form = jacobian[1, 0] * a * a + (jacobian[1, 1] - jacobian[0, 0]) * a * b
     size = 0.5 * _logs(np.abs(form - jacobian[0, 1] * b * b))

@@ -19,7 +19,7 @@ from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 from .actions import Heteroclinic, first_crossing, lobe, saddles_of
 from .polygon import Polygon
-from .sea import sea_states
+from .sea import half_axes, sea_states
 
 SIDES = ("inner", "outer")
 # The area of a lobe is computed twice, with these bits and so many images nearer to the saddle, to
@@ -90,7 +90,7 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=S
     if len(missing) == len(sides):
         raise ValueError("; ".join(f"no {side} lobes: {why}" for side, why in missing.items()))
     attributes = {
-        "section": math.pi * math.prod(_half_axes(ball, energy)),
+        "section": math.pi * math.prod(half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
     }
     attributes |= {f"missing_{side}": why for side, why in missing.items()}
@@ -100,9 +100,10 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=S
 def _missing_row(side: str) -> tuple:
     """Return the values of _VARIABLES for a side without lobes."""
     sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
-    row = {}
-    for name, (dims, *_) in _VARIABLES.items():
-        row[name] = math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan)
+    row = {
+        name: math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan)
+        for name, (dims, *_) in _VARIABLES.items()
+    }
     return (*(row | {"side": side, "digits": "", "saddle": -1, "target": -1}).values(),)
 
 
@@ -255,15 +256,9 @@ def _closed(arcs: list[np.ndarray]) -> np.ndarray:
     return np.concatenate(loop, axis=1)
 
 
-def _half_axes(ball: Ball, energy: float) -> tuple[float, float]:
-    """Half axes of the section in (x, y)."""
-    radius = ball.section(energy)[1]
-    return radius, math.sqrt(ball.k * (1.0 + ball.k)) * radius
-
-
 def _carried(ball: Ball, energy: float, polygon: Polygon, grid: int) -> tuple[float, float]:
     """Return the areas that one impact carries out of a region and into it, counted on a grid."""
-    width, height = _half_axes(ball, energy)
+    width, height = half_axes(ball, energy)
     middle = (2.0 * np.arange(grid) + 1.0) / grid - 1.0
     x, y = (a.ravel() for a in np.meshgrid(middle, middle))
     inside = x * x + y * y < 1.0

@@ -1,5 +1,7 @@
 """Starts of many orbits, spread over the section or over a part of y = 0 in the chaotic sea."""
 
+import math
+
 import numpy as np
 
 from ..dynamics.ball import Ball
@@ -14,15 +16,20 @@ def section_points(ball: Ball, energy: float, orbits: int) -> tuple[np.ndarray, 
     The map keeps area in these coordinates. The points are those of the quasirandom sequence R2 in
     the section's disk (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
     """
-    centre, radius = ball.section(energy)
+    width, height = half_axes(ball, energy)
     step = np.array([1.0 / _PLASTIC_NUMBER, 1.0 / (_PLASTIC_NUMBER * _PLASTIC_NUMBER)])
     # the disk holds 0.785 of its square, and of any 2 n + 16 points more than n
     square = np.arange(2 * orbits + 16)[:, None] * step + 0.5
     across, up = 2.0 * (square - np.floor(square)).T - 1.0
     (inside,) = np.nonzero(across * across + up * up < _MAX_SQUARED_RADIUS)
     across, up = across[inside[:orbits]], up[inside[:orbits]]
-    high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
-    return centre + radius * across, high * up
+    return ball.section(energy)[0] + width * across, height * up
+
+
+def half_axes(ball: Ball, energy: float) -> tuple[float, float]:
+    """Return the half axes of the section, an ellipse in (x, y)."""
+    radius = ball.section(energy)[1]
+    return radius, math.sqrt(ball.k * (1.0 + ball.k)) * radius
 
 
 def sea_states(

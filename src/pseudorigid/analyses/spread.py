@@ -11,7 +11,7 @@ import xarray as xr
 from ..dynamics.lyapunov import lyapunov_spectrum
 from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
 from .regularity import regular_bound
-from .sea import section_points
+from .sea import half_axes, section_points
 
 _CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 
@@ -79,8 +79,7 @@ def _regular_exponents(ball, energy, starts, impacts):
 
 def _entered_cells(ball, energy, states, cells, visits):
     """Count the cells of the chart that orbits enter, at `visits` impacts and its halves."""
-    centre, radius = ball.section(energy)
-    high = np.sqrt(ball.k * (1.0 + ball.k)) * radius
+    centre, (radius, high) = ball.section(energy)[0], half_axes(ball, energy)
     states = [a.copy() for a in states]
     entered = np.zeros((states[0].size, cells * cells), dtype=bool)
     lengths, done, counts = _halves(visits), 0, []

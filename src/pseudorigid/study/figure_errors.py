@@ -79,7 +79,8 @@ def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr
     good = (error <= limit[:, None]) & ((missed == 0) | ~misses_show[:, None])
     cheapest = np.where(good, evaluations, np.inf).argmin(axis=1)
     blocks = zip(scenes.values(), axes, strict=True)
-    digit = [_last_digit(block["axes"][axis]["ticks"]) for block, axis in blocks]
+    labels = [[f"{tick:.10g}" for tick in block["axes"][axis]["ticks"]] for block, axis in blocks]
+    digit = [float(f"1e-{max(len(text.partition('.')[2]) for text in row)}") for row in labels]
     width = stroke * DPI / 72 * pixel
     each = ("scene", "method")
     variables = {
@@ -180,11 +181,6 @@ def _pixels(plane) -> tuple[float, float]:
     left, bottom, right, top = plane.frame
     (x0, x1), (y0, y1) = plane.across.limits, plane.up.limits
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
-
-
-def _last_digit(ticks: list[float]) -> float:
-    """Value of the last digit that the labels of ticks show."""
-    return float(f"1e-{max(len(f'{tick:.10g}'.partition('.')[2]) for tick in ticks)}")
 
 
 def _orbits(block: dict) -> tuple[Ball, list, list[int]]:

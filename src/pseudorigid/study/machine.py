@@ -10,12 +10,9 @@ PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys")
 
 def machine() -> dict[str, str]:
     """Return the processor, its load and the versions of packages."""
-    return {
-        "processor": _processor(),
-        "cores": str(os.cpu_count()),
-        "load": f"{os.getloadavg()[0]:.1f}",
-        "python": platform.python_version(),
-    } | {name: version(name) for name in PACKAGES}
+    facts = {"processor": _processor(), "cores": str(os.cpu_count())}
+    facts |= {"load": f"{os.getloadavg()[0]:.1f}", "python": platform.python_version()}
+    return facts | {name: version(name) for name in PACKAGES}
 
 
 def _processor() -> str:

@@ -30,24 +30,13 @@ def chains(sweep: dict) -> xr.Dataset:
     """Follow births and losses of stability of the chains 1/q over the plane of a sweep.
 
     A chain is that of the period-q orbit that branches off where the fixed point's rotation number
-    is 1/q. Its events are found at nine k at which this lies in the plane, and followed in k.
+    is 1/q. Its events are found at nine k at which this lies in the plane, and followed in k. The k
+    and energies, E/g^2, of a sweep span the plane; its `chains` has the orders q.
 
-    Parameters
-    ----------
-    sweep : dict
-        Its k and energies, E/g^2, span the plane; `chains` has the orders q.
-
-    Returns
-    -------
-    xarray.Dataset
-        On `curve`: order; kind, "resonance" 1/q of the fixed point, "fold" where an elliptic orbit
-        of the chain is born or ends, its first "doubling", the "rim", where it loses an impact
-        while the ball is at rest on the floor, and "jumps" (order 0), above which the map jumps;
-        row_size. On `point`, the curves one after the other (CF): k, energy.
-
-    References
-    ----------
-    R. S. MacKay, Renormalisation in Area-Preserving Maps (World Scientific, 1993).
+    The kind of a curve is "resonance" 1/q of the fixed point, "fold" where an elliptic orbit of the
+    chain is born or ends, its first "doubling", the "rim", where it loses an impact while the ball
+    is at rest on the floor, or "jumps" (order 0), above which the map jumps. On `point` are the
+    curves one after the other (CF).
     """
     spans = [_wider(np.array(sweep[axis])) for axis in ("k", "energy")]
     limits = Limits((max(spans[0][0], 1e-3), spans[0][1]), spans[1])
@@ -55,13 +44,11 @@ def chains(sweep: dict) -> xr.Dataset:
     grid = [low + (high - low) * i / (_POINTS - 1) for i in range(_POINTS)]
     curves = [(0, "jumps", _within([(k, 1.0 + 0.5 * k) for k in grid], limits))]
     for order in sweep["chains"]:
-        resonance = [(k, fixed_point.resonance(k, 1, order)) for k in grid]
-        inside = _within(resonance, limits)
-        curves.append((order, "resonance", inside))
-        if not inside:
-            continue
-        curves += [(order, *curve) for curve in _events(order, inside, grid, limits)]
-    curves = [(order, kind, rows) for order, kind, rows in curves if rows]
+        inside = _within([(k, fixed_point.resonance(k, 1, order)) for k in grid], limits)
+        if inside:
+            curves.append((order, "resonance", inside))
+            curves += [(order, *curve) for curve in _events(order, inside, grid, limits)]
+    curves = [curve for curve in curves if curve[-1]]
     points = np.array([pair for _, _, rows in curves for pair in rows]).reshape(-1, 2)
     table = {
         "order": ("curve", [order for order, _, _ in curves], "q of the chain 1/q; 0 for jumps"),

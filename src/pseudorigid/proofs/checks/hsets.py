@@ -6,9 +6,10 @@ relations, after Zgliczynski and Gidea (2004) and Kokubu, Wilczak and Zgliczynsk
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from typing import NamedTuple
 
 from flint import arb
 
@@ -182,7 +183,7 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
     side = 1 if right > 0 else -1  # on which the edge p = 1 lands
     beyond = room = float("inf")
     failure = f"{source.name} does not cover {target.name}"
-    cells = [_Cell(0.0, 0.0, 1.0, 1.0)]
+    cells = [_Cell()]
     for _ in range(MOST_CELLS):
         if not cells:
             return beyond, room
@@ -193,7 +194,8 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
             failure = f"{source.name}: {error}"
             cells += cell.halves(source)
             continue
-        edges = [p * side * local.exit_edge(p) - 1 for p in (-1, 1) if cell.is_at(p)]
+        at = [p for p in (-1, 1) if cell.p + p * cell.half_p == p]  # edges that the cell touches
+        edges = [p * side * local.exit_edge(p) - 1 for p in at]
         left = 1 - abs(local.across()).upper()
         if left > 0 and all(edge > 0 for edge in edges):
             beyond = min([beyond, *map(lowest, edges)])
@@ -205,32 +207,24 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
     raise NotProvedError(failure)
 
 
-@dataclass(frozen=True)
-class _Cell:
+class _Cell(NamedTuple):
     """The part of a set with these middles and half widths of p and q, which are exact."""
 
-    p: float
-    q: float
-    half_p: float
-    half_q: float
+    p: float = 0.0
+    q: float = 0.0
+    half_p: float = 1.0
+    half_q: float = 1.0
 
     def of(self, source: HSet) -> HSet:
         """Return the cell of a set as an HSet."""
-        u, s = (
-            tuple(arb(half) * a for a in side)
-            for half, side in ((self.half_p, source.u), (self.half_q, source.s))
-        )
-        return HSet(source.name, tuple(source.box(arb(self.p), arb(self.q))), u, s)
-
-    def is_at(self, edge: int) -> bool:
-        """Whether the cell touches the edge p = -1 or p = 1."""
-        return self.p + edge * self.half_p == edge
+        p, q, half_p, half_q = map(arb, self)
+        u, s = tuple(half_p * a for a in source.u), tuple(half_q * a for a in source.s)
+        return HSet(source.name, tuple(source.box(p, q)), u, s)
 
     def halves(self, source: HSet) -> list["_Cell"]:
         """Return the two halves of the cell, cut across its longer side."""
         u, s = (float(x * x + y * y) for x, y in (source.u, source.s))
-        if self.half_p**2 * u > self.half_q**2 * s:
-            half = self.half_p / 2
-            return [replace(self, p=self.p + e * half, half_p=half) for e in (-1, 1)]
-        half = self.half_q / 2
-        return [replace(self, q=self.q + e * half, half_q=half) for e in (-1, 1)]
+        p, q, half_p, half_q = self
+        if half_p**2 * u > half_q**2 * s:
+            return [_Cell(p + e * half_p / 2, q, half_p / 2, half_q) for e in (-1, 1)]
+        return [_Cell(p, q + e * half_q / 2, half_p, half_q / 2) for e in (-1, 1)]

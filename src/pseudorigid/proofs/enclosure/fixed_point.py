@@ -10,6 +10,8 @@ docs/proofs.md has the argument ("Periodic orbits").
 
 from flint import arb
 
+from .jets import Jet, algebra
+
 
 def energy_at(k: arb, g: arb, theta: arb) -> arb:
     """Enclose the energy at a theta, which rises with it."""
@@ -17,18 +19,14 @@ def energy_at(k: arb, g: arb, theta: arb) -> arb:
     return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
 
 
-def trace_at(k: arb, theta: arb) -> arb:
+def trace_at(k: arb, theta: arb | Jet) -> arb | Jet:
     """Enclose the trace at a theta."""
-    sine, cosine = (2 * theta).sin_cos()
-    shear = (1 / theta - theta.cot()) * (2 * theta - sine)
-    return 2 * ((1 + k * cosine) / (1 + k) - k * shear / (1 + k) ** 2)
+    sine, cosine = theta.sin_cos()
+    double_sine, double_cosine = (2 * theta).sin_cos()
+    shear = (1 / theta - cosine / sine) * (2 * theta - double_sine)
+    return 2 * ((1 + k * double_cosine) / (1 + k) - k * shear / (1 + k) ** 2)
 
 
 def slope_at(k: arb, theta: arb) -> arb:
     """Enclose the trace's derivative by theta."""
-    sine, cosine = theta.sin_cos()
-    double, _ = (2 * theta).sin_cos()
-    lift, spread = 1 / theta - cosine / sine, 2 * theta - double
-    growth = 1 / (sine * sine) - 1 / (theta * theta)
-    shear = growth * spread + lift * 4 * sine * sine
-    return -2 * k / (1 + k) * (2 * double + shear / (1 + k))
+    return trace_at(k, *Jet.series(algebra(1, 1), theta)).coefficients[1]

@@ -1,6 +1,6 @@
-"""Formatting of certificates as text."""
+"""Decimals of certificates, and their formatting as text."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 from flint import arb
@@ -31,6 +31,17 @@ def decimal(value: arb, digits: int) -> str:
 def fixed(value: Fraction, decimals: int) -> str:
     """Format a number with this many decimals."""
     return f"{round(value * 10**decimals)}e-{decimals}"
+
+
+def bisected(
+    is_positive: Callable[[Fraction], bool], low: Fraction, high: Fraction, decimals: int
+) -> tuple[Fraction, Fraction]:
+    """Return neighbouring decimals, of so many, between which a function falls through zero."""
+    unit = 10**decimals
+    while high - low > Fraction(1, unit):
+        middle = Fraction(round((low + high) / 2 * unit), unit)
+        low, high = (middle, high) if is_positive(middle) else (low, middle)
+    return low, high
 
 
 def row(values: Iterable[arb], digits: int) -> str:

@@ -56,6 +56,12 @@ class DoubleMap:
         self.ball: Ball = approximate_orbits.ball(surface)
         self.energy = float(surface.energy)
 
+    def steps(self, points: np.ndarray, impacts: int) -> np.ndarray:
+        """Return the images of points (2, n) after some impacts."""
+        for _ in range(impacts):
+            points = self.step(points)
+        return points
+
     def step(self, points: np.ndarray) -> np.ndarray:
         """Return the images of points (2, n); raises ValueError for one outside the section."""
         k, g = self.ball.k, self.ball.g
@@ -118,10 +124,7 @@ def chain(
 def _frames(double_map, source, target, impacts, strip):
     """Return the p of an orbit to the target, frames along it, and its stretches and squeezes."""
     p = np.linspace(*strip, _STRIP_POINTS)
-    lines = [source.points(p, 0.0 * p)]
-    for _ in range(impacts):
-        lines.append(double_map.step(lines[-1]))
-    ends, _ = target.coordinates(lines[-1])
+    ends, _ = target.coordinates(double_map.steps(source.points(p, 0.0 * p), impacts))
     crossings = np.flatnonzero(ends[:-1] * ends[1:] <= 0.0)
     if not crossings.size:
         raise ValueError("the strip does not reach the target")
@@ -150,9 +153,8 @@ def _frames(double_map, source, target, impacts, strip):
 
 def _image(double_map, frames, wide, high, t):
     """Return p and q, in the next frame, of the image of a set's boundary."""
-    return frames[t + 1].coordinates(
-        double_map.step(_part(frames[t], wide[t], high[t]).points(_P, _Q))
-    )
+    boundary = _part(frames[t], wide[t], high[t]).points(_P, _Q)
+    return frames[t + 1].coordinates(double_map.step(boundary))
 
 
 def _part(frame: Parallelogram, wide: np.ndarray, high: np.ndarray) -> Parallelogram:

@@ -14,13 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, ctx
 
-from ...dynamics.ball import Ball
-from ...dynamics.variables import chart
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import enclose
 from ..enclosure.surface import Surface
-from . import approximate_orbits
 from .certificate_text import header, row, rows
+from .chains import DoubleMap
 from .periodic import polished
 
 _BITS = 320  # for an orbit that starts _EXTRA_ROUNDS nearer to its saddle than a double can tell
@@ -191,40 +189,30 @@ def directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb,
 
 def _crossing(surface, saddle, vector, multiplier, period) -> tuple[float, int]:
     """Find sigma and impacts: saddle + sigma vector is the first to meet y = 0 at an x > 0."""
-    ball = approximate_orbits.ball(surface)
-
-    def segment(low, high):
-        """Sigma from low to high, and the states at saddle + sigma vector."""
-        sigma = np.linspace(low, high, 1001)
-        x, y = (float(a) + sigma * float(v) for a, v in zip(saddle, vector, strict=True))
-        return sigma, [np.array(a) for a in ball.state_xy(x, y, float(surface.energy))]
-
-    def advance(state, impacts):
-        ball.map.steps(*state, ball.k, ball.g, impacts, np.empty(state[0].size))
+    double_map = DoubleMap(surface)
+    start, along = (np.array([[float(a)] for a in z]) for z in (saddle, vector))
 
     def refined(ends, impacts):
         """Refine the sigma that meets y = 0; None where y jumps across 0."""
         for _ in range(4):
-            sigma, state = segment(*ends)
-            advance(state, impacts)
-            changes = _sign_changes(ball, state)
+            sigma = np.linspace(*ends, 1001)
+            changes = _sign_changes(*double_map.steps(start + along * sigma, impacts))
             if not changes.size:
                 return None
             ends = sigma[changes[0]], sigma[changes[0] + 1]
         return ends[0]
 
     ends = _START, _START * multiplier
-    _, state = segment(*ends)
+    points = start + along * np.linspace(*ends, 1001)
     for impacts in range(_MOST_IMAGES * period):
-        if _sign_changes(ball, state).size and (sigma := refined(ends, impacts)) is not None:
+        if _sign_changes(*points).size and (sigma := refined(ends, impacts)) is not None:
             return sigma, impacts
-        advance(state, 1)
+        points = double_map.steps(points, 1)
     raise ValueError("no branch of the orbit is seen to meet y = 0")
 
 
-def _sign_changes(ball: Ball, state: list[np.ndarray]) -> np.ndarray:
+def _sign_changes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the indices after which y changes its sign, at x > 0 and without a jump."""
-    x, y = chart(ball.k, *state)
     near = (np.abs(np.diff(x)) < _JUMP) & (x[1:] > 0.0)
     return np.flatnonzero((y[:-1] * y[1:] <= 0.0) & near)
 
@@ -242,14 +230,13 @@ def _follow(surface: Surface, point: Vector, vector: Vector, sigma: arb, impacts
 
 def _text(connection: _Connection, plan: Plan) -> str:
     """Return the certificate without its margins."""
-    surface, saddles, expanding = connection.surface, connection.saddles, connection.expanding
-    points, tangents, middle = connection.points, connection.tangents, connection.middle
+    surface, saddles, expanding, mirror, rho, points, tangents, middle = connection
     steps, first = plan.steps, connection.first(plan.steps)
     begin, end = middle - steps, middle + steps
     leaves = (first - 1) % len(saddles)
-    enters = connection.mirror[leaves]
+    enters = mirror[leaves]
     size, start = arb(plan.size), connection.distance(steps)
-    widest = (size * connection.rho - start) / plan.room * _length(expanding[first])
+    widest = (size * rho - start) / plan.room * _length(expanding[first])
     if not widest > 0:
         raise ValueError(
             f"size = {plan.size:g} is too small for steps = {steps}: the chain begins "

@@ -44,10 +44,9 @@ def propose(surface: Surface, points: Sequence, size: float, last: float) -> str
             f"{row(z, _SADDLE_DIGITS)[:-1]}, {row(side, _DIGITS)[1:]}"
             for z, side in zip(saddles, sides, strict=True)
         ]
-        centre, u, s = (
-            np.array([float(a) for a in side]) for side in (saddles[0], sides[0][:2], sides[0][2:])
+        source = Parallelogram(
+            *(np.array(side, dtype=float) for side in (saddles[0], sides[0][:2], sides[0][2:]))
         )
-    source = Parallelogram(centre, u, s)
     p, impacts, stretched = _crossing(double_map, source)
     point = _image(double_map, source, p, impacts)
     middle, half, tangent = _touch(surface, point, last)
@@ -95,10 +94,7 @@ def _crossing(double_map: DoubleMap, source: Parallelogram) -> tuple[float, int,
 
 def _image(double_map: DoubleMap, source: Parallelogram, p: float, impacts: int) -> np.ndarray:
     """Return the image of a point of a set's expanding side."""
-    point = source.points(np.array([p]), np.zeros(1))
-    for _ in range(impacts):
-        point = double_map.step(point)
-    return point[:, 0]
+    return double_map.steps(source.points(np.array([p]), np.zeros(1)), impacts)[:, 0]
 
 
 def _touch(surface: Surface, point: np.ndarray, last: float) -> tuple[float, float, np.ndarray]:

@@ -8,7 +8,7 @@ from ..checks.certificate import NotProvedError
 from ..checks.one_zero import BITS, PLACES, over_band
 from ..enclosure.fixed_point import energy_at
 from ..enclosure.surface import ball_of
-from .certificate_text import ball_header, fixed, rows
+from .certificate_text import ball_header, bisected, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]
 _LAST = Fraction("2.4")  # theta beyond which no band is tried
@@ -25,9 +25,13 @@ def propose(k: Fraction, g: Fraction, *, energy: Fraction, **_: object) -> str:
         edges = [Fraction(0)]
         while not energy_at(ball_of(k), ball_of(g), ball_of(edges[-1])) > ball_of(energy):
             edges.append(edges[-1] + _widest(k, g, edges[-1]))
-        zeros = {
-            name: _bisected(k, g, place, edges[1], edges[-1]) for name, place in PLACES.items()
-        }
+        zeros = {}
+        for name, place in PLACES.items():
+
+            def is_positive(theta, place=place):
+                return over_band(k, g, theta, theta)[place][0] > 0
+
+            zeros[name] = bisected(is_positive, edges[1], edges[-1], _DECIMALS)
     return (
         ball_header("one zero of the twist", k, g)
         + f'energy_up_to = "{energy}"\n'
@@ -49,15 +53,3 @@ def _widest(k: Fraction, g: Fraction, low: Fraction) -> Fraction:
         if all(value > 0 or value < 0 or slope < 0 for value, slope in pairs):
             return width
     raise ValueError(f"no band from theta = {float(low):g} on has a sign")
-
-
-def _bisected(k: Fraction, g: Fraction, place: int, low: Fraction, high: Fraction) -> list:
-    """Return theta between which a function falls through zero, of `_DECIMALS` decimals."""
-    unit = 10**_DECIMALS
-    while high - low > Fraction(1, unit):
-        middle = Fraction(round((low + high) / 2 * unit), unit)
-        if over_band(k, g, middle, middle)[place][0] > 0:
-            low = middle
-        else:
-            high = middle
-    return [low, high]

@@ -11,7 +11,7 @@ from flint import arb, ctx
 from ..checks.birkhoff import complex_map
 from ..checks.periodic import enclose
 from ..enclosure.surface import Surface
-from .certificate_text import decimal, header
+from .certificate_text import bisected, decimal, header
 from .periodic import BITS, centre_rows, polished, with_largest_radius
 
 _TWIST_DIGITS = 13  # the checker compares nine of them with the twist
@@ -54,15 +54,13 @@ def bisect_zero(
     The twist must be positive at the energy `low` and negative at `high`; `point` has (x, y) of the
     fixed point at one of them. Returns the band, and the fixed point at its lower end.
     """
-    unit = 10**_ENERGY_DECIMALS
-    while high - low > Fraction(1, unit):
-        middle = Fraction(round((low + high) / 2 * unit), unit)
-        surface = Surface(k, g, middle)
-        point = polished(surface, point)
-        if estimate(surface, point) > 0:
-            low = middle
-        else:
-            high = middle
+
+    def is_positive(energy):
+        nonlocal point
+        point = polished(Surface(k, g, energy), point)
+        return estimate(Surface(k, g, energy), point) > 0
+
+    low, high = bisected(is_positive, low, high, _ENERGY_DECIMALS)
     return Surface(k, g, low, high - low), polished(Surface(k, g, low), point)
 
 
