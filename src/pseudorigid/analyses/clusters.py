@@ -27,19 +27,21 @@ _LINEAR = "correlation of what begins a cluster with what begins a later one"
 _BY_CELL = "share of the variance explained by the cell in which the earlier one began"
 _DRIFT = "largest difference of an impact's energy from the start's"
 _KINETIC = "mean in time of the kinetic energy, of the centre's motion and of the strain's"
-_FROM, _TO = ", 95 % interval from", ", 95 % interval to"
+_INTERVAL = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
 _OF_CUTS = {
     "count": ("cut", "clusters"),
     "cluster_impacts": ("cut", "mean number of impacts in a cluster"),
     "cluster_time": ("cut", "mean time from a cluster's first impact to its last", TIME),
     "period": ("cut", "mean time from a cluster's first impact to the next one's", TIME),
     "period_error": ("cut", "standard error of that mean, between orbits", TIME),
-    "correlation": (("cut", "lag", "first", "then"), _LINEAR),
-    "correlation_low": (("cut", "lag", "first", "then"), _LINEAR + _FROM),
-    "correlation_high": (("cut", "lag", "first", "then"), _LINEAR + _TO),
-    "dependence": (("cut", "lag", "then"), _BY_CELL),
-    "dependence_low": (("cut", "lag", "then"), _BY_CELL + _FROM),
-    "dependence_high": (("cut", "lag", "then"), _BY_CELL + _TO),
+    **{
+        f"correlation{end}": (("cut", "lag", "first", "then"), _LINEAR + text)
+        for end, text in _INTERVAL.items()
+    },
+    **{
+        f"dependence{end}": (("cut", "lag", "then"), _BY_CELL + text)
+        for end, text in _INTERVAL.items()
+    },
 }
 
 
@@ -132,24 +134,16 @@ def _row(out, k, cut, lags, resampled) -> tuple:
     means = np.array([row.mean() for row in periods])
     error = math.sqrt(float(np.sum((means - means.mean()) ** 2)) / (means.size - 1) / means.size)
     count = float(sum(impacts.size for impacts in begun))
-    sizes = np.concatenate([np.diff(at) for at in begun])
-    times = [np.concatenate(rows).mean() for rows in (lengths, periods)]
-    correlation, dependence = _memory(first, lags, resampled)
-    return count, sizes.mean(), *times, error, *correlation, *dependence
-
-
-def _memory(
-    first: Sequence[np.ndarray], lags: int, resampled: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return both measures, each with values and the ends of their intervals, for all lags."""
-    cells = _cells(first)
-    correlations, dependences = [], []
+    sizes = [np.diff(at) for at in begun]
+    pooled = [np.concatenate(rows).mean() for rows in (sizes, lengths, periods)]
+    cells, correlations, dependences = _cells(first), [], []
     for lag in range(1, lags + 1):
         linear = [_linear_sums(states[:, :-lag], states[:, lag:]) for states in first]
         by_cell = [_cell_sums(c[:-lag], s[:, lag:]) for c, s in zip(cells, first, strict=True)]
         correlations.append(_interval(_correlation, np.array(linear), resampled))
         dependences.append(_interval(_dependence, np.array(by_cell), resampled))
-    return np.stack(correlations, axis=1), np.stack(dependences, axis=1)
+    memory = *np.stack(correlations, axis=1), *np.stack(dependences, axis=1)
+    return count, *pooled, error, *memory
 
 
 def _interval(measure: Callable, sums: np.ndarray, resampled: np.ndarray) -> np.ndarray:

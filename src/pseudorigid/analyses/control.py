@@ -82,9 +82,8 @@ def control(
         "class_high": ((*cells, "length", "class"), intervals[..., 1], _SHARE + "to"),
     }
     for i, (name, meaning) in enumerate(_MEANS.items()):
-        data[name] = cells, means[:, :, i, 0], meaning
-        data[f"{name}_low"] = cells, means[:, :, i, 1], f"{meaning}, 95 % interval from"
-        data[f"{name}_high"] = cells, means[:, :, i, 2], f"{meaning}, 95 % interval to"
+        for j, (end, text) in enumerate(_INTERVAL.items()):
+            data[name + end] = cells, means[:, :, i, j], meaning + text
     defects = [
         [_defect(perturbed_map(ball, energy, name, level)) for level in levels] for name in MAPS
     ]
@@ -95,6 +94,7 @@ def control(
 
 
 _SHARE = "share of starts of a class, 95 % interval "
+_INTERVAL = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
 _MEANS = {
     "exponent": "mean exponent of the chaotic orbits",
     "contraction": "mean logarithm of the determinant an impact, on chaotic orbits",
@@ -200,7 +200,7 @@ def _defect(perturbed: PerturbedMap) -> float:
     points = 1.3 * (square - np.floor(square)).T - 0.65  # within the disk
     least = math.inf
     for i in range(_MIRRORS):
-        cosine, sine = _direction(i, _MIRRORS)
+        sine, cosine = sincos(2.0 * math.pi * i / _MIRRORS)
         mirror = np.array([[cosine, sine], [sine, -cosine]])
         for after in (None, perturbed.changes[1]):
             image = points
@@ -211,12 +211,6 @@ def _defect(perturbed: PerturbedMap) -> float:
             distance = np.sort(np.sqrt(off[0] * off[0] + off[1] * off[1]))
             least = min(least, float(distance[_PROBES // 2]))
     return least
-
-
-def _direction(i: int, count: int) -> tuple[float, float]:
-    """Return cosine and sine of i/count of a turn."""
-    sine, cosine = sincos(2.0 * math.pi * i / count)
-    return cosine, sine
 
 
 def _combined(matrix: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -303,10 +297,10 @@ def _rate(perturbed, point, jacobian, steps, resampled) -> tuple[float, float, f
     trace = jacobian[0, 0] + jacobian[1, 1]
     if not trace * trace < 4.0 * _determinant(jacobian):
         return math.nan, math.nan, math.nan
-    angles = np.array([_direction(i, _RING) for i in range(_RING)]).T
+    sines = np.array([sincos(2.0 * math.pi * i / _RING) for i in range(_RING)]).T
     out = np.empty((2, _RING, _RING_IMPACTS))
     windows, sums = np.array([[0, 1]]), np.zeros((2, 1, _RING))
-    ring = _begin(point + _DISTANCE * angles)
+    ring = _begin(point + _DISTANCE * sines[::-1])
     propagate(ring, *perturbed, _RING_IMPACTS, windows, *sums, out)
     a, b = out[:, :, steps - 1 :: steps] - point[:, :, None]
     form = jacobian[1, 0] * a * a + (jacobian[1, 1] - jacobian[0, 0]) * a * b

@@ -109,14 +109,8 @@ def apply(row, a, b):
         # the angle's derivative along u is `slope` u, that along v `slope` v
         slope = (-24.0 * _TURN / (_RADIUS * _RADIUS)) * strength * scale * (square * square * rest)
         du, dv = slope * u, slope * v
-        return (
-            first + p,
-            second + q,
-            cosine - q * du,
-            -sine - q * dv,
-            sine + p * du,
-            cosine + p * dv,
-        )
+        slopes = cosine - q * du, -sine - q * dv, sine + p * du, cosine + p * dv
+        return first + p, second + q, *slopes
     if kind == _MOEBIUS:
         # the denominator 1 + conj(c) z, and 1/denominator
         p, q = 1.0 + (first * a + second * b), first * b - second * a
@@ -124,14 +118,8 @@ def apply(row, a, b):
         u, v = a + first, b + second
         factor = (1.0 - (first * first + second * second)) / (size * size)
         real, imaginary = factor * (p * p - q * q), -2.0 * factor * (p * q)
-        return (
-            (u * p + v * q) / size,
-            (v * p - u * q) / size,
-            real,
-            -imaginary,
-            imaginary,
-            real,
-        )
+        p, q = (u * p + v * q) / size, (v * p - u * q) / size
+        return p, q, real, -imaginary, imaginary, real
     if kind == _SQUEEZE:
         return a, (1.0 - strength) * b, 1.0, 0.0, 0.0, 1.0 - strength
     return a, b, 1.0, 0.0, 0.0, 1.0

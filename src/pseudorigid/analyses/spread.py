@@ -44,12 +44,17 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     chaotic = so_far[-1].max(axis=-1) > regular_bound(length)
     if not chaotic.any():
         raise ValueError(f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic")
+    lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
+    islands = ball.start(starts, energy)
+    regular = [lyapunov_spectrum(ball, islands, int(n), 1)["exponent"].values[0] for n in lengths]
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
+        "length": ("length", lengths, "number of impacts"),
+        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
+        "regular_exponent": (("length", "island", "index"), regular, "exponent of a regular orbit"),
     }
-    data |= _regular_exponents(ball, energy, np.asarray(regular, dtype=float), regular_impacts)
     data |= _entered_cells(ball, energy, [a[chaotic] for a in states], cells, visits)
     return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
 
@@ -63,18 +68,6 @@ def in_sea(dataset: xr.Dataset) -> np.ndarray:
 def _halves(number: int) -> np.ndarray:
     """Return number, number/2, ... above 0, in rising order."""
     return np.array([number >> i for i in reversed(range(int(number).bit_length()))])
-
-
-def _regular_exponents(ball, energy, starts, impacts):
-    lengths = _halves(impacts)
-    states = ball.start(starts, energy)
-    exponents = [lyapunov_spectrum(ball, states, int(n), 1)["exponent"].values[0] for n in lengths]
-    dims = ("length", "island", "index")
-    return {
-        "length": ("length", lengths, "number of impacts"),
-        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
-        "regular_exponent": (dims, exponents, "exponent of a regular orbit"),
-    }
 
 
 def _entered_cells(ball, energy, states, cells, visits):

@@ -114,9 +114,16 @@ def _portrait(block: dict) -> Errors:
 def _exponents(block: dict) -> Errors:
     ball, states, impacts = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
+
+    def vector_exponent(method, state, impacts):
+        """Return the exponent of a tangent vector, which tends to the largest."""
+        track, _ = method.orbit(ball, state, impacts)
+        x, xdot, udot = np.column_stack((state, track[:3, :-1]))
+        return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
+
+    pairs = list(zip(states, impacts, strict=True))
     means = [
-        sum(map(partial(_vector_exponent, ball, method), states, impacts)) / len(states)
-        for method in METHODS
+        sum(vector_exponent(method, *pair) for pair in pairs) / len(pairs) for method in METHODS
     ]
     error = [abs(mean - means[0]) / pixel for mean in means]
     limit = SCATTER / math.sqrt(len(states)) / pixel
@@ -209,13 +216,6 @@ def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray
     b, c, _ = rebound(xdot, udot, ball.k, impact_coefficients(ball.k))
     sine, cosine = sincos_each(tau)
     return np.array([x * cosine - c * sine, b + ball.g * tau, x * sine + c * cosine])
-
-
-def _vector_exponent(ball: Ball, method, state, impacts: int) -> float:
-    """Return the exponent of a tangent vector, which tends to the largest, on a method's orbit."""
-    track, _ = method.orbit(ball, state, impacts)
-    x, xdot, udot = np.column_stack((state, track[:3, :-1]))
-    return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
 
 
 @jit
