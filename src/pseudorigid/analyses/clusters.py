@@ -48,10 +48,8 @@ _OF_CUTS = {
 def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed) -> xr.Dataset:
     """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
-    The orbits start evenly over the part `between` of y = 0, in section radii. Flights longer than
-    a cut (1/omega) separate two clusters. A cluster is compared with the next ones, up to `lags`
-    later. `resamples` and `seed` are those of the bootstrap. Means of clusters are over all orbits.
-    ValueError is raised for a cut that leaves an orbit with fewer clusters than lags + 2.
+    A cluster is compared with the next ones, up to `lags` later. Means of clusters are over all
+    orbits. ValueError is raised for a cut that leaves an orbit with fewer clusters than lags + 2.
 
     >>> from pseudorigid import Ball
     >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)

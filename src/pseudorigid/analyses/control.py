@@ -41,11 +41,8 @@ def control(
     """Compute shares of regular, spiral and chaotic orbits for maps with and without properties.
 
     The maps are those of `perturbed_map.MAPS`, at strength 0, which is the impact map, and at each
-    of `strengths`. `orbits` starts are spread over the section, and followed for `impacts`, at
-    least 64. Shares have Wilson's 95 % intervals, means over orbits those of a bootstrap with
-    `resamples` and `seed`. The fixed point and the elliptic orbit of `period` are continued in the
-    strength. `starts`, on y = 0 in section radii, are those of orbits of `drawn` impacts that are
-    kept for pictures, at the strength `shown`. Attribute: shown.
+    of `strengths`. Shares have Wilson's 95 % intervals, means over orbits those of a bootstrap. The
+    fixed point and the elliptic orbit of `period` are continued in the strength.
 
     >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)

@@ -57,17 +57,12 @@ _VARIABLES = {
 def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=SIDES) -> xr.Dataset:
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
-    The period is even. `distance` is the largest side of the polygons, in section radii. The flux
-    is also counted over grid x grid points of the section's bounding rectangle, and along orbits of
-    the sea, which start evenly over the part `between` of y = 0. ValueError is raised for an odd
-    period, if there is no hyperbolic orbit of that period, and if there are no lobes on either
-    side.
-
     Areas are those of (x, y = xdot - k udot), which the map keeps, eq. (42). `digits` are those
     that two starts and two precisions have in common. `branch_x`, `branch_y` run from one end of a
     lobe to the mirror image of its other end; their mirror image in y = 0 is the stable branch. A
     side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer with the
-    reason. If a jump of the map cuts only the region's edge, the region's numbers are NaN.
+    reason; ValueError is raised if no side has any. If a jump of the map cuts only the region's
+    edge, the region's numbers are NaN.
 
     >>> from pseudorigid import Ball
     >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 20, (0.55, 0.68), 2, 100)

@@ -31,17 +31,13 @@ _HALVED = "by how much it differs from what half as many sides give"
 def jumps(ball, energy, energies, sides) -> xr.Dataset:
     """Compute the curves where the map jumps at several energies, and a symmetry line at the first.
 
-    `energies` are those after the first one, `energy`. `sides`, a multiple of four, is the number
-    of sides of a curve's polygon. ValueError is raised for other numbers of sides, and for an
-    energy below the lowest.
-
     On (energy, point), NaN where there is none, are the arc of the rim and its image under the map,
     where the inverse jumps; NaN also stands next to a jump of the map. The map jumps on the mirror
     image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the other near the
     image of that, the point with the same index counted from the end. The length is that of
     Richardson's rule, and length_error includes the ends left out. Derivatives are those beside the
-    middle of the curve at the first energy, along its normal. The attribute first_energy is g^2 (1
-    + k/2), above which there are such curves.
+    middle of the curve at the first energy, along its normal. There are such curves above the
+    attribute first_energy.
 
     >>> from pseudorigid import Ball
     >>> jumps(Ball(k=0.2, g=0.04), 0.01, [0.001], 40).sizes["energy"]

@@ -49,11 +49,9 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) 
     """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
     `nobles` are continued fractions [0, a1, a2, ...], after which all quotients are 1; by default
-    they are those of `edge_nobles`. Of each there are so many `convergents`, beginning with that of
-    its given quotients. Orbits are searched in the part `between` of y = 0, in section radii, whose
-    first end is nearer to the fixed point. The orbit that starts at the last convergent's point is
-    followed for `impacts`, of which `drawn` are kept. ValueError is raised if there is no orbit of
-    a convergent in `between`, or, if nobles are chosen, no edge of an island.
+    they are those of `edge_nobles`. The `convergents` of each begin with that of its given
+    quotients. The orbit that starts at the last one's point is followed for `impacts`. ValueError
+    is raised if there is no orbit of a convergent in `between`, or no edge of an island.
 
     >>> from pseudorigid import Ball
     >>> between, nobles = (-0.2, -0.03), [[0, 5, 1, 15]]

@@ -22,9 +22,8 @@ def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) ->
     """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
 
     At each energy the starts go evenly from the fixed point to the section's rim. At the first
-    energy as many starts again go over the part `detail` of y = 0, in section radii; the names of
-    their variables begin with detail_. Rotation numbers and exponents are those of `winding`.
-    Attributes: impacts and detail_impacts.
+    energy as many starts again go over the part `detail` of y = 0; the names of their variables
+    begin with detail_. Rotation numbers and exponents are those of `winding`.
 
     >>> from pseudorigid import Ball
     >>> data = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)

@@ -19,14 +19,11 @@ _CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
     """Compute the exponents of many orbits by blocks, and the cells that chaotic orbits enter.
 
-    The orbits start uniformly over the section, and each is divided into equal blocks. `regular`
-    has the starts of regular orbits on y = 0, in section radii, whose exponents so far are kept
-    after `regular_impacts` and its halves. The section's bounding rectangle is divided into cells x
-    cells cells, and those that chaotic orbits enter are counted after `visits` and its halves.
-    ValueError is raised if `blocks` does not divide `length`, or no orbit is chaotic.
-
-    exponent (block, orbit, index) is the mean over one block, in nats an impact, in the order of
-    `lyapunov_spectrum`; regular_exponent (length, island, index) is that over `length` impacts.
+    The exponents so far of the regular orbits are kept after `regular_impacts` and its halves. The
+    section's bounding rectangle is divided into cells x cells cells, and those that chaotic orbits
+    enter are counted after `visits` and its halves. Exponents are in the order of
+    `lyapunov_spectrum`. ValueError is raised if `blocks` does not divide `length`, or no orbit is
+    chaotic.
 
     >>> from pseudorigid import Ball
     >>> data = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)

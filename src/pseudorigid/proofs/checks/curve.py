@@ -319,7 +319,7 @@ def _row_of_cells(
         root = complex_impact.unique_root(complex_impact.Flights.of(surface, x, y), known[j])
         upper = complex_impact.gap_at(surface, edge[0][j], edge[1][j])
         known[j] = complex_impact.point_root(upper, root)
-        yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root.value
+        yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root
 
 
 def _torsion(surface: Surface, curves: list, centres: list, omega: arb, count: int) -> arb:

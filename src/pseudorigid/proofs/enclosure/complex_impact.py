@@ -19,17 +19,6 @@ _WIDER = 1.2  # factor between the Newton image and the next set that is tried
 _REFINEMENTS = 3
 
 
-@dataclass(frozen=True)
-class Root:
-    """A set `inside` which the gap has exactly one root for each point of a box, and its `value`.
-
-    The value encloses the roots.
-    """
-
-    inside: acb
-    value: acb
-
-
 def gap_at(surface: Surface, x: acb | Jet, y: acb | Jet) -> Gap:
     """Return the gap after the impact at x, y; raises UndecidedError where s may not be analytic.
 
@@ -98,7 +87,7 @@ class Flights:
         return middle - self.height(middle) / slope, slope
 
 
-def unique_root(flights: Flights, known: acb) -> Root:
+def unique_root(flights: Flights, known: acb) -> acb:
     """Enclose the root that continues a `known` one, which belongs to one of the box's points.
 
     N(U) = m - f(m)/f'(U) is computed over a convex set U with midpoint m. If N(U) is inside U, then
@@ -113,14 +102,13 @@ def unique_root(flights: Flights, known: acb) -> Root:
             value = image
             for _ in range(_REFINEMENTS):
                 value = _intersection(value, flights.newton(value)[0])
-            return Root(inside, value)
+            return value
         guess = guess.union(image)
     raise UndecidedError("the flight time may not be analytic in the strip")
 
 
-def point_root(gap: Gap, root: Root) -> acb:
-    """Narrow the root of one of the box's points."""
-    value = root.value
+def point_root(gap: Gap, value: acb) -> acb:
+    """Narrow the root of one of the box's points, from the enclosure of all of them."""
     for _ in range(8):
         middle = value.mid()
         image = middle - gap.height(middle) / gap.slope(value)

@@ -3,18 +3,6 @@
 from fractions import Fraction
 from functools import partial
 
-from ..checks import (
-    curve,
-    ellipticity,
-    events,
-    graph,
-    horseshoe,
-    jump,
-    no_circle,
-    one_zero,
-    periodic,
-    twist,
-)
 from ..enclosure.surface import Surface
 from ..search import approximate_orbits
 from ..search import curve as curve_search
@@ -89,25 +77,30 @@ def _curve(theorem) -> str:
     return curve_search.propose(surface, points, quotients, strips, error=error, **bounds)
 
 
+def _of_bounds(propose, theorem) -> str:
+    return propose(**theorem.bounds)
+
+
 def _event(propose, theorem) -> str:
     near = _EVENTS[theorem.name]
     return propose(near, theorem.holds_for_any_radius, **theorem.bounds)
 
 
+# Module and name of a checker -> the search for certificates of its theorems.
 SEARCHES = {
-    periodic.check: _orbit,
-    periodic.check_only_fixed_point: lambda it: orbit_search.propose_only_fixed_point(**it.bounds),
-    ellipticity.check: lambda it: ellipticity_search.propose(**it.bounds),
-    events.check_resonance: lambda it: event_search.propose_resonance(**it.bounds),
-    events.check_doubling: partial(_event, event_search.propose_doubling),
-    events.check_grazing: partial(_event, event_search.propose_grazing),
-    twist.check: _twist,
-    twist.check_zero: _zero,
-    one_zero.check: lambda it: one_zero_search.propose(**it.bounds),
-    horseshoe.check: _horseshoe,
-    graph.check: lambda it: graph_search.propose(it.bounds["surface"], _GRAPHS[it.name]),
-    no_circle.check: lambda it: circle_search.propose(*_near(it, "hyperbolic"), **_JUMP_CROSSING),
-    curve.check: _curve,
-    jump.check: lambda it: jump_search.propose(it.bounds["surface"], _SPEED, _JUMP_RADIUS),
-    jump.check_smooth: lambda it: jump_search.propose_smooth(**it.bounds),
+    "periodic.check": _orbit,
+    "periodic.check_only_fixed_point": partial(_of_bounds, orbit_search.propose_only_fixed_point),
+    "ellipticity.check": partial(_of_bounds, ellipticity_search.propose),
+    "events.check_resonance": partial(_of_bounds, event_search.propose_resonance),
+    "events.check_doubling": partial(_event, event_search.propose_doubling),
+    "events.check_grazing": partial(_event, event_search.propose_grazing),
+    "twist.check": _twist,
+    "twist.check_zero": _zero,
+    "one_zero.check": partial(_of_bounds, one_zero_search.propose),
+    "horseshoe.check": _horseshoe,
+    "graph.check": lambda it: graph_search.propose(it.bounds["surface"], _GRAPHS[it.name]),
+    "no_circle.check": lambda it: circle_search.propose(*_near(it, "hyperbolic"), **_JUMP_CROSSING),
+    "curve.check": _curve,
+    "jump.check": lambda it: jump_search.propose(it.bounds["surface"], _SPEED, _JUMP_RADIUS),
+    "jump.check_smooth": partial(_of_bounds, jump_search.propose_smooth),
 }

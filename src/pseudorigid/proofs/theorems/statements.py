@@ -121,11 +121,6 @@ def search_certificate(name: str) -> str:
     -------
     str
 
-    Raises
-    ------
-    KeyError
-        There is no such theorem.
-
     Examples
     --------
     >>> text = search_certificate("one-fixed-point")
@@ -134,8 +129,8 @@ def search_certificate(name: str) -> str:
     """
     from .searches import SEARCHES
 
-    theorem = THEOREMS[name]
-    return SEARCHES[theorem.checker](theorem)
+    checker = THEOREMS[name].checker
+    return SEARCHES[f"{checker.__module__.rpartition('.')[2]}.{checker.__name__}"](THEOREMS[name])
 
 
 Range = tuple[Fraction, Fraction]
