@@ -10,6 +10,7 @@ from flint import arb
 
 from ..enclosure.surface import Surface, ball_of, exact
 
+Ball = tuple[Fraction, Fraction]  # k and g
 MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
 
 
@@ -36,35 +37,43 @@ class Finding:
 
 
 class Certificate:
-    """The fields of a certificate, a TOML text, of the required kind and Surface, if one is given.
+    """The fields of a certificate, a TOML text, of the required kind, and Surface or k and g.
 
     Every method raises NotProvedError for a field that is missing, misshapen or not as expected.
     """
 
-    def __init__(self, text: str, kind: str, surface: Surface | None = None):
+    def __init__(
+        self, text: str, kind: str, surface: Surface | None = None, ball: Ball | None = None
+    ):
         try:
             self._fields = tomllib.loads(text, parse_float=str)
         except (ValueError, ArithmeticError, RecursionError) as error:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
         if self._fields.get("kind") != kind:
             raise NotProvedError(f"the certificate is not one of kind {kind!r}")
-        if surface is not None and (its := self.surface(surface.k, surface.g)) != surface:
+        if ball is not None:
+            self._check_ball(ball)
+        if surface is not None and (its := self.surface((surface.k, surface.g))) != surface:
             raise NotProvedError(f"the certificate is of {its}, the statement of {surface}")
 
-    def surface(self, k: Fraction, g: Fraction) -> Surface:
+    def surface(self, ball: Ball) -> Surface:
         """Return the Surface, at any energy, that the certificate is for; its ball is given."""
-        self.check_ball(k, g)
+        self._check_ball(ball)
         try:
-            return Surface(k, g, self.number("energy", str))
+            return Surface(*ball, self.number("energy", str))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
-    def check_ball(self, k: Fraction, g: Fraction) -> None:
-        """Check that the certificate is for the ball with this k and g."""
-        for name, expected in (("k", k), ("g", g)):
-            value = self.number(name, str)
-            if value != expected:
-                raise NotProvedError(f"the certificate is of {name} = {value}, not {expected}")
+    def _check_ball(self, ball):
+        for name, value in zip("kg", ball, strict=True):
+            self.check(name, value, str)
+
+    def check(self, name: str, expected: Fraction, kind: type = object) -> None:
+        """Check that a number is as the statement has it."""
+        value = self.number(name, kind)
+        if value != expected:
+            text = name.replace("_", " ")
+            raise NotProvedError(f"the certificate is of {text} {value}, not {expected}")
 
     def number(self, name: str, kind: type = object) -> Fraction:
         """Return one number, which TOML must give as a value of this kind."""

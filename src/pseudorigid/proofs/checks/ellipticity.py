@@ -24,18 +24,15 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
     there to the end the derivative is enclosed over bands.
     """
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "elliptic fixed point")
-        certificate.check_ball(k, g)
-        highest = certificate.number("energy_up_to")
-        if highest != energy:
-            raise NotProvedError(f"the certificate is of energies up to {highest}, not {energy}")
+        certificate = Certificate(text, "elliptic fixed point", ball=(k, g))
+        certificate.check("energy_up_to", energy)
         stated = certificate.number("trace_above")
         if not trace <= stated:
             raise NotProvedError(f"the trace is above {float(stated):g}, not {float(trace):g}")
         inertia, gravity = ball_of(k), ball_of(g)
         ends = theta_ends(certificate)
         below, above = (energy_at(inertia, gravity, end) for end in ends)
-        if not below < ball_of(highest) < above:
+        if not below < ball_of(energy) < above:
             raise NotProvedError("theta is not the one of the highest energy")
         theta = ends[0].union(ends[1])
         last = trace_at(inertia, theta)
@@ -44,7 +41,7 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
             raise NotProvedError(f"the trace is not proved to be above {float(stated):g}")
         slope = _steepness(inertia, theta.upper(), certificate.whole("bands"))
         turns = (last / 2).acos() / (2 * arb.pi())
-        digits = {"energies up to": ball_of(highest), "trace": last, "rotation number": turns}
+        digits = {"energies up to": ball_of(energy), "trace": last, "rotation number": turns}
         margins = {"slope": slope, "trace": lowest(room), "elliptic": lowest(last + 2)}
         return Finding(digits, margins)
 

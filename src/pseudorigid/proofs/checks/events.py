@@ -48,8 +48,7 @@ def check_resonance(
     if rotation.denominator != period or period < 5:
         raise NotProvedError(f"no two orbits of period {period} branch off at {rotation}")
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "resonance")
-        certificate.check_ball(k, g)
+        certificate = Certificate(text, "resonance", ball=(k, g))
         inertia, gravity, _ = Surface(k, g, Fraction(0)).constants()
         ends = theta_ends(certificate)
         wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
@@ -96,8 +95,7 @@ def check_doubling(
     if trace != -2 or period % 2:
         raise NotProvedError("a period doubling of an even period has the trace -2")
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "period doubling")
-        certificate.check_ball(k, g)
+        certificate = Certificate(text, "period doubling", ball=(k, g))
         energy, x = _proved(certificate, partial(doubling, k, g, period=period), 2, radius)
         _check_within("energy", energy, energies)
         _check_within("position", x, positions)
@@ -132,8 +130,7 @@ def check_grazing(
     if periods != (longer, longer - len(halves)):
         raise NotProvedError(f"the orbits have the periods {longer}, {longer - len(halves)}")
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "grazing orbit")
-        certificate.check_ball(k, g)
+        certificate = Certificate(text, "grazing orbit", ball=(k, g))
         system = partial(grazing, k, g, halves=halves)
         values = _proved(certificate, system, len(halves), radius)
         _check_within("energy", values[0], energies)

@@ -72,19 +72,16 @@ def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Findi
 
     The margin is the distance from the least energy, -g^2/(2k).
     """
-    certificate = Certificate(text, "no touch")
-    certificate.check_ball(k, g)
-    threshold = certificate.number("energy_below")
-    if threshold != energy:
-        raise NotProvedError(f"the certificate is of energies below {threshold}, not {energy}")
+    certificate = Certificate(text, "no touch", ball=(k, g))
+    certificate.check("energy_below", energy)
     roots = certificate.row("roots", 2)
-    # k/2 (x - roots[0]) (x - roots[1]) is to be k/2 x^2 - g x - threshold
-    if (k / 2 * (roots[0] + roots[1]), k / 2 * roots[0] * roots[1]) != (g, -threshold):
+    # k/2 (x - roots[0]) (x - roots[1]) is to be k/2 x^2 - g x - energy
+    if (k / 2 * (roots[0] + roots[1]), k / 2 * roots[0] * roots[1]) != (g, -energy):
         raise NotProvedError("the energy of a touch is not the stated product of factors")
     if not all(root >= -g for root in roots):
         raise NotProvedError("the factors are not proved to be negative for x < -g")
-    margin = lowest(ball_of(threshold + g * g / (2 * k)))
-    return Finding({"energy below": ball_of(threshold)}, {"above least": margin})
+    margin = lowest(ball_of(energy + g * g / (2 * k)))
+    return Finding({"energy below": ball_of(energy)}, {"above least": margin})
 
 
 def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:

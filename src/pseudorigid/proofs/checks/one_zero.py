@@ -50,12 +50,8 @@ def check(
     energies. The certificate has the edges of the bands, and bounds of theta at the two energies.
     """
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "one zero of the twist")
-        certificate.check_ball(k, g)
-        if certificate.number("energy_up_to") != energy:
-            raise NotProvedError(
-                f"the certificate is not of the energies up to {float(energy):g} as stated"
-            )
+        certificate = Certificate(text, "one zero of the twist", ball=(k, g))
+        certificate.check("energy_up_to", energy)
         edges = [theta for (theta,) in certificate.numbers("edges", 1)]
         _check_edges(k, g, edges, energy)
         digits = {"energies up to": ball_of(energy)}

@@ -61,19 +61,17 @@ def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction
     This verifies the two inequalities of the argument in docs/proofs.md.
     """
     with ctx.workprec(BITS):
-        certificate = Certificate(text, "only fixed point")
-        certificate.check_ball(k, g)
-        highest, theta = certificate.number("energy_up_to"), certificate.number("theta_below")
-        if highest != energy:
-            raise NotProvedError(f"the certificate is of energies up to {highest}, not {energy}")
-        square = (2 * k * highest / (g * g) + 1) / (1 + k)  # theta^2 is at most this
+        certificate = Certificate(text, "only fixed point", ball=(k, g))
+        certificate.check("energy_up_to", energy)
+        theta = certificate.number("theta_below")
+        square = (2 * k * energy / (g * g) + 1) / (1 + k)  # theta^2 is at most this
         if not (theta - Fraction(1, 100)) ** 2 < square <= theta**2:
             raise NotProvedError("theta is not proved to be below the stated one")
         room = 3 * arb.pi() / 2 - ball_of(theta)
         if not (room > 0 and theta * k < 2):
             raise NotProvedError("a second fixed point is not excluded")
         margins = {"theta": lowest(room), "earlier": lowest(ball_of(2 - theta * k))}
-        return Finding({"energies up to": ball_of(highest)}, margins)
+        return Finding({"energies up to": ball_of(energy)}, margins)
 
 
 def prove_stated(

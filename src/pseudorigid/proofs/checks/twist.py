@@ -47,7 +47,7 @@ def check_zero(
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "zero of the twist")
-        low = certificate.surface(k, g)
+        low = certificate.surface((k, g))
         band = certificate.number("width")
         if not 0 < band <= width:
             raise NotProvedError(
