@@ -29,9 +29,9 @@ def _compute_exactly(
 ) -> xr.Dataset:
     """Compute orbits from the decimals of the config."""
 
-    def progress(share: float, seconds: float, orbit: int) -> None:
+    def progress(share: float, orbit: int) -> None:
         orbit_name = f"{spec.scene}: orbit {orbit + 1} of {len(fields['starts'])}"
-        print(f"{orbit_name}: {share:.0%}, {seconds:.0f} s to go", file=sys.stderr, flush=True)
+        print(f"{orbit_name}: {share:.0%}", file=sys.stderr, flush=True)
 
     numbers = {**spec.config["ball"], "energy": spec.config["energy"]}
     return function(

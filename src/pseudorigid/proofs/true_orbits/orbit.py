@@ -47,7 +47,7 @@ def true_orbit(
         Used instead of x and y: a fraction, -1 to 1, of the section's radius along y = 0; or a
         mapping with x and either y or xdot.
     progress : callable, optional
-        Called now and then with the share done, 0 to 1, and the seconds that are left.
+        Called now and then with the share of the impacts done, 0 to 1.
 
     Returns
     -------
@@ -90,8 +90,7 @@ def follow(start: Start, impacts: int, progress: Callable | None = None) -> Run:
     if needed > os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2:
         raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
     run = Run(start, impacts, _bits_needed(start, impacts))
-    begin = reported = time.monotonic()
-    total = _work_left(run)
+    reported = time.monotonic()
     while run.count < impacts:
         try:
             run.step()
@@ -100,17 +99,11 @@ def follow(start: Start, impacts: int, progress: Callable | None = None) -> Run:
             raise ValueError(reason) from None
         except ShortOfBitsError:
             run = Run(start, impacts, run.bits + run.bits // 4 + 100)
-            begin, total = time.monotonic(), _work_left(run)
-        now, finished = time.monotonic(), run.count == impacts
-        if progress is not None and (finished or now - reported > 1.0):
-            reported, left = now, _work_left(run)
-            progress(run.count / impacts, (now - begin) * left / max(total - left, 1e-9))
+        now = time.monotonic()
+        if progress is not None and (run.count == impacts or now - reported > 1.0):
+            reported = now
+            progress(run.count / impacts)
     return run
-
-
-def _work_left(run: Run) -> float:
-    """Work left, in impacts of 64 bits: an impact of b bits costs about 1 + (b/6000)^1.6."""
-    return (run.impacts - run.count) * (1.0 + (run.precision / 6000.0) ** 1.6 / 2.6)
 
 
 def _bits_needed(start: Start, impacts: int) -> int:

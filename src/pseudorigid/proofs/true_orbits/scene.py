@@ -24,8 +24,8 @@ def true_scene_orbits(
     """Compute the orbits of a scene, one after the other (CF), correctly rounded.
 
     The numbers are exact, and the starts in the form of the argument `start` of `true_orbit`.
-    `progress` is called with the share done and the seconds left of the current orbit, and its
-    index. Raises ValueError as `true_orbit` does.
+    `progress` is called with the share done of the current orbit, and its index. Raises ValueError
+    as `true_orbit` does.
 
     >>> true_scene_orbits("1/5", "1/25", "1/100", ["0.5", "-0.2"], [3, 2]).sizes["point"]
     5
@@ -35,7 +35,7 @@ def true_scene_orbits(
     exact_starts = [Start(surface, start) for start in starts]
     pieces = []
     for i, (start, count) in enumerate(zip(exact_starts, impacts, strict=True)):
-        report = None if progress is None else lambda *done, orbit=i: progress(*done, orbit)
+        report = None if progress is None else lambda share, orbit=i: progress(share, orbit)
         pieces.append(follow(start, count, report).values.T)
     ball = Ball(k=float(surface.k), g=float(surface.g))
     floats = [start.floats() for start in exact_starts]
