@@ -46,14 +46,15 @@ def test_machine_code_is_strict():
 
 def test_loops_over_lanes_are_vectorised():
     """The compiler vectorises a loop only if it can exclude negative indices."""
-    row, h = np.ones(lanes.SIZE), (0.1, 0.1)
+    row, n, h = np.ones(lanes.SIZE), lanes.LANES, (0.1, 0.1)
     states, flights = tangents.allocate_buffers()
     states[:] = flights[:] = 1.0
     frames = np.ones(15 * tangents.GROUP)
     for loop, arguments in (
-        (lanes._march, (row, 0.04)),
-        (lanes._land, (row,)),
-        (lanes._end_flights, (row, 0.2, 0.04, h)),
+        (lanes._begin_flights, (row, n, 0.2, 0.04, h)),
+        (lanes._find_ends, (row, n, 0.04)),
+        (lanes._march, (row, n, 0.04)),
+        (lanes._choose, (row, n)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
         (
             tangent_orbits._observe,

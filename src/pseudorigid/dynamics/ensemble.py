@@ -10,6 +10,7 @@ from ..kernel import impact, lanes
 from .inputs import not_allowed, number
 
 MIN_IMPACTS_PER_THREAD = 20_000  # half a millisecond
+MIN_ORBITS_PER_THREAD = 32  # fewer orbits leave vectors of lanes incomplete
 
 
 def threads() -> int:
@@ -24,7 +25,8 @@ def shared(work, impacts, *arrays):
     The arrays are cut along their first axis, the orbits, which have `impacts` impacts each.
     """
     orbits = len(arrays[0])
-    workers = min(threads(), orbits // lanes.LANES, orbits * impacts // MIN_IMPACTS_PER_THREAD)
+    enough = orbits * impacts // MIN_IMPACTS_PER_THREAD
+    workers = min(threads(), orbits // MIN_ORBITS_PER_THREAD, enough)
     if workers < 2:
         return work(*arrays)
     pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)

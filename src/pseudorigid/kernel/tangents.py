@@ -15,7 +15,7 @@ from .impact import flight_derivatives, history, impact_coefficients, rebound, t
 
 # Impacts in a chunk and orbits in a group; the buffers then fit into the processor's cache.
 CHUNK = 32
-GROUP = 256
+GROUP = lanes.LANES
 # Offsets of blocks of rows; a row has GROUP numbers, one for each orbit. Blocks of states have a
 # row from before the chunk and one for each impact, blocks of flights only the latter.
 X, V, W, TAU = (i * (CHUNK + 1) * GROUP for i in range(4))
