@@ -15,6 +15,7 @@ from mpmath import mp, mpf
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses.continuation import search
 from pseudorigid.analyses.continuation.asymmetric import AsymmetricOrbits
+from pseudorigid.analyses.continuation.broken_symmetry import break_symmetry
 from pseudorigid.analyses.continuation.curve import Point, locate, solve_at, trace
 from pseudorigid.analyses.continuation.grazing import grazing
 from pseudorigid.analyses.continuation.half_orbit import ENERGY, FIX_R, INERTIA
@@ -40,7 +41,7 @@ def searched(ball, low, high, longest, levels):
     for _ in found.sweep([ends[0] + (i + 0.5) * step for i in range(levels)]):
         pass
     found.switch()
-    found.break_symmetry()
+    break_symmetry(found)
     found.link()
     return found
 

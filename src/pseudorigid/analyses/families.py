@@ -13,6 +13,7 @@ from ..dynamics.ball import Ball
 from ..dynamics.fixed_point import rotation
 from ..dynamics.variables import ENERGY, LENGTH, SPEED, TIME, described
 from .continuation.asymmetric import AsymmetricOrbits
+from .continuation.broken_symmetry import break_symmetry
 from .continuation.curve import Point
 from .continuation.families import Family
 from .continuation.half_orbit import ENERGY as BY_ENERGY
@@ -101,7 +102,7 @@ def families(
         if checkpoint is not None and done % _CHECKPOINT == 0:
             _keep(search, checkpoint, key, done)
     search.switch()
-    search.break_symmetry()
+    break_symmetry(search)
     search.link()
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)

@@ -22,6 +22,7 @@ DX, DY, DP, TOTAL, SLOWEST, POINTS = 0, 2, 4, 6, 7, 8
 FLIGHTS = POINTS + 2 * (LONGEST_PERIOD + 1)
 ROOM = FLIGHTS + LONGEST_PERIOD
 NO_GUESS = np.empty(0)
+_MIRROR = np.array([1.0, -1.0])
 
 # Contact speed, in units where g = 1, below which an orbit is not followed: derivatives grow like
 # its reciprocal.
@@ -132,7 +133,11 @@ def flight_heights(k, rho, at_x, at_y, times, near, out):
 
 
 class AsymmetricOrbits:
-    """Orbits of one period without symmetry, as a `System` of `curve`."""
+    """Orbits of one period without symmetry, as a `System` of `curve`.
+
+    The equations are that half of the impacts ahead and half of them back in time lead to the same
+    point. So their errors grow like the square root of the orbit's multiplier.
+    """
 
     line = -1
 
@@ -147,27 +152,74 @@ class AsymmetricOrbits:
         at_x, at_y, p = place
         if not (at_x * at_x + at_y * at_y < 1.0 and p > 0.0):
             return None
-        k, rho = self.parameter.k_and_rho(p)
-        out = np.empty(ROOM)
-        kind = self.parameter.kind
-        evaluate_orbit(self.period, kind, k, rho, at_x, at_y, NO_GUESS, out)
-        a, c, b, d, x_p, y_p = out[:6].tolist()
-        points = out[POINTS : POINTS + 2 * self.period + 2].reshape(-1, 2)
-        defect = tuple((points[-1] - points[0]).tolist())
-        if not all(math.isfinite(value) for value in (a, b, c, d, x_p, y_p, *defect)):
+        middle = (self.period + 1) // 2
+        out, ahead, back = self._halves(place, middle)
+        radii = np.sum(self._orbit_in(out) ** 2, axis=1)
+        if self.period > 1 and np.argmax(radii) == middle % self.period:
+            # Both ways to an impact that all but grazes have unbounded derivatives.
+            out, ahead, back = self._halves(place, middle - 1)
+        if not (np.all(np.isfinite(out[:TOTAL])) and out[SLOWEST] >= _LEAST_SPEED):
             return None
-        if out[SLOWEST] < _LEAST_SPEED:
-            return None
-        size = math.sqrt(a * a + b * b + c * c + d * d)
-        matrix = [a / size, b / size, c / size, d / size]
+        gradients = tuple(map(tuple, (ahead - back)[:, :3].tolist()))
+        defect = tuple((ahead - back)[:, 3].tolist())
+        matrix = out[:4] / math.sqrt(np.sum(out[:4] * out[:4]))
         guard = np.concatenate((matrix, out[FLIGHTS : FLIGHTS + self.period]))
-        orbit = points[:-1]
-        mirrored = orbit * np.array([1.0, -1.0])
+        orbit = self._orbit_in(out)
+        mirrored = orbit * _MIRROR
         index = np.arange(self.period)
         apart = [np.roll(orbit, -d, axis=0) - orbit for d in self._divisors]
         apart += [orbit[(shift - index) % self.period] - mirrored for shift in index]
-        gradients = (a - 1.0, b, x_p), (c, d - 1.0, y_p)
         return Point(place, defect, gradients, guard, tuple(v.ravel() for v in apart), out)
+
+    def _halves(self, place: Place, first: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return an orbit, as from `evaluate_orbit`, and the ways ahead and back from a place.
+
+        They meet `first` impacts after the place. Rows of a way are X and Y there, columns the
+        derivatives by X, Y and the parameter, and the value. The way back is the reversor's image.
+        """
+        at_x, at_y, p = place
+        k, rho = self.parameter.k_and_rho(p)
+        kind, last = self.parameter.kind, self.period - first
+        out, mirrored = np.empty(ROOM), np.empty(ROOM)
+        evaluate_orbit(first, kind, k, rho, at_x, at_y, NO_GUESS, out)
+        evaluate_orbit(last, kind, k, rho, at_x, -at_y, NO_GUESS, mirrored)
+        middle = out[POINTS + 2 * first : POINTS + 2 * first + 2]
+        ahead = np.column_stack((out[:TOTAL].reshape(3, 2).T, middle))
+        points = mirrored[POINTS : POINTS + 2 * last + 2].reshape(-1, 2) * _MIRROR
+        back = mirrored[:TOTAL].reshape(3, 2).T * _MIRROR[:, None] * np.array([1.0, -1.0, 1.0])
+        back = np.column_stack((back, points[last]))
+        # P^n is the inverse of the way back after the way ahead; its determinant is 1.
+        inverse = np.array([[back[1, 1], -back[0, 1]], [-back[1, 0], back[0, 0]]])
+        change = ahead[:, :3] - np.column_stack((np.zeros((2, 2)), back[:, 2]))
+        for row in range(2):
+            out[row:TOTAL:2] = inverse[row, 0] * change[0] + inverse[row, 1] * change[1]
+        start = POINTS + 2 * (first + 1)
+        out[start : start + 2 * last] = points[:last][::-1].ravel()
+        flights = mirrored[FLIGHTS : FLIGHTS + last]
+        out[FLIGHTS + first : FLIGHTS + self.period] = flights[::-1]
+        out[TOTAL] += mirrored[TOTAL]
+        out[SLOWEST] = min(out[SLOWEST], mirrored[SLOWEST])
+        return out, ahead, back
+
+    def orbit(self, point: Point) -> np.ndarray:
+        """Return the points (period, 2) of an orbit, in section radii."""
+        return self._orbit_in(point.data)
+
+    def _orbit_in(self, out: np.ndarray) -> np.ndarray:
+        """Return the points (period, 2) in a result of `evaluate_orbit`."""
+        return out[POINTS : POINTS + 2 * self.period].reshape(-1, 2)
+
+    def innermost(self, point: Point) -> tuple[float, float]:
+        """Return the orbit's point that is farthest from the rim."""
+        points = self.orbit(point)
+        return tuple(points[np.argmin(np.sum(points * points, axis=1))].tolist())
+
+    def shorter(self, point: Point, near: float) -> int:
+        """Return the period of the shorter orbit that an orbit is near, or its own period."""
+        for divisor, vectors in zip(self._divisors, point.apart, strict=False):
+            if float(np.max(np.abs(vectors))) < near:
+                return divisor
+        return self.period
 
     def separation(self, point: Point) -> float:
         """Return how far the orbit is from a symmetric or a shorter one, in section radii."""

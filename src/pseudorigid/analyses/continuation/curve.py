@@ -23,7 +23,9 @@ _CHANGE = 0.2  # largest change of a guarded quantity in a step
 _SHRINK, _TURN = 0.6, 0.7
 _NEWTON_STEPS = 12
 _ROUNDING = 1e-9  # Newton steps below this that no longer fall have reached rounding
+_FALL = 0.1  # factor by which a defect falls where Newton steps do not yet
 _DEFECT = 1e-5  # largest defect of a solution: at a jump Newton steps shrink, but it does not
+_HALVINGS = 30  # of a chord, to find a parameter
 _CUTS = 200  # of a chord, to locate an event
 MOST_POINTS = 20_000
 
@@ -119,9 +121,10 @@ def _newton_step(rows: list[Place], defect: Place, along: Place) -> Place | None
 def correct(system: System, place: Place, along: Place, reach: float) -> Point | None:
     """Return the solution in the plane through a place that is normal to `along`, or None.
 
-    Newton's method may move at most `reach`.
+    Newton's method may move at most `reach`. With two equations, which are nearly the same at large
+    multipliers, it also goes on while only the defect falls.
     """
-    first, previous = place, math.inf
+    first, previous, previous_defect = place, math.inf, math.inf
     for _ in range(_NEWTON_STEPS):
         point = system.point(place)
         if point is None:
@@ -129,12 +132,14 @@ def correct(system: System, place: Place, along: Place, reach: float) -> Point |
         step = _newton_step(_rows(system, point), point.defect, along)
         if step is None:
             return None
-        size = max(map(abs, step))
-        if size <= 4e-17 or (previous <= _ROUNDING and size >= 0.25 * previous):
-            return point if max(map(abs, point.defect)) < _DEFECT else None
-        if not size < 0.7 * previous:
+        size, defect = max(map(abs, step)), max(map(abs, point.defect))
+        defect_falls = len(along) > 2 and defect < _FALL * previous_defect
+        at_rounding = previous <= _ROUNDING and size >= 0.25 * previous and not defect_falls
+        if size <= 4e-17 or at_rounding:
+            return point if defect < _DEFECT else None
+        if not (size < 0.7 * previous or defect_falls):
             return None
-        previous = size
+        previous, previous_defect = size, defect
         place = moved(system, place, step, 1.0)
         if not distance(system, first, place) <= 2.0 * reach:
             return None
@@ -227,12 +232,30 @@ def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
     return 0.0 <= part <= 1.0 and beside <= 0.05 * length
 
 
+def _beside(system: System, first: Point, last: Point, share: float) -> Place:
+    """Return the place of the cubic through two points, with their tangents, near a share of it."""
+    along, length = _chord(system, first, last)
+    tangents = [tangent(system, point) for point in (first, last)]
+    start, end = (
+        tuple(math.copysign(length, dot(vector, along)) * x for x in vector) for vector in tangents
+    )
+    if not all(map(math.isfinite, (*start, *end))):
+        start = end = tuple(length * x for x in along)
+    rest = 1.0 - share
+    at_start, at_end = share * rest * rest, -share * share * rest
+    forward = share * share * (3.0 - 2.0 * share) * length
+    vector = tuple(
+        forward * c + at_start * a + at_end * b for a, b, c in zip(start, end, along, strict=True)
+    )
+    return moved(system, first.place, vector, 1.0)
+
+
 def between(system: System, first: Point, last: Point, share: float) -> Point | None:
     """Return the point of the curve beside a share of the chord between two of its points."""
     along, length = _chord(system, first, last)
     if not length > 0.0:
         return first
-    return correct(system, moved(system, first.place, along, share * length), along, length)
+    return correct(system, _beside(system, first, last, share), along, length)
 
 
 def locate(
@@ -274,10 +297,16 @@ def at_parameter(system: System, first: Point, last: Point, p: float) -> Point |
     """Return the point at the parameter p between two points of a curve, or None."""
     if p in (first.p, last.p):
         return first if p == first.p else last
-    share = (p - first.p) / (last.p - first.p)
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        share = 0.5 * (low + high)
+        if (_beside(system, first, last, share)[-1] < p) == (first.p < p):
+            low = share
+        else:
+            high = share
     length = distance(system, first.place, last.place)
     pairs = list(zip(first.place[:-1], last.place[:-1], strict=True))
-    point = solve_at(system, (*(a + share * (b - a) for a, b in pairs), p), length)
+    point = solve_at(system, (*_beside(system, first, last, high)[:-1], p), length)
     if point is not None and all(
         min(a, b) - margin <= x <= max(a, b) + margin
         for x, (a, b) in zip(point.place, pairs, strict=False)

@@ -6,23 +6,22 @@ from itertools import product
 
 import numpy as np
 
-from .asymmetric import POINTS, AsymmetricOrbits
-from .curve import Point, at_parameter, correct, solve_at
+from .curve import Point, at_parameter, solve_at
 from .families import COLLAPSED, End, Event, Family, find_events, follow
 from .grazing import grazing
 from .half_orbit import FIX_R, FIX_RP, TIMES, X_END, XI, landing, scan
 from .symmetric import CELLS, SAME, Orbits, Parameter, divisors, lines, root_between, roots
 
 # Separation below which a collapsed orbit is the shorter orbit traversed several times.
-_SHORTER = 20.0 * COLLAPSED
+SHORTER = 20.0 * COLLAPSED
 # Distances in the parameter's range at which branches are sought beside an event, and distances in
 # q from the parent's point between which they are.
 _BESIDE = 1e-6, 1e-5, 1e-4, 1e-3
 _OFFSETS = np.cumprod(np.append(1e-5, np.full(399, 1.0204)))
-_NEAR_RIM, _NEAR_TIME = 1e-5, 1e-2  # of a grazing orbit from its partner, in p and total time
-_NEAR_EVENT = 1e-3  # largest distance, in p and in q, from a collapsed end to the parent's event
+_NEAR_RIM, _NEAR_TIME = 2e-5, 1e-2  # of a grazing orbit from its partner, in p and total time
+NEAR_EVENT = 1e-3  # largest distance, in p and in q, from a collapsed end to the parent's event
+_MARGIN = 0.01  # in q, beyond the ends of a step along a curve, within which the curve stays
 _AT_REST = 0.999  # |q| on both lines, above which the ball is all but at rest on the floor
-_ASIDE = 3e-3  # distance from a pitchfork, in section radii, at which its branch is entered
 
 
 class Search:
@@ -37,8 +36,7 @@ class Search:
         }
         self.families: list[Family] = []
         self.starts: list[tuple[int, int, float, float]] = []  # of each symmetric family
-        self._level = math.nan
-        self._held: dict[int, list[float]] = {}
+        self._curves: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     def resume(self, starts: list[tuple[int, int, float, float]]) -> None:
         """Follow the families again of which an earlier search kept the starts."""
@@ -63,21 +61,36 @@ class Search:
         return [
             family.number
             for family in self.families
-            if (family.period, family.line) == (period, line)
-            and any(abs(q - point.q) < SAME for q in self._held_at(family, point.p))
+            if (family.period, family.line) == (period, line) and self._holds(family, point)
         ]
 
-    def _held_at(self, family: Family, p: float) -> list[float]:
-        """Return the parameters q of a family's points on its line at a parameter.
+    def _holds(self, family: Family, point: Point) -> bool:
+        """Return whether a family holds a solution.
 
-        Those at the last parameter that was asked for are kept.
+        Its place is solved for only on those parts of the curve that come near the solution.
         """
-        if p != self._level:
-            self._level, self._held = p, {}
-        if family.number not in self._held:
-            points = self.crossings(family, p)
-            self._held[family.number] = [q for z in points for q in positions(family.system, z)]
-        return self._held[family.number]
+        levels, places = self._curve(family)
+        below = levels < point.p
+        (cells,) = np.nonzero(below[:-1] != below[1:])
+        for i in cells.tolist():
+            low, high = places[i : i + 2].min(axis=0), places[i : i + 2].max(axis=0)
+            margin = _MARGIN + (high - low)
+            if np.any((low - margin < point.q) & (point.q < high + margin)):
+                at = at_parameter(family.system, *family.points[i : i + 2], point.p)
+                if at is not None and any(
+                    abs(q - point.q) < SAME for q in positions(family.system, at)
+                ):
+                    return True
+        return False
+
+    def _curve(self, family: Family) -> tuple[np.ndarray, np.ndarray]:
+        """Return the parameters (n,) of a family's points, and their positions (n, 1 or 2)."""
+        if family.number not in self._curves:
+            self._curves[family.number] = (
+                np.array([point.p for point in family.points]),
+                np.array([positions(family.system, point) for point in family.points]),
+            )
+        return self._curves[family.number]
 
     def add(self, period: int, line: int, point: Point) -> bool:
         """Follow the family of a solution unless a known family holds it; return if it is new."""
@@ -130,7 +143,7 @@ class Search:
     def children(self, family: Family, event: Event) -> list[tuple[int, int, Point]]:
         """Return (period, line, point) of the orbits next to an event, on both sides of it."""
         found = []
-        for p in self._levels_beside(event.point.p):
+        for p in self.levels_beside(event.point.p):
             near = solve_at(family.system, (event.point.q, p), 0.05)
             if near is None:  # past a fold of the parent
                 near = event.point
@@ -140,7 +153,7 @@ class Search:
 
     def _go_on(self, family: Family, end: End) -> None:
         """Add the families that go on where an impact of this one grazes, unless one is known."""
-        if any(self._meet(family, end, *other) for other in self._grazing_ends()):
+        if any(self.meet(family, end, *other) for other in self.grazing_ends()):
             return
         longer = end.kind == "touch"
         rounds = range(1, self.longest // family.period + 1) if longer else (1,)
@@ -154,12 +167,12 @@ class Search:
         for line, q in symmetric_points(family.system, end.point):
             # At rest on the floor an orbit passes from one line to the other.
             sides = (FIX_R, FIX_RP) if abs(q) > _AT_REST else (line,)
-            for p in self._levels_beside(end.p):
+            for p in self.levels_beside(end.p):
                 for period, side in product(dict.fromkeys(periods), sides):
                     for child in self._beside(period, side, q, p):
                         self.add(*child)
 
-    def _levels_beside(self, p: float) -> list[float]:
+    def levels_beside(self, p: float) -> list[float]:
         """Return parameters on both sides of one, within the range."""
         low, high = self.parameter.low, self.parameter.high
         beside = (p + sign * part * (high - low) for part in _BESIDE for sign in (-1.0, 1.0))
@@ -186,80 +199,11 @@ class Search:
                     found.append((period, line, point))
         return found
 
-    def break_symmetry(self) -> None:
-        """Add the families without symmetry that branch off at pitchforks."""
-        for family in list(self.families):
-            if family.line < 0:
-                continue
-            for event in family.events:
-                if event.kind != "pitchfork" or self._starts_known(family, event):
-                    continue
-                system = AsymmetricOrbits(family.period, self.parameter)
-                start = self._aside(system, family, event)
-                if start is None:
-                    continue
-                branch = follow(system, start, grazing)
-                find_events(branch, self.longest)
-                branch.number = len(self.families)
-                self.families.append(branch)
-                for end in branch.ends:
-                    if end.kind == "collapse":
-                        self._pitchfork(branch, end)
-
-    def _starts_known(self, family: Family, event: Event) -> bool:
-        """Return whether a known family without symmetry ends at a pitchfork."""
-        return any(
-            end.kind == "pitchfork" and end.family == family.number and end.p == event.point.p
-            for branch in self.families
-            if branch.line < 0
-            for end in branch.ends
-        )
-
-    def _aside(self, system: AsymmetricOrbits, family: Family, event: Event) -> Point | None:
-        """Return an orbit without symmetry beside a pitchfork, or None."""
-        place = first_point(family.system, event.point)
-        point = system.point((*place, event.point.p))
-        if point is None:
-            return None
-        # Start at the orbit's point that is farthest from the rim, where derivatives are bounded.
-        points = point.data[POINTS : POINTS + 2 * system.period].reshape(-1, 2)
-        place = tuple(points[np.argmin(np.sum(points * points, axis=1))].tolist())
-        point = system.point((*place, event.point.p))
-        if point is None:
-            return None
-        (a, b, _), (c, d, _) = point.gradients
-        across = (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
-        size = math.sqrt(across[0] * across[0] + across[1] * across[1])
-        if not 0.0 < size < math.inf:
-            return None
-        along = (across[0] / size, across[1] / size, 0.0)
-        beside = (place[0] + _ASIDE * along[0], place[1] + _ASIDE * along[1], event.point.p)
-        start = correct(system, beside, along, _ASIDE)
-        if start is None or system.separation(start) < COLLAPSED:
-            return None
-        return start
-
-    def _pitchfork(self, branch: Family, end: End) -> None:
-        """Find the pitchfork of a symmetric family at which a branch without symmetry ends."""
-        best, distance = None, _NEAR_EVENT
-        for parent in self.families:
-            if (parent.period, parent.line < 0) != (branch.period, False):
-                continue
-            for event in parent.events:
-                away = abs(event.point.p - end.p) / (self.parameter.high - self.parameter.low)
-                time = abs(parent.system.time(event.point) - branch.system.time(end.point))
-                if event.kind == "pitchfork" and away + time < distance:
-                    best, distance = (parent, event), away + time
-        if best is not None:
-            parent, event = best
-            end.kind, end.family, end.turns, end.order = "pitchfork", parent.number, 1, 1
-            end.p, end.q = event.point.p, first_point(parent.system, event.point)[0]
-
     def link(self) -> None:
         """Name the parents of families that begin at a point of a shorter orbit, and partners."""
         for family in self.families:
             for end in family.ends:
-                if end.kind == "collapse":
+                if end.kind == "collapse" and family.line >= 0:
                     self._parent(family, end)
                 if end.kind == "collapse":
                     end.kind = "unresolved"
@@ -270,9 +214,7 @@ class Search:
 
     def _parent(self, family: Family, end: End) -> None:
         """Find the event of a shorter orbit at which a family ends."""
-        best, distance = None, _NEAR_EVENT
-        if family.line < 0:
-            return
+        best, distance = None, NEAR_EVENT
         separations = dict(
             zip(
                 divisors(family.period),
@@ -280,7 +222,7 @@ class Search:
                 strict=True,
             )
         )
-        shorter = next(d for d, size in separations.items() if size < _SHORTER)
+        shorter = next(d for d, size in separations.items() if size < SHORTER)
         scale = self.parameter.high - self.parameter.low
         for parent in self.families:
             if parent.period != shorter or parent.line < 0:
@@ -298,13 +240,13 @@ class Search:
             end.turns, end.order = event.turns, event.order
             end.p, end.q = event.point.p, q
 
-    def _grazing_ends(self) -> Iterator[tuple[Family, End]]:
+    def grazing_ends(self) -> Iterator[tuple[Family, End]]:
         """Yield the ends at which an impact grazes."""
         for family in self.families:
             yield from ((family, end) for end in family.ends if end.kind in ("rim", "touch"))
 
     @staticmethod
-    def _meet(first: Family, end: End, second: Family, other: End) -> int:
+    def meet(first: Family, end: End, second: Family, other: End) -> int:
         """Return in how many rounds of the shorter of two orbits they meet, 0 if they do not.
 
         One of them touches the floor in a flight where an impact of the other one grazes. Without
@@ -315,18 +257,19 @@ class Search:
             first, end, second, other = second, other, first, end
         if (end.kind, other.kind) != ("rim", "touch"):
             return 0
-        rounds = max(1, first.period // second.period)
-        grazing_impacts = first.period - rounds * second.period
-        if not 1 <= grazing_impacts <= 2 * rounds:
+        if not abs(other.p - end.p) < _NEAR_RIM * end.p:
             return 0
-        time = first.system.time(end.point) - rounds * second.system.time(other.point)
-        away = abs(other.p - end.p) / end.p
-        return rounds if away < _NEAR_RIM and abs(time) < _NEAR_TIME else 0
+        for rounds in range(1, first.period // second.period + 1):
+            grazing_impacts = first.period - rounds * second.period
+            time = first.system.time(end.point) - rounds * second.system.time(other.point)
+            if 1 <= grazing_impacts <= 2 * rounds and abs(time) < _NEAR_TIME:
+                return rounds
+        return 0
 
     def _partner(self, family: Family, end: End) -> None:
         """Find the family whose flight touches the floor where an impact of this one grazes."""
-        for other, touch in self._grazing_ends():
-            rounds = self._meet(family, end, other, touch)
+        for other, touch in self.grazing_ends():
+            rounds = self.meet(family, end, other, touch)
             if rounds:
                 end.family, end.p = other.number, touch.p
                 if rounds == 1 and (family.line < 0) == (other.line < 0):
