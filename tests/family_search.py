@@ -1,0 +1,51 @@
+"""Searches for families of the paper's ball, and what several tests ask of them."""
+
+import math
+from functools import cache
+
+from pseudorigid import Ball
+from pseudorigid.analyses.continuation import search
+from pseudorigid.analyses.continuation.broken_symmetry import break_symmetry
+from pseudorigid.analyses.continuation.half_orbit import ENERGY
+from pseudorigid.analyses.continuation.symmetric import Parameter
+
+PAPER = Ball(0.2, 0.04)
+
+
+def rho(ball, energy):
+    return math.sqrt(1.0 + 2.0 * ball.k * (energy / (ball.g * ball.g)))
+
+
+def searched(ball, low, high, longest, levels):
+    """A whole search over a range of energies."""
+    ends = rho(ball, low), rho(ball, high)
+    found = search.Search(Parameter(ENERGY, ball.k, *ends), longest)
+    step = (ends[1] - ends[0]) / levels
+    for _ in found.sweep([ends[0] + (i + 0.5) * step for i in range(levels)]):
+        pass
+    found.switch()
+    break_symmetry(found)
+    found.link()
+    return found
+
+
+@cache
+def up_to_period_six():
+    """Periods up to 6 over the paper's whole range of energies."""
+    return searched(PAPER, -0.00399, 0.0599, 6, 40)
+
+
+def energy_of(found, p):
+    return found.parameter.energy(p) * PAPER.g**2
+
+
+def six_born_at(found, line, kind):
+    """The period-six family from one line that ends in a kind of event below E = 0.01."""
+    (family,) = (
+        f
+        for f in found.families
+        if f.period == 6
+        and f.line == line
+        and any(e.kind == kind and found.parameter.energy(e.p) < 6.25 for e in f.ends)
+    )
+    return family
