@@ -76,14 +76,17 @@ def test_nothing_is_a_cause_for_lying_near():
     assert list(table["cause_event"][1]) == ["unexplained"]
     assert table["slope_change"][1] == pytest.approx([-0.21, 0.21])
     assert table["slope_part"][1][:, 0] == pytest.approx([20 / 21, 20 / 21])
-    # Orbits beyond a resonance count only if they vanish at the extremum and were half of the fall.
-    for beyond, cause in (
-        ([0.15, 0.0, 0.0], "orbits beyond 1/5 vanish"),
-        ([0.08, 0.0, 0.0], "unexplained"),
-        ([0.15, 0.01, 0.0], "unexplained"),
+    # The last curve beyond a resonance counts only if it breaks within a step of the extremum, and
+    # the orbits beyond the resonance were half of the fall.
+    event = "last curve beyond 1/5 breaks"
+    for broken, beyond, cause in (
+        (at - 0.0003, [0.15, 0.0, 0.0], event),
+        (at - 0.0003, [0.08, 0.0, 0.0], "unexplained"),
+        (at - 0.0006, [0.15, 0.0, 0.0], "unexplained"),
+        (np.nan, [0.15, 0.0, 0.0], "unexplained"),
     ):
-        zones = [("1/5", np.array(beyond))]
-        table = causes(held, "energy", values, bounds, by_family, zones, 0.0005)
+        curves = [(event, broken, np.array(beyond))]
+        table = causes(held, "energy", values, bounds, by_family, curves, 0.0005)
         assert list(table["cause_event"][1]) == [cause]
     by_family[:, number], by_family[:, -1] = share[:, 0], share[:, 1]
     table = causes(held, "energy", values, bounds, by_family, [], 0.0005)

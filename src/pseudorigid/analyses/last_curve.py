@@ -127,7 +127,7 @@ def _simplest_between(low: float, high: float) -> list[int]:
 
 def _row(ball, energy, noble, convergents, between, impacts, drawn) -> tuple:
     """Return the values of _VARIABLES for one noble number."""
-    search = _OrbitSearch(ball, energy, between)
+    search = OrbitSearch(ball, energy, between)
     orbits = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
     start = orbits[-1][2]
     (turns,), (exponent,) = winding(ball, energy, np.array([start]), impacts)
@@ -152,7 +152,7 @@ def value(noble: Sequence[int]) -> float:
     return number
 
 
-class _OrbitSearch:
+class OrbitSearch:
     """Search on y = 0 for symmetric periodic orbits with a given number of turns.
 
     With m = period // 2 an orbit is symmetric if after m impacts it is on y = 0 (even periods) or
@@ -168,25 +168,9 @@ class _OrbitSearch:
 
     def orbit(self, turns: int, period: int) -> tuple[float, float, float]:
         """Return start, residue and closure of the orbit with so many turns in a period."""
-        half, odd = divmod(period, 2)
-
-        def excess_turns(start):
-            before, last, _ = self._half_orbit(start, half)
-            return 2.0 * before + odd * last - turns
-
-        for bracket in self._brackets(excess_turns):
-            start = _bisect(excess_turns, *bracket)
-            if odd:
-                start = self._symmetric_flight(start, half)
-            if start is None:
-                continue
-            state = self.ball.start(start, self.energy)
-            after = states_of(orbit(self.ball, state, period, keep="last"))
-            closure = np.max(np.abs(after - state)) / self.radius
-            if closure < _MAX_CLOSURE:
-                jacobian = self.ball.jacobian(*state, impacts=period)
-                trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
-                return start, 0.25 * (2.0 - trace), closure
+        found = self.find(turns, period)
+        if found is not None:
+            return found
         first, last = self.between
         nearby, _ = winding(self.ball, self.energy, np.linspace(first, last, _CELLS), _IMPACTS)
         raise ValueError(
@@ -194,6 +178,58 @@ class _OrbitSearch:
             f"found on the part of y = 0 between {first:g} and {last:g}, where orbits have "
             f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
+
+    def find(self, turns: int, period: int) -> tuple[float, float, float] | None:
+        """Return start, residue and closure of an orbit, or None if none is found."""
+        excess_turns = self._excess_turns(turns, period)
+        for bracket in self._brackets(excess_turns):
+            found = self._solve(excess_turns, period, bracket)
+            if found is not None:
+                return found
+        return None
+
+    def innermost(self, turns: int, period: int, cells: int) -> tuple[float, float, float] | None:
+        """Return `find`'s values of the orbit nearest to the fixed point, or None.
+
+        It is searched in the first of so many cells of `between` at whose ends orbits have too many
+        and too few turns, or the other way round.
+        """
+        excess_turns = self._excess_turns(turns, period)
+        first, last = self.between
+        low, sign = first, excess_turns(first) > 0.0
+        for i in range(1, cells + 1):
+            high = first + (last - first) * i / cells
+            if (excess_turns(high) > 0.0) != sign:
+                bracket = (low, high) if sign else (high, low)
+                return self._solve(excess_turns, period, bracket)
+            low = high
+        return None
+
+    def _excess_turns(self, turns: int, period: int) -> Callable:
+        """Return the function of a start that is zero on an orbit with these turns."""
+        half, odd = divmod(period, 2)
+
+        def excess_turns(start):
+            before, last, _ = self._half_orbit(start, half)
+            return 2.0 * before + odd * last - turns
+
+        return excess_turns
+
+    def _solve(self, excess_turns, period, bracket) -> tuple[float, float, float] | None:
+        """Return start, residue and closure of the orbit in a bracket, None if it is not closed."""
+        start = _bisect(excess_turns, *bracket)
+        if period % 2:
+            start = self._symmetric_flight(start, period // 2)
+        if start is None:
+            return None
+        state = self.ball.start(start, self.energy)
+        after = states_of(orbit(self.ball, state, period, keep="last"))
+        closure = np.max(np.abs(after - state)) / self.radius
+        if not closure < _MAX_CLOSURE:
+            return None
+        jacobian = self.ball.jacobian(*state, impacts=period)
+        trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
+        return start, 0.25 * (2.0 - trace), closure
 
     def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
         """Yield starts with too many and with too few turns, for `between` and for its cells."""

@@ -5,10 +5,12 @@ around exactly one of the n points. Of several such orbits the one with the long
 since chains lie inside others. Orbits that go around the fixed point alone belong to the main
 island or to a chain around it whose period is longer than those of the families. A resonance p/q
 divides the main island into the orbits beyond it, whose winding number lies on the other side of
-p/q than the fixed point's rotation number, and the rest.
+p/q than the fixed point's rotation number, and the rest. Where their share vanishes or appears, the
+last invariant curve among them is searched, without counting orbits.
 """
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -16,6 +18,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analyses.breakup import breakup
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.tangent_orbits import angle
@@ -30,6 +33,7 @@ _NEWTON_STEPS = 12
 _CLOSED = 1e-9  # |P^n z - z|, in section radii, of a point that Newton's method has found
 _HALF = 0.5  # share of a change for which a chain must account
 _LARGEST = 3  # chains named for each slope
+_SEEN = 0.002  # share of the section; smaller ones may be a few orbits that stick to islands
 
 
 @jit
@@ -131,6 +135,8 @@ def shares(
         On `value`: energy, k, regular, regular_low and regular_high, and outside, the share that
         goes around no elliptic orbit of the families; share on (value, family); beyond on (value,
         resonance), the part of the main island beyond a resonance of the fixed point. On
+        `breakup`: where the last invariant curve beyond a resonance breaks, or the first one forms,
+        by `analyses.breakup`, if the part beyond it vanishes or appears along the line. On
         `extremum`: the minima and maxima of the share, and on (extremum, side) which chain changes
         most from there to the nearest value that differs, and its nearest event. On `slope`, the
         line between neighbouring extrema or to its ends: the chains that change most; see `causes`.
@@ -146,7 +152,7 @@ def shares(
     """
     square = Fraction(str(ball.g)) ** 2
     unit, low, high = (Fraction(str(value)) for value in (step, *span))
-    rows, counts, beyond = [], [], []
+    rows, counts, beyond, rotations = [], [], [], []
     resonances = _resonances(families)
     for i in range(-int(-low // unit), int(high // unit) + 1):
         value = unit * i
@@ -155,6 +161,7 @@ def shares(
         e = float(level / square)
         states = sunflower_points(this.k, e, starts)
         place, _, turn = fixed_point.numbers(this.k, e)
+        rotations.append(turn)
         centre, expected = np.full(starts, place), np.full(starts, turn)
         verdicts = classify_orbits(this.k, states, centre, expected, impacts)
         regular = [a[verdicts.regular] for a in states]
@@ -192,8 +199,18 @@ def shares(
         "resonance_order": ("resonance", [order for _, order in resonances], "q of p/q"),
         "beyond": (("value", "resonance"), parts, "share in the main island beyond p/q"),
     }
-    zones = [(f"{p}/{q}", parts[:, i]) for i, (p, q) in enumerate(resonances)]
-    table |= causes(families, parameter, values, columns[2:5], share, zones, step)
+
+    def at(value: float) -> tuple[Ball, float]:
+        return (ball, value) if parameter == "energy" else (Ball(value, ball.g), float(energy))
+
+    curves = _breakups(at, values, np.array(rotations), resonances, parts)
+    names = {
+        "breakup_event": "last curve beyond p/q that breaks, or first one that forms",
+        "breakup_at": "energy, or k, of it by Greene's criterion, NaN if none is found",
+    }
+    for index, (name, text) in enumerate(names.items()):
+        table[name] = "breakup", [curve[index] for curve in curves], text
+    table |= causes(families, parameter, values, columns[2:5], share, curves, step)
     return xr.Dataset(described(table), attrs={"starts": starts, "impacts": impacts})
 
 
@@ -259,15 +276,39 @@ def _resonances(families: xr.Dataset) -> list[tuple[int, int]]:
     return sorted(pairs, key=lambda pair: pair[0] / pair[1])
 
 
-def causes(families, parameter, values, regular, share, zones, step) -> dict:
+def _breakups(
+    at: Callable, values: np.ndarray, rotations: np.ndarray, resonances: list, parts: np.ndarray
+) -> list[tuple[str, float, np.ndarray]]:
+    """Return event, parameter and part beyond it of curves that break or form along the line."""
+    found = []
+    for (p, q), zone in zip(resonances, parts.T, strict=True):
+        side = rotations > p / q
+        for m, step in ((m, step) for m in range(values.size) for step in (1, -1)):
+            # The chain is born at the fixed point, and no curve breaks, where the side changes.
+            i = m + step
+            if not 0 <= i < values.size or not zone[m] > _SEEN >= zone[i] or side[m] != side[i]:
+                continue
+            first, last = (
+                j if 0 <= j < values.size and side[j] == side[m] else near
+                for j, near in ((m - step, m), (i + step, i))
+            )
+            place = breakup(at, p, q, float(values[first]), float(values[last]))
+            word = f"last curve beyond {p}/{q} breaks"
+            if step < 0:
+                word = f"first curve beyond {p}/{q} forms"
+            found.append((word, place, zone))
+    return found
+
+
+def causes(families, parameter, values, regular, share, curves, step) -> dict:
     """Return variables on `extremum`, (extremum, side) and `slope` from the shares (value, family).
 
-    `regular` holds the regular share and the ends of its interval; `zones` are pairs of p/q and the
-    share of the main island beyond it. A change is that from an extremum to the nearest value that
-    differs by more than the intervals, or to the neighbouring extremum. An event is the cause of
-    an extremum only if its chain, the one that changes most, accounts for at least half of such a
-    change and the event lies within one step of the extremum. The orbits beyond p/q are the cause
-    if their vanishing, within a step, accounts for at least half of a change.
+    `regular` holds the regular share and the ends of its interval; `curves` are those of
+    `_breakups`. A change is that from an extremum to the nearest value that differs by more than
+    the intervals, or to the neighbouring extremum. An event is the cause of an extremum only if its
+    chain, the one that changes most, accounts for at least half of such a change and the event lies
+    within one step of the extremum. That the last curve beyond p/q breaks, or the first one forms,
+    is such an event, whose chain is the part of the main island beyond p/q.
     """
     rows, sides_of, slopes = [], [], []
     found = extrema(*regular)
@@ -290,11 +331,7 @@ def causes(families, parameter, values, regular, share, zones, step) -> dict:
             )
             beside.append((values[j], number, part, event, at))
             near = [(part, number, event, at)]
-            for name, zone in zones:
-                vanishes = f"orbits beyond {name} vanish"
-                for k in (m for m in (i - 1, i + 1) if zone[i] == 0.0 and zone[m] > 0.0):
-                    middle = 0.5 * (values[i] + values[k])
-                    near.append((float(parts(i, j, zone)), -1, vanishes, middle))
+            near += [(float(parts(i, j, zone)), -1, name, at) for name, at, zone in curves]
             for row in near:
                 if row[0] >= _HALF and abs(row[3] - values[i]) <= step * (1.0 + 1e-9):
                     cause = max(cause, row, key=lambda row: row[0])
@@ -308,8 +345,8 @@ def causes(families, parameter, values, regular, share, zones, step) -> dict:
     names = {
         "extremum_at": "energy, or k, of an extremum of the regular share",
         "extremum_kind": "minimum or maximum",
-        "cause_family": "family whose event is the cause, -1 if there is none",
-        "cause_event": "that event, or orbits of the main island that vanish, or unexplained",
+        "cause_family": "family whose event is the cause, -1 for a curve or if there is none",
+        "cause_event": "that event, or the curve beyond p/q that breaks or forms, or unexplained",
         "cause_at": "energy, or k, of that event",
     }
     columns = list(zip(*rows, strict=True)) if rows else [()] * len(names)

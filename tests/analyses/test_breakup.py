@@ -1,0 +1,57 @@
+"""The breakup of the last invariant curve beyond a resonance, found without counting orbits."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from slowly import slowly
+
+from pseudorigid import Ball
+from pseudorigid.analyses.breakup import breakup, neighbour
+from pseudorigid.analyses.last_curve import OrbitSearch
+from pseudorigid.analyses.regularity import regular
+from pseudorigid.analyses.rotation import symmetric_fixed_point, winding
+
+BALL = Ball(0.2, 0.04)
+SEVENTH, STEP = 0.005636, 2e-5  # energy at which the last curve beyond 1/7 breaks
+
+
+def at(energy):
+    return BALL, energy
+
+
+@pytest.mark.parametrize("fraction", [(0, 1), (1, 5), (2, 9), (2, 7), (3, 11), (5, 12)])
+def test_neighbours_have_smaller_denominators_and_lie_next_to_the_fraction(fraction):
+    p, q = fraction
+    for below in (True, False):
+        r, s = neighbour(p, q, below)
+        assert s <= q and (r * q < p * s) == below
+        assert abs(Fraction(r, s) - Fraction(p, q)) == Fraction(1, s * q)
+
+
+def test_residues_of_longer_convergents_fall_before_the_breakup_and_grow_after_it():
+    """The residues are those of a noble number next to the last curve's, beyond 1/7."""
+    for energy, falls in ((SEVENTH - 10 * STEP, True), (SEVENTH + 10 * STEP, False)):
+        place, _ = symmetric_fixed_point(BALL, energy)
+        search = OrbitSearch(BALL, energy, (place - 1e-3, -0.999))
+        convergents = [(4, 29), (5, 36), (9, 65), (14, 101), (23, 166), (37, 267)]
+        sizes = [abs(search.innermost(*pair, 256)[1]) for pair in convergents]
+        ratios = np.divide(sizes[3:], sizes[2:-1])
+        assert np.all(ratios < 1.0) if falls else np.all(ratios > 1.0)
+
+
+def test_the_last_curve_breaks_between_energies_with_and_without_one():
+    found = breakup(at, 1, 7, 0.0055, 0.0058)
+    assert found == pytest.approx(SEVENTH, abs=STEP)
+    assert math.isnan(breakup(at, 1, 7, 0.0057, 0.0059))  # broken at both ends
+    assert math.isnan(breakup(at, 1, 7, 0.0050, 0.0052))  # whole at both ends
+
+
+@pytest.mark.parametrize("energy, some", slowly((0.01615, True), (0.01621, False)))
+def test_no_regular_orbit_beyond_a_fifth_is_left_after_the_last_curve_breaks(energy, some):
+    """The breakup at 1/5 lies between two energies with and without regular orbits beyond it."""
+    assert 0.01615 < breakup(at, 1, 5, 0.0161, 0.0163) < 0.01621
+    place, _ = symmetric_fixed_point(BALL, energy)
+    turned, exponent = winding(BALL, energy, np.linspace(place, -0.999, 800), 16_000)
+    assert np.any(turned[regular(exponent, 16_000)] < 0.2 - 1e-4) == some
