@@ -36,9 +36,10 @@ def named(families, number):
 
 
 def test_long_numbers_are_energies_of_events_or_ends(datasets):
-    families, _ = datasets
+    families, shares = datasets
     known = np.concatenate(
         [families[name].values.ravel() for name in ("event_energy", "end_energy")]
+        + [shares["breakup_at"].values]
     )
     numbers = re.findall(r"(?<![\d.])-?0\.\d{5,12}(?!\d)", PAGE)
     assert len(numbers) > 50
@@ -105,13 +106,26 @@ def test_the_table_of_the_main_island_is_that_of_the_dataset(datasets):
     turns, orders = (shares[f"resonance_{name}"].values.tolist() for name in ("turns", "order"))
     ratios = list(zip(turns, orders, strict=True))
     energies, regular = shares["energy"].values, shares["regular"].values
-    for p, q in ((1, 7), (1, 6), (2, 11), (1, 5)):
+    events = shares["breakup_event"].values.tolist()
+    for p, q in ((1, 7), (1, 6), (2, 11), (1, 5), (2, 9)):
         beyond = shares["beyond"].values[:, ratios.index((p, q))]
         last = max(i for i in range(beyond.size) if beyond[i] > 0.002)
         cells = [
             f"{energies[i]:.4f} | {beyond[i]:.4f} | {regular[i]:.4f}" for i in (last, last + 1)
         ]
-        assert f"| {p}/{q} | {cells[0]} | {cells[1]} |" in PAGE
+        broken = shares["breakup_at"].values[events.index(f"last curve beyond {p}/{q} breaks")]
+        assert energies[last] <= broken <= energies[last + 1]
+        assert f"| {p}/{q} | {cells[0]} | {cells[1]} | {broken:.5f} |" in PAGE
+
+
+def test_the_first_minimum_has_the_last_curve_beyond_a_fifth_as_its_cause(datasets):
+    _, shares = datasets
+    assert shares["cause_event"].values.tolist().count("unexplained") == 4
+    assert shares["cause_event"].values[0] == "last curve beyond 1/5 breaks"
+    events = dict(zip(shares["breakup_event"].values, shares["breakup_at"].values, strict=True))
+    forms = events["first curve beyond 2/7 forms"]
+    assert f"first curve beyond 2/7 forms at {forms:.5f}." in TEXT
+    assert forms > 0.0550 + 0.0005
 
 
 def test_at_the_papers_energy_regular_orbits_are_in_the_island_or_in_its_six(datasets):
