@@ -17,6 +17,7 @@ from ..dynamics.orbits import orbit
 from ..dynamics.tangent_orbits import angle
 from ..dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from ..kernel import impact as kernel
+from ..kernel import section
 from ..kernel.compiled import jit
 from .regularity import regular
 from .rotation import LOCKED, symmetric_fixed_point, winding
@@ -244,8 +245,10 @@ class OrbitSearch:
 
     def _half_orbit(self, start: float, half: int) -> tuple[float, float, float]:
         """Return `_turns` of the orbit from a start on y = 0."""
-        ball, state = self.ball, self.ball.start(start, self.energy)
-        return _turns(*state, ball.k, ball.g, self.fixed_x, self.fixed_rotation, half)
+        k, g = self.ball.k, self.ball.g
+        # the state of Ball.start, without its checks of a start, which take as long as the orbit
+        state = section.start(k, g, self.energy, start)
+        return _turns(*state, k, g, self.fixed_x, self.fixed_rotation, half)
 
     def _symmetric_flight(self, start: float, half: int) -> float | None:
         """Return the nearby start whose flight after `half` impacts is symmetric, or None."""
