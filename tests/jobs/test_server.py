@@ -1,5 +1,6 @@
 """The job server: each job ends as a program of its own would, also when many start at once."""
 
+import os
 import subprocess
 import sys
 
@@ -7,6 +8,7 @@ import pytest
 from project import ROOT, fresh_tree
 
 from pipeline.jobs import server
+from pipeline.records.build_spec import BuildSpec
 
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
@@ -60,10 +62,9 @@ def printed_words(tree, *arguments):
 
 
 def test_many_jobs_at_once_end_as_they_should(tree):
-    assert (
-        printed_words(tree, "8", "txt", "step", "good", "bad", "bug", "killed")
-        == ["0", "1", "1", "1"] * 8
-    )
+    words = printed_words(tree, "8", "txt", "step", "good", "bad", "bug", "killed", "modules")
+    assert words[:24] == ["True", "False", "False"] * 8  # no dataset is made
+    assert words[24:] == ["0", "1", "1", "1", "0"] * 8
     assert (tree.path / "count").read_text() == "x" * 8
     folder = tree.path / "results/paper"
     logs = [folder / f"logs/{i}.txt.log" for i in range(4)]
@@ -72,17 +73,29 @@ def test_many_jobs_at_once_end_as_they_should(tree):
     assert last[0] == "pseudorigid: fig: bad input"
     assert last[1].startswith("pseudorigid: fig: ZeroDivisionError: division by zero (traceback in")
     assert last[2].startswith("pseudorigid: fig: the job was killed")
-    assert {file.name for file in folder.glob("*.txt")} == {f"{i}.txt" for i in range(0, 32, 4)}
+    assert {file.name for file in folder.glob("*.txt")} == {f"{i}.txt" for i in range(0, 40, 5)}
+
+
+def test_jobs_of_a_sweep_find_its_modules_loaded(tree):
+    assert printed_words(tree, "1", "nc", "block 3", "modules")[:3] == ["True"] * 3
 
 
 @pytest.mark.parametrize(
-    ("suffix", "step", "loaded"),
-    [("png", "drawing", (1, 0, 0)), ("nc", "orbits", (1, 1, 0)), ("nc", "block 3", (1, 1, 1))],
+    ("result", "step", "words"),
+    [("x.png", "drawing", ""), ("x.nc", "orbits", "data"), ("x.nc", "block 3", "data sweep")],
 )
-def test_compiled_modules_are_loaded_only_for_results_that_need_them(tree, suffix, step, loaded):
-    assert printed_words(tree, "1", suffix, step, "modules")[:3] == [
-        str(bool(each)) for each in loaded
-    ]
+def test_compiled_modules_are_loaded_only_for_results_that_need_them(
+    monkeypatch, result, step, words
+):
+    asked = []
+    monkeypatch.setattr(
+        server.forkserver,
+        "ensure_running",
+        lambda: asked.append(os.environ["PSEUDORIGID_PRELOAD"]),
+    )
+    specs = {result: BuildSpec(result, "fig", step, {}, "stage", None, [], [])}
+    with server.job_server(server.Plan({}, specs, {result})):
+        assert asked == [words]
 
 
 def test_jobs_start_as_usual_without_a_server(monkeypatch):
