@@ -97,7 +97,7 @@ def test_each_difference_from_an_archive_is_named(moved, packed):
         ("results/paper/motion_fig3.nc", None, "is missing", "./reproduce"),
         ("results/paper/motion_fig3.nc", "x", "changed after it was made", "./reproduce"),
         ("paper_figures/fig3.png", "x", "is not results/paper/figures/fig3.png", "./reproduce"),
-        ("paper_figures/SHA256SUMS", f"{'0' * 64}  fig3.png\n", "fig2.png", "./reproduce accept"),
+        ("paper_figures/SHA256SUMS", f"{'0' * 64}  fig3.png\n", "is not as", "./reproduce accept"),
         ("paper_figures/MANIFEST.json", "{}", "was edited", "./reproduce accept"),
     ],
 )
