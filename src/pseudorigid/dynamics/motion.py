@@ -32,24 +32,19 @@ def _flights(ball, orbit):
 def scene_motion(
     ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
 ) -> xr.Dataset:
-    """Compute `motion` along a periodic orbit of given period and type (Figures 3 and 4).
+    """Compute x(t) and u(t), eq. (26), of a periodic orbit from an impact on (Figures 3 and 4).
+
+    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
+    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
+    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
+    each flight are included, where position = -strain exactly.
 
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
     6
     """
-    return motion(ball, of_type(periodic, type, period), duration)
-
-
-def motion(ball: Ball, orbit: xr.Dataset, duration: float) -> xr.Dataset:
-    """Compute x(t) and u(t), eq. (26), along a periodic orbit from an impact at t = 0.
-
-    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
-    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
-    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
-    each flight are included, where position = -strain exactly.
-    """
+    orbit = of_type(periodic, type, period)
     mean = float(orbit["tau"].mean())
     if not duration <= MOST_FLIGHTS * mean:
         raise ValueError(
