@@ -79,12 +79,12 @@ class Flights:
         value = self.middle.height(t)
         return value + change[1] * self.offsets[0] + change[2] * self.offsets[1]
 
-    def newton(self, inside: acb) -> tuple[acb, acb]:
-        """Return the Newton image m - f(m)/f'(U) of a set U, and f'(U)."""
+    def newton(self, inside: acb) -> acb:
+        """Return the Newton image m - f(m)/f'(U) of a set U."""
         middle, slope = inside.mid(), self.gap.slope(inside)
         if slope.contains(0):
             raise UndecidedError("the slope of the gap may vanish in the strip")
-        return middle - self.height(middle) / slope, slope
+        return middle - self.height(middle) / slope
 
 
 def unique_root(flights: Flights, known: acb) -> acb:
@@ -94,14 +94,14 @@ def unique_root(flights: Flights, known: acb) -> acb:
     U has exactly one root for each point: one by Brouwer's theorem, and no two, as f(a) - f(b) is
     in (a - b) f'(U) and f'(U) does not contain 0. Raises UndecidedError.
     """
-    guess = flights.newton(known)[0].union(known)
+    guess = flights.newton(known).union(known)
     for _ in range(_ATTEMPTS):
         inside = _wider(guess)
-        image, _ = flights.newton(inside)
+        image = flights.newton(inside)
         if inside.contains_interior(image) and inside.contains(known):
             value = image
             for _ in range(_REFINEMENTS):
-                value = _intersection(value, flights.newton(value)[0])
+                value = _intersection(value, flights.newton(value))
             return value
         guess = guess.union(image)
     raise UndecidedError("the flight time may not be analytic in the strip")

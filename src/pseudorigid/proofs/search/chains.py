@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...dynamics.ball import Ball
+from ...dynamics.variables import chart
 from ..enclosure.surface import Surface
 from . import approximate_orbits
 
@@ -56,23 +57,19 @@ class DoubleMap:
         self.ball: Ball = approximate_orbits.ball(surface)
         self.energy = float(surface.energy)
 
-    def steps(self, points: np.ndarray, impacts: int) -> np.ndarray:
-        """Return the images of points (2, n) after some impacts."""
-        for _ in range(impacts):
-            points = self.step(points)
-        return points
-
-    def step(self, points: np.ndarray) -> np.ndarray:
+    def step(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:
         """Return the images of points (2, n); raises ValueError for one outside the section."""
         k, g = self.ball.k, self.ball.g
-        x, y = points
-        square = ((1.0 + k) * (2.0 * self.energy + x * (2.0 * g - k * x)) - y * y) / k
-        if not np.all(square > 0.0):
-            raise ValueError("a point is outside the section")
-        s = np.sqrt(square)
-        state = np.array(x), (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
-        self.ball.map.steps(*state, k, g, 1, np.empty(x.size))
-        return np.stack([state[0], state[1] - k * state[2]])
+        for _ in range(impacts):
+            x, y = points
+            square = ((1.0 + k) * (2.0 * self.energy + x * (2.0 * g - k * x)) - y * y) / k
+            if not np.all(square > 0.0):
+                raise ValueError("a point is outside the section")
+            s = np.sqrt(square)
+            state = np.array(x), (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+            self.ball.map.steps(*state, k, g, 1, np.empty(x.size))
+            points = chart(k, *state)
+        return points
 
     def jacobian(self, point: Sequence[float]) -> np.ndarray:
         """Return DP at one point."""
@@ -124,7 +121,7 @@ def chain(
 def _frames(double_map, source, target, impacts, strip):
     """Return the p of an orbit to the target, frames along it, and its stretches and squeezes."""
     p = np.linspace(*strip, _STRIP_POINTS)
-    ends, _ = target.coordinates(double_map.steps(source.points(p, 0.0 * p), impacts))
+    ends, _ = target.coordinates(double_map.step(source.points(p, 0.0 * p), impacts))
     crossings = np.flatnonzero(ends[:-1] * ends[1:] <= 0.0)
     if not crossings.size:
         raise ValueError("the strip does not reach the target")

@@ -196,7 +196,7 @@ def _crossing(surface, saddle, vector, multiplier, period) -> tuple[float, int]:
         """Refine the sigma that meets y = 0; None where y jumps across 0."""
         for _ in range(4):
             sigma = np.linspace(*ends, 1001)
-            changes = _sign_changes(*double_map.steps(start + along * sigma, impacts))
+            changes = _sign_changes(*double_map.step(start + along * sigma, impacts))
             if not changes.size:
                 return None
             ends = sigma[changes[0]], sigma[changes[0] + 1]
@@ -207,7 +207,7 @@ def _crossing(surface, saddle, vector, multiplier, period) -> tuple[float, int]:
     for impacts in range(_MOST_IMAGES * period):
         if _sign_changes(*points).size and (sigma := refined(ends, impacts)) is not None:
             return sigma, impacts
-        points = double_map.steps(points, 1)
+        points = double_map.step(points)
     raise ValueError("no branch of the orbit is seen to meet y = 0")
 
 

@@ -94,7 +94,7 @@ def _crossing(double_map: DoubleMap, source: Parallelogram) -> tuple[float, int,
 
 def _image(double_map: DoubleMap, source: Parallelogram, p: float, impacts: int) -> np.ndarray:
     """Return the image of a point of a set's expanding side."""
-    return double_map.steps(source.points(np.array([p]), np.zeros(1)), impacts)[:, 0]
+    return double_map.step(source.points(np.array([p]), np.zeros(1)), impacts)[:, 0]
 
 
 def _touch(surface: Surface, point: np.ndarray, last: float) -> tuple[float, float, np.ndarray]:
