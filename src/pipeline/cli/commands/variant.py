@@ -8,7 +8,7 @@ from ..session import CommandLineError, locked
 
 def run(args: Arguments) -> int:
     """Make all figures of a variant, or the named ones, or the pictures of families."""
-    name = "families" if args.word == "families" else _variant(args)
+    name = _variant(args) if "variant" in args else "families"
     files = figures.of_scenes(args.checked, name, getattr(args, "figure", ()))
     with locked():
         return figures.make(args.checked, name, files, args.options)
