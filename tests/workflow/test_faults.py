@@ -91,13 +91,13 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
     published.write_text("before")
     drawing.write_text("after")
 
-    def copy_half(source, target):
-        Path(target).write_text("half")
+    def write_half(path, data):
+        path.write_text("half")
         raise OSError(errno.EIO, "Input/output error")
 
     monkeypatch.setattr(figures, "ROOT", tmp_path)
     with monkeypatch.context() as patch:
-        patch.setattr(figures.shutil, "copyfile", copy_half)
+        patch.setattr(Path, "write_bytes", write_half)
         problems = figures._publish({"published.png": "drawing.png"})
     assert problems == {"published.png": "cannot be written: Input/output error"}
     assert published.read_text() == "before"
