@@ -18,12 +18,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..analyses.breakup import breakup
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.tangent_orbits import angle
 from ..dynamics.variables import ENERGY, described
 from ..kernel.compiled import jit
+from .breakup import breakup
 from .cell import sunflower_points, wilson
 from .verdict import classify_orbits
 
@@ -136,7 +136,7 @@ def shares(
         goes around no elliptic orbit of the families; share on (value, family); beyond on (value,
         resonance), the part of the main island beyond a resonance of the fixed point. On
         `breakup`: where the last invariant curve beyond a resonance breaks, or the first one forms,
-        by `analyses.breakup`, if the part beyond it vanishes or appears along the line. On
+        by `sweep.breakup`, if the part beyond it vanishes or appears along the line. On
         `extremum`: the minima and maxima of the share, and on (extremum, side) which chain changes
         most from there to the nearest value that differs, and its nearest event. On `slope`, the
         line between neighbouring extrema or to its ends: the chains that change most; see `causes`.

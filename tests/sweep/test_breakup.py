@@ -8,12 +8,12 @@ import pytest
 from slowly import slowly
 
 from pseudorigid import Ball, orbit
-from pseudorigid.analyses.breakup import breakup, neighbour
 from pseudorigid.analyses.jumps import jumps
 from pseudorigid.analyses.last_curve import OrbitSearch
 from pseudorigid.analyses.regularity import regular
 from pseudorigid.analyses.rotation import symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import states_of
+from pseudorigid.sweep.breakup import breakup, neighbour
 
 BALL = Ball(0.2, 0.04)
 SEVENTH, STEP = 0.005636, 2e-5  # energy at which the last curve beyond 1/7 breaks

@@ -9,9 +9,9 @@ after it. Curves *beyond* p/q have rotation numbers on the other side of p/q tha
 import math
 from collections.abc import Callable
 
+from ..analyses.last_curve import OrbitSearch
+from ..analyses.rotation import symmetric_fixed_point
 from ..dynamics.ball import Ball
-from .last_curve import OrbitSearch
-from .rotation import symmetric_fixed_point
 
 CRITICAL = 0.25  # size of a long convergent's residue at the breakup of a noble curve
 _PERIOD = 500  # least period of the two convergents whose residues decide
