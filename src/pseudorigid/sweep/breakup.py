@@ -16,7 +16,7 @@ from ..dynamics.ball import Ball
 CRITICAL = 0.25  # size of a long convergent's residue at the breakup of a noble curve
 _PERIOD = 500  # least period of the two convergents whose residues decide
 _CELLS = 256  # from the fixed point to the rim, in which orbits are searched
-_DOUBLINGS = 9  # of n, which is refined then
+_NOBLES = 512  # noble numbers, ever closer to the resonance
 _HALVINGS = 16  # of the interval in which a curve breaks
 _INNER, _OUTER = 1e-3, 0.999  # section radii: from the fixed point to a start, and to the rim
 
@@ -70,12 +70,12 @@ def breakup(
     # `last` is a share of the way from `whole` to `broken` at which all curves tried are broken;
     # another curve is better only if it is whole there.
     best, last = 0, 0.0
-    for n in (1 << i for i in range(_DOUBLINGS)):
+    for n in (1 << i for i in range(_NOBLES.bit_length() - 1)):
         if last < math.inf and is_whole(n, last):
             best, last = n, broken_at(n, last)
     step = best // 2
     while step and last < math.inf:
-        near = (n for n in (best - step, best + step) if n > 0 and is_whole(n, last))
+        near = (n for n in (best - step, best + step) if 0 < n < _NOBLES and is_whole(n, last))
         better = next(near, None)
         if better is None:
             step //= 2
