@@ -135,7 +135,7 @@ def test_accept_says_what_changed_and_repeats_itself(moved, edited):
     moved.edit("fig7", records=5)
     status, (refusal,) = accepting(moved)
     assert status == 1
-    assert "made from another config: records: 6 then, 5 now" in refusal
+    assert "made from another config: records 6 -> 5" in refusal
     with_scenes(moved, edited, "fig7")
     assert set(verified(moved).wrong) == {"fig7.png", "fig7.svg"}
     status, lines = accepting(moved)

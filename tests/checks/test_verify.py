@@ -51,9 +51,7 @@ def test_config(moved):
     words = ["config: impacts: 60 in the manifest, 61 in config.yaml"]
     assert found.wrong == {"fig7.png": words, "fig7.svg": words}
     assert len(found.findings) == 1
-    assert found.findings[0].endswith(
-        "made from another config: impacts: 60 then, 61 now: run ./reproduce"
-    )
+    assert found.findings[0].endswith("made from another config: impacts 60 -> 61: run ./reproduce")
 
 
 def test_source(moved, edited):

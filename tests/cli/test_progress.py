@@ -72,11 +72,9 @@ def test_a_plan_names_what_changed_by_scene(made):
         return root, specs | new
 
     changed = with_config(DRAWING, view={"elevation": 30})
-    assert planned(changed) == [
-        "fig2: made from another config: view.elevation: 40 then, 30 now: drawing"
-    ]
+    assert planned(changed) == ["fig2: view.elevation 40 -> 30: drawing"]
     changed = with_config(*specs, energy=0.008)
-    words = "fig2: made from another config: energy: 0.01 then, 0.008 now: orbits, drawing"
+    words = "fig2: energy 0.01 -> 0.008: orbits, drawing"
     assert planned(changed) == [words]
     (root / "b.py").write_text("other")
     other = "made by other code than this tree's"

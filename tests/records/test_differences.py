@@ -28,8 +28,8 @@ def test_the_first_entry_of_a_list_that_differs_is_named(before, after, expected
 def test_every_field_that_differs_is_named():
     before = {"impacts": 60, "records": 6, "axes": {"t": {"limits": [0, 1]}}}
     after = {"impacts": 61, "records": 7, "axes": {"t": {"limits": [0, 2]}}, "sea": [1]}
-    words = "axes.t.limits[1]: 1 then, 2 now; impacts: 60 then, 61 now; records: 6 then, 7 now; "
-    assert differing_block(before, after) == words + "sea: nothing then, [1] now"
+    words = "axes.t.limits[1] 1 -> 2; impacts 60 -> 61; records 6 -> 7; "
+    assert differing_block(before, after) == words + "sea nothing -> [1]"
     assert differing_block(before, before) is None
 
 

@@ -56,7 +56,7 @@ def test_a_method_makes_its_own_data_alone(published, tmp_path):
     tree = published.copy(tmp_path / "without")
     tree.edit("fig3", method=None)
     (planned,) = tree.run("fig3", "-n").stdout.splitlines()
-    assert planned.startswith("fig3: made from another config: method")
+    assert planned.startswith("fig3: method")
     assert planned.endswith(": motion, drawing")
 
 

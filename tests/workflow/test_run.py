@@ -51,15 +51,15 @@ def test_a_plan_is_in_our_words_and_makes_nothing(done):
     done.edit("fig7", records=5)
     done.edit("fig3", duration=30)
     before = done.published()
-    fig7 = "fig7: made from another config: records: 6 then, 5 now: lyapunov, drawing\n"
+    fig7 = "fig7: records 6 -> 5: lyapunov, drawing\n"
     hidden = "fig3: duration 30 lies outside axes.t.limits [0, 16]: widen them, or leave axes.t out"
     result = done.run("-n", "--cores", "1")
     assert result.returncode == 0
-    plan = "fig2: made from another config: energy: 0.01 then, 0.0098 now: orbits, drawing\nfig3: "
+    plan = "fig2: energy 0.01 -> 0.0098: orbits, drawing\nfig3: "
     assert result.stdout.startswith(plan)
     assert fig7 in result.stdout and hidden in result.stdout.splitlines()
     assert done.run("fig7", "-n").stdout == fig7
-    stale = "stale: made from another config: duration: 16 then, 30 now"
+    stale = "stale: duration 16 -> 30"
     listed = f"fig3  paper_figures/fig3.png  {stale}\n"
     assert listed in done.run("list").stdout
     assert done.published() == before

@@ -13,9 +13,10 @@ from ..records.sources import syntax_hash
 
 MISSING = "missing"
 DAMAGED = "changed after it was made"
+FROM_CONFIG = "made from another config:"
 # Differing layer -> how the reason to make a result again begins.
 _MADE = {
-    "config": "made from another config:",
+    "config": FROM_CONFIG,
     "source": "made by other code than this tree's:",
     "environment": "made with",
 }

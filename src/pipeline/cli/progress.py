@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from pathlib import PurePath
 
 from ..checks.checksums import ChecksumError, read_sums
-from ..checks.freshness import MISSING, Freshness
+from ..checks.freshness import FROM_CONFIG, MISSING, Freshness
 from ..checks.published_sets import PublishedSet
 from ..config.build_specs import with_dependencies
 from ..records.differences import differing_block
@@ -43,6 +43,7 @@ def why(freshness: Freshness, paths: list[str]) -> str:
     if len(causes) > 1:
         causes.pop(MISSING, None)
     shown = [NOT_YET if cause == MISSING else cause for cause in [*causes][:_MOST_CAUSES]]
+    shown = [cause.removeprefix(f"{FROM_CONFIG} ") for cause in shown]
     more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
     return "; ".join(shown + more) or str(freshness.reason(paths[0]))
 

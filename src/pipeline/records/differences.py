@@ -30,12 +30,17 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
 
 
 def differing_block(
-    before: dict[str, Any], after: dict[str, Any], was: str = "then", now: str = "now"
+    before: dict[str, Any], after: dict[str, Any], was: str = "", now: str = ""
 ) -> str | None:
-    """Describe every key that differs between two blocks of config, or return None."""
+    """Describe every key that differs between two blocks of config, or return None.
+
+    The words are `key old -> new`, or `key: old was, new now` with words for `was` and `now`.
+    """
+    form = f"{{}}: {{}} {was}, {{}} {now}" if was else "{} {} -> {}"
     different = differing_keys(before, after)
-    words = [f"{key}: {brief(old)} {was}, {brief(new)} {now}" for key, old, new in different]
-    return "; ".join(words) or None
+    return (
+        "; ".join(form.format(key, brief(old), brief(new)) for key, old, new in different) or None
+    )
 
 
 def differing_files(
@@ -63,16 +68,17 @@ def differing_package(
 
 
 def differing_origin(
-    before: Mapping[str, Any], after: Mapping[str, Any], was: str = "then", now: str = "now"
+    before: Mapping[str, Any], after: Mapping[str, Any], was: str = "", now: str = ""
 ) -> dict[str, str]:
     """Describe what differs in what made a result: layer -> words.
 
     Both mappings have the block of config, the hashes of the sources and the environment.
     """
+    packages = before["environment"], after["environment"]
     layers = {
         "config": differing_block(before["config"], after["config"], was, now),
         "source": differing_files(before["sources"], after["sources"]),
-        "environment": differing_package(before["environment"], after["environment"], was),
+        "environment": differing_package(*packages, was or "then"),
     }
     return {layer: words for layer, words in layers.items() if words}
 
