@@ -134,14 +134,21 @@ def _row(out, k, cut, lags, resampled) -> tuple:
     count = float(sum(impacts.size for impacts in begun))
     sizes = [np.diff(at) for at in begun]
     pooled = [np.concatenate(rows).mean() for rows in (sizes, lengths, periods)]
+    correlation, dependence = _memory(first, lags, resampled)
+    return count, *pooled, error, *correlation, *dependence
+
+
+def _memory(
+    first: Sequence[np.ndarray], lags: int, resampled: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return both measures, each with values and the ends of their intervals, for all lags."""
     cells, correlations, dependences = _cells(first), [], []
     for lag in range(1, lags + 1):
         linear = [_linear_sums(states[:, :-lag], states[:, lag:]) for states in first]
         by_cell = [_cell_sums(c[:-lag], s[:, lag:]) for c, s in zip(cells, first, strict=True)]
         correlations.append(_interval(_correlation, np.array(linear), resampled))
         dependences.append(_interval(_dependence, np.array(by_cell), resampled))
-    memory = *np.stack(correlations, axis=1), *np.stack(dependences, axis=1)
-    return count, *pooled, error, *memory
+    return np.stack(correlations, axis=1), np.stack(dependences, axis=1)
 
 
 def _interval(measure: Callable, sums: np.ndarray, resampled: np.ndarray) -> np.ndarray:

@@ -108,9 +108,7 @@ def orbits(impacts: int = MILLION) -> xr.Dataset:
     tracks.append([[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts])
     tracks = np.array(tracks)
     apart = np.median(np.abs(tracks[:-1] - tracks[-1]), axis=1)
-    together = [[~(np.abs(a - b) > SEPARATION) for b in tracks] for a in tracks]
-    until = np.cumprod(together, axis=-1).sum(axis=-1)  # impacts before two orbits are apart
-    agree = np.median(until, axis=-1)
+    agree = [[_agreement(a, b) for b in tracks] for a in tracks]
     distance = "median distance in x from the judge's orbit"
     variables = {
         "missed": ("method", missed, "impacts flown past"),
@@ -122,6 +120,13 @@ def orbits(impacts: int = MILLION) -> xr.Dataset:
         "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
     }
     return dataset(methods, variables, impacts=impacts, apart=SEPARATION)
+
+
+def _agreement(a: np.ndarray, b: np.ndarray) -> float:
+    """Return the median over starts of the impacts before two orbits differ by SEPARATION."""
+    beyond = np.abs(a - b) > SEPARATION
+    first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), beyond.shape[1])
+    return float(np.median(first))
 
 
 def missed(methods, impacts: int = MILLION) -> xr.Dataset:
