@@ -126,7 +126,7 @@ def line(sweep, data):
     mean = data["exponent"].values[0]
     regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
     above.estimates(energy, *regular, style.BLUE)
-    below.bars(energy, *quartiles, color=style.pale(style.VERMILION), lw=0.7, zorder=2)
+    below.estimates(energy, np.full(energy.size, np.nan), *quartiles, style.pale(style.VERMILION))
     below.estimates(energy, mean, mean - error, mean + error, style.VERMILION)
     for i, text in enumerate(QUOTATION if "g" in sweep else ()):
         sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
