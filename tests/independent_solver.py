@@ -243,7 +243,7 @@ def exact_jacobian(k, g, x, v, w, step=1e-20):
 
 def periodic_point(ball, energy, state, period):
     """Do a step of Newton's method to a periodic point; return it and the Jacobian of P^n."""
-    k, g, point = mpf(ball.k), mpf(ball.g), mpmath.matrix([mpf(float(a)) for a in state])
+    k, g, point = mpf(ball.k), mpf(ball.g), mpmath.matrix([mpf(a) for a in state])
     after, product = point, mpmath.eye(3)
     for _ in range(period):
         product = mpmath.matrix(exact_jacobian(k, g, *after)) * product
