@@ -50,7 +50,7 @@ def test_a_broken_or_edited_manifest(moved, change):
     assert (found.status, found.wrong) == (1, {})
 
 
-def test_sums_with_a_missing_or_broken_line(moved):
+def test_sums_with_a_missing_or_broken_line_are_renewed(moved):
     path = moved.path / "paper_figures" / "SHA256SUMS"
     text = path.read_text()
     lines = text.splitlines(keepends=True)
@@ -70,6 +70,11 @@ def test_sums_with_a_missing_or_broken_line(moved):
     assert finding() == other
     path.unlink()
     assert finding() == "missing"
+    path.write_text(f"{text}not a sum\n")
+    assert finding() == other
+    assert accepting(moved)[0] == 0
+    assert path.read_text() == text
+    assert verified(moved).status == 0
 
 
 def test_a_figure_that_no_scene_makes(moved):

@@ -16,7 +16,10 @@ from pipeline.cli.session import CommandLineError, UsageError
 from pipeline.records.record import record_path
 
 DOCUMENT = of_scenes("fig3", variants={"near": {"energy": 0.009}})
-RECORDED = ["results/paper/motion_fig3.nc", "results/gone/figures/fig9.png"]
+RECORDED = [
+    *("results/paper/motion_fig3.nc", "results/paper/figures/fig3.png"),
+    "results/gone/figures/fig9.png",
+]
 # File -> whether it is deleted.
 FILES = {
     "results/paper/motion_fig3.nc": True,
@@ -28,6 +31,7 @@ FILES = {
     "results/report/report.html": True,
     "results/compare/paper..near/fig3.png": True,
     "results/paper/differences/fig3.png": True,
+    "results/paper/fig3.png": False,  # a user's copy, beside the folder of the recorded one
     "results/paper/notes.txt": False,
     "results/paper/figures/mine.png": False,
     "results/mine/orbits.nc": False,
@@ -80,7 +84,7 @@ def test_generated_files_are_deleted(tmp_path):
     assert left(tree.path) == KEPT
     assert not list((tree.path / "results").rglob("*.json"))
     assert not (tree.path / "results" / "gone").exists()  # empty folders are deleted
-    assert result.stdout.startswith("deleted 11 files, ")
+    assert result.stdout.startswith("deleted 12 files, ")
     assert tree.run("clean", "--yes").stdout == "nothing to delete\n"
 
 
@@ -101,7 +105,7 @@ def test_it_asks(root, monkeypatch, capsys, answer):
     else:
         with pytest.raises(UsageError, match="nothing was deleted"):
             run(root, "paper", yes=False)
-    assert "delete 6 files, 0.0 MB, in results/paper? [y/N]" in capsys.readouterr().err
+    assert "delete 7 files, 0.0 MB, in results/paper? [y/N]" in capsys.readouterr().err
     assert left(root) == set(FILES) - goes
 
 
@@ -123,7 +127,8 @@ def test_no_path_in_a_record_is_followed(root):
     ]
     for output in outputs:
         write_files(root)
-        write_record(root / record_path("results/paper/victim.nc"), output)
+        for name in ("victim.nc", "notes.txt"):
+            write_record(root / record_path(f"results/paper/{name}"), output)
         assert run(root) == 0
         assert victim.read_text() == "mine", output
         assert left(root) == KEPT, output

@@ -5,7 +5,7 @@ from typing import Any
 
 from ..records.files import read_bytes, write_whole
 from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, read_sums
+from .checksums import SUMS, ChecksumError, format_sums, read_published_text
 from .difference import UPSTREAM
 from .verify import Findings, inspect, unlisted
 
@@ -43,10 +43,11 @@ def _renew(root: Path, findings: Findings) -> None:
     fresh = manifest.build(root, published_set)
     try:
         committed = manifest.read(root, folder)
+        sums = read_published_text(root, f"{folder}/{SUMS}")
     except ChecksumError as error:
         changes = [f"a new manifest ({error})"]
     else:
-        if fresh == committed and read_sums(root, folder) == manifest.sums(fresh):
+        if fresh == committed and sums == format_sums(manifest.sums(fresh)):
             print(f"{folder}: nothing changed")
             return
         changes = _changes(root, findings, committed) or [f"other changes behind the same {noun}"]

@@ -74,7 +74,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):  # what it says may be forged
         folder, name = record.parents[1], record.stem
-        candidates |= {record, folder / name, folder / "figures" / name}
+        candidates |= {record, folder / ("" if name.endswith(".nc") else "figures") / name}
     return [
         file
         for file in sorted(candidates)
