@@ -12,11 +12,14 @@ from pathlib import Path
 import netCDF4
 import psutil
 import pytest
-from project import wait_for
+from project import SHIPPED, wait_for
 from runs import contents, rows
 from slowly import slowly
 
-from pipeline.cli import figures
+from pipeline.checks.freshness import Freshness
+from pipeline.cli import figures, running
+from pipeline.cli.session import UsageError
+from pipeline.config import build_specs, load
 
 DRAWING = "results/paper/figures/fig3.png"
 # Settings in a user's shell do not reach a run; numba would refuse its ones.
@@ -191,6 +194,17 @@ def test_two_runs_do_not_meet(tree):
     assert result.returncode == 1
     assert result.stdout == "reproduce: another ./reproduce is running in this folder\n"
     assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing
+
+
+@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
+def test_a_file_in_the_place_of_a_folder_is_named(tmp_path, monkeypatch, place):
+    monkeypatch.setattr(running, "ROOT", tmp_path)
+    (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+    (tmp_path / place).touch()
+    checked = load(SHIPPED)
+    specs = build_specs.of_variants(checked["variants"])
+    with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
+        running.make(checked, Freshness(tmp_path, specs), [DRAWING], [])
 
 
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):

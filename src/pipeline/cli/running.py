@@ -17,6 +17,7 @@ from ..checks.freshness import DAMAGED, MISSING, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs import server
 from ..records.files import obstacle
+from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import explain
 from .progress import plan
@@ -110,6 +111,7 @@ def make(
         return 0
     if not outdated and not options.special:
         return 0
+    _require_folders(outdated)
     specs = freshness.build_specs
 
     # If an input keeps its bytes, what was made from it stays current: that is decided when the
@@ -123,6 +125,15 @@ def make(
     command += ["--forcerun", *forced] if forced else []
     command += ["--nolock", "--workflow-profile", "none", *(paths if options.special else outdated)]
     return _run(command, arguments, server.Plan(checked, specs, set(outdated)), current)
+
+
+def _require_folders(results: Iterable[str]) -> None:
+    """Raise UsageError if a file stands in the place of a folder in which snakemake writes."""
+    files = [ROOT / place(path) for path in results for place in (str, record_path, log_path)]
+    for folder in {ROOT / ".snakemake", *(folder for file in files for folder in file.parents)}:
+        if folder.exists() and not folder.is_dir():
+            name = folder.relative_to(ROOT)
+            raise UsageError(f"{name}: a file stands in a folder's place, move it away")
 
 
 def _run(
