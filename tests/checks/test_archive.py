@@ -147,6 +147,7 @@ def test_damaged_and_foreign_archives_are_refused_in_one_line(
         (f"{tmp_path}/none.tar", 2, "no archive or folder"),
         (f"{tmp_path}/empty", 1, "no tree of this project"),
         ("", 2, "no archive or folder ''"),
+        ("x" * 300, 2, "no archive or folder"),
     ):
         args = Arguments(against=argument, start=tmp_path, config=config.load(accepted.config))
         with pytest.raises(UsageError) as raised:

@@ -1,5 +1,7 @@
 """./reproduce verify: whether everything here is as committed."""
 
+import os
+
 from ...records.sources import ROOT
 from ..arguments import Arguments
 from ..session import CommandLineError, one_line
@@ -16,7 +18,8 @@ def run(args: Arguments) -> int:
             status |= findings.fails(args.strict)
         return int(status)
     other = args.start / args.against
-    if not args.against or not other.exists():
+    # Path.exists raises an error for a name that is too long or in a folder without access.
+    if not args.against or not os.path.exists(other):
         raise CommandLineError(f"verify: no archive or folder {args.against or repr('')}")
     from ...publication import archive
 
