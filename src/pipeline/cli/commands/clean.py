@@ -1,5 +1,6 @@
 """./reproduce clean: delete generated files in results/."""
 
+import json
 import shutil
 import sys
 from contextlib import suppress
@@ -7,6 +8,7 @@ from pathlib import Path
 
 from ...config import ConfigError, build_specs
 from ...config.paths import EXPLORER
+from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
@@ -72,9 +74,13 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     with suppress(ConfigError):  # records alone then say which files are results
         specs = build_specs.of_all(args.checked)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
-    for record in RESULTS.glob("*/provenance/*.json"):  # what it says may be forged
+    for record in RESULTS.glob("*/provenance/*.json"):
+        # A record may be forged: its path is only compared with the two possible ones.
         folder, name = record.parents[1], record.stem
-        candidates |= {record, folder / ("" if name.endswith(".nc") else "figures") / name}
+        with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
+            result = ROOT / json.loads(read_text(record))["output"]["file"]
+            if result in (folder / name, folder / "figures" / name):
+                candidates |= {record, result}
     return [
         file
         for file in sorted(candidates)
