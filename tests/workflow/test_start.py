@@ -309,6 +309,17 @@ def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
 SHELLS = ("bash", "zsh", "fish")  # fish cannot activate where a name has a newline
 
 
+def require_activation_where_it_was_made(set_up):
+    """Check that csh and sh, which cannot find their script, activate the environment too."""
+    scripts = {"dash": ". .venv/bin/activate", "csh": "set prompt=x; source .venv/bin/activate.csh"}
+    if "\n" in str(set_up.venv):
+        del scripts["csh"]
+    for shell, words in scripts.items():
+        if shutil.which(shell, path="/usr/bin:/bin"):
+            output = set_up.shell(f"{words}; needed-where", shell)
+            assert output == f"{set_up.venv}\n", shell
+
+
 def require_working(set_up):
     """Check that scripts run, and that each shell can activate the environment."""
     assert set_up.shell(".venv/bin/needed-where 'a b'") == f"{set_up.venv} a b\n"
@@ -324,6 +335,7 @@ def test_the_venv_of_pip_works_as_any_other(set_up):
     assert set_up.run() == MADE
     require_installed(set_up, "pip")
     require_working(set_up)
+    require_activation_where_it_was_made(set_up)
 
 
 @pytest.mark.parametrize("name", ['it\'s "$HOME" `here`; a\\b', *slowly("with a\nnewline")])
@@ -337,6 +349,8 @@ def test_the_venv_works_in_any_folder_and_moved(with_uv, name):
         assert set_up.run() == printed
         require_installed(set_up, "uv")
         require_working(set_up)
+        if printed == MADE:
+            require_activation_where_it_was_made(set_up)
     output = set_up.shell(".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'")
     assert output == f"{set_up.venv.parent}/src/pipeline\n"
     place = place.rename(set_up.folder / "a:b")

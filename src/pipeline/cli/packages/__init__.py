@@ -6,6 +6,7 @@
 import importlib.util
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -177,6 +178,8 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
             command = [uv, "venv", "--relocatable", "--allow-existing"]
             command += [f"--python={root}/.venv/bin/python", f"{root}/.venv"]
             uv = uv if _run(command, environment) else None
+            if uv:
+                _write_path()
         if not uv:
             _make_environment(VENV)
         for name in names:
@@ -195,6 +198,20 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
     entries = {name for name in listed if (_site_packages() / name).exists()}
     entries |= {file.parts[0] for file, _ in _files(name for name in names if name != "build")}
     CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
+
+
+def _write_path() -> None:
+    """Write the path of .venv into the scripts for csh and sh, in which uv cannot find it."""
+    path = shlex.quote(str(VENV))
+    csh_path = path.replace("!", "\\!")
+    bash = '    if [ -n "${BASH_VERSION:+x}" ] ; then\n        SCRIPT_PATH='
+    for name, pattern, words in (
+        ("activate.csh", "setenv VIRTUAL_ENV .*", f"setenv VIRTUAL_ENV {csh_path}"),
+        ("activate", re.escape(bash), f"    SCRIPT_PATH={path}/bin/activate\n{bash}"),
+    ):
+        script, new = VENV / "bin" / name, words.replace("\\", r"\\")
+        text = re.sub(f"^{pattern}", new, script.read_text(), flags=re.MULTILINE)
+        script.write_bytes(os.fsencode(text))
 
 
 def _pip() -> list[str]:
