@@ -224,7 +224,7 @@ def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
     assert with_uv.run() == MADE
     require_installed(with_uv, "uv")
     assert with_uv.run() == READY
-    for gone in (["stamp"], ["stamp", "pyvenv.cfg"]):
+    for gone in (["stamp"], ["pyvenv.cfg"], ["stamp", "pyvenv.cfg"]):
         for name in gone:
             (with_uv.venv / name).unlink()
         assert with_uv.run() == MADE, gone

@@ -194,7 +194,9 @@ def _install(names: list[str], message: str, again: bool = False) -> None:
             shutil.rmtree(VENV / "cache" / "uv", ignore_errors=True)
     # A relative path, so that the folder can be moved.
     (_site_packages() / "pseudorigid.pth").write_text("../../../../src\n")
-    listed = CONTENTS.read_text().splitlines() if CONTENTS.exists() else ["pseudorigid.pth"]
+    # Without pyvenv.cfg, the interpreter starts but finds no package.
+    listed = ["pseudorigid.pth", "../../../pyvenv.cfg"]
+    listed = CONTENTS.read_text().splitlines() if CONTENTS.exists() else listed
     entries = {name for name in listed if (_site_packages() / name).exists()}
     entries |= {file.parts[0] for file, _ in _files(name for name in names if name != "build")}
     CONTENTS.write_text("".join(f"{name}\n" for name in sorted(entries)))
