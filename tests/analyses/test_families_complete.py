@@ -11,6 +11,7 @@ from mpmath import mp, mpf
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses.continuation import search
+from pseudorigid.analyses.continuation.half_orbit import FIX_R
 
 
 @pytest.fixture(scope="module")
@@ -19,20 +20,36 @@ def six():
 
 
 def is_orbit_in_60_digits(ball, energy, family, point):
-    """Whether Newton's method in 60 digits goes from an orbit to one of the same total time."""
-    x, y = search.first_point(family.system, point)
-    centre, radius = ball.section(energy)
-    high = radius * math.sqrt(ball.k * (1.0 + ball.k))
-    state = ball.state_xy(centre + radius * x, high * y, energy)
+    """Whether an orbit of the family's period, symmetry and total time exists in 60 digits.
+
+    Newton's method solves for half of the orbit, which is less sensitive than all of it.
+    """
+    (x, y), (centre, radius) = search.first_point(family.system, point), ball.section(energy)
+    guess = centre + radius * x, radius * math.sqrt(ball.k * (1.0 + ball.k)) * y
+    k, g, half = mpf(ball.k), mpf(ball.g), (family.period + 1) // 2
+
+    def points(x, y, impacts):
+        """(x, y) of a point of the section and of those after it, with the times of flight."""
+        s = mp.sqrt(((1 + k) * (2 * mpf(energy) + 2 * g * x - k * x * x) - y * y) / k)
+        state, rows = (x, (y + k * s) / (1 + k), (s - y) / (1 + k)), [(x, y, 0)]
+        for _ in range(impacts):
+            *state, tau = judge.exact_map(k, g, *state)
+            rows.append((state[0], state[1] - k * state[2], tau))
+        return rows
+
+    def asymmetry(x, y):
+        """How far the point is from its line, and the half orbit's end from being mirrored."""
+        later = points(x, y, half)
+        start = y if family.line == FIX_R else points(x, -y, 1)[1][1] - y
+        return start, later[half][1] + later[family.period - half - family.line][1]
+
     with mp.workdps(60):
-        for _ in range(6):
-            state, _ = judge.periodic_point(ball, energy, state, family.period)
-        state, k, g = tuple(state), mpf(ball.k), mpf(ball.g)
-        after, time = state, mpf(0)
-        for _ in range(family.period):
-            *after, tau = judge.exact_map(k, g, *after)
-            time += tau
-        missing = max(abs(a - b) for a, b in zip(state, after, strict=True))
+        try:
+            orbit = points(*mp.findroot(asymmetry, guess), family.period)
+        except (TypeError, ValueError):  # beyond the section, or without a solution
+            return False
+        missing = max(abs(a - b) for a, b in zip(orbit[0][:2], orbit[-1][:2], strict=True))
+        time = sum(tau for *_, tau in orbit)
         return missing < mpf("1e-30") and abs(time - family.system.time(point)) < 1e-6
 
 
