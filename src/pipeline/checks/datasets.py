@@ -121,13 +121,11 @@ def _study() -> dict[str, File]:
     }
 
 
-def _saved(
-    path: str, data: xr.Dataset, title: str, ball: bool = True, **attributes: object
-) -> File:
-    """Return a dataset after a round through its file."""
-    attributes |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
+def _saved(path: str, data: xr.Dataset, title: str, ball: bool = True, **more: object) -> File:
+    """Return a dataset after a round through its file, with more attributes."""
+    more |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY} if ball else {}
     with tempfile.TemporaryDirectory() as folder:
-        artifacts.save(data, f"{folder}/data.nc", {}, title=title, **attributes)
+        artifacts.save(data, f"{folder}/data.nc", {}, title=title, **more)
         return File(path, artifacts.load(f"{folder}/data.nc"))
 
 

@@ -41,10 +41,8 @@ class Freshness:
 
     def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
         """Return result -> why, for those of `paths` (default: all) that have to be recomputed."""
-        reasons = {
-            path: self.reason(path) for path in (self.build_specs if paths is None else paths)
-        }
-        return {path: why for path, why in reasons.items() if why}
+        chosen = self.build_specs if paths is None else paths
+        return {path: why for path in chosen if (why := self.reason(path))}
 
     def _refusal(self, path: str) -> str | None:
         spec = self.build_specs[path]

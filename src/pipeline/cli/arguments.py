@@ -8,6 +8,7 @@ import argparse
 import re
 import sys
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -27,23 +28,20 @@ class Command:
     Each argument is a name with the keyword arguments of argparse's add_argument.
     """
 
-    runs_snakemake = False  # and passes options that it does not know on
-
     def __init__(
         self,
         line: "str",
         *arguments: "tuple[str, dict[str, Any]]",
         module: "str | None" = None,
         details: "str" = "",
+        runs_snakemake: "bool" = False,
     ) -> None:
         self.line, self.arguments, self.module = line, arguments, module
-        self.details = details
+        self.details, self.runs_snakemake = details, runs_snakemake
 
 
-class SnakemakeCommand(Command):
-    """A command that runs snakemake."""
-
-    runs_snakemake = True
+# Options that such a command does not know go to snakemake.
+SnakemakeCommand = partial(Command, runs_snakemake=True)
 
 
 def _names(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":

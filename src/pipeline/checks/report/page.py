@@ -56,11 +56,7 @@ def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]
     page, results = _Page(root, checked, absent), root / "results"
     figures = page.variant(PAPER)
     variants = {name: page.variant(name) for name in page.variants if name not in PUBLISHED}
-    made = {
-        name: pictures
-        for name, pictures in variants.items()
-        if any(picture["image"] for picture in pictures)
-    }
+    made = {name: shown for name, shown in variants.items() if any(p["image"] for p in shown)}
     return _TEMPLATES.get_template("page.html").render(
         figures=figures,
         variants=made,

@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -25,9 +26,9 @@ def run(args: Arguments) -> int:
         raise CommandLineError("claims: --check ID and --data FILE go together")
     checked = args.checked
     if args.check is not None:
-        name, named, file = args.data.rpartition("=")
+        name, _, file = args.data.rpartition("=")
         with one_line(kind=artifacts.ArtifactError):
-            print(check(checked, args.check, f"{name}{named}{args.start / file}"))
+            print(check(checked, args.check, name, args.start / file))
         return 0
     with locked():
         files = figures.of_scenes(checked, "claims")
@@ -85,19 +86,18 @@ def write(checked: dict[str, Any]) -> list[Verdict]:
     return verdicts
 
 
-def check(checked: dict[str, Any], number: int, given: str) -> str:
-    """Return the verdict on one claim, in a line, with a file instead of one of its datasets.
+def check(checked: dict[str, Any], number: int, name: str, file: Path) -> str:
+    """Return the verdict on one claim, in a line, with a file instead of its dataset `name`.
 
-    `given` is FILE or NAME=FILE. Without a name, the file's stage decides which dataset it is.
+    Without a name, the file's stage decides which dataset it is.
     """
     claim = claims.CLAIMS.get(number)
     if claim is None:
         raise CommandLineError(f"no claim {number}: they are 1 to {max(claims.CLAIMS)}")
     if not claim.data:
         raise CommandLineError(f"claim {number} rests on no dataset")
-    name, named, file = given.rpartition("=")
     dataset = artifacts.load(file)
-    if not named:
+    if not name:
         stage = re.sub(r"\d+$", "", str(dataset.attrs.get("stage", "")))
         fitting = [known for known in claim.data if known.rpartition("/")[2] == stage]
         name = (fitting or claim.data)[0]

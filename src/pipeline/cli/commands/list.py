@@ -40,11 +40,9 @@ def _states(freshness: Freshness, results: Iterable[str], absent: dict[str, str]
     rows = []
     for path in results:
         scene = PurePath(path).stem
-        if scene in absent:
-            state = f"cannot exist: {absent[scene]}"
-        else:
-            missing = not (ROOT / path).is_file()
-            state = MISSING if missing else staleness(freshness, path) or "current"
+        state = f"cannot exist: {absent[scene]}" if scene in absent else MISSING
+        if scene not in absent and (ROOT / path).is_file():
+            state = staleness(freshness, path) or "current"
         rows.append((scene, path, state))
     return rows
 
