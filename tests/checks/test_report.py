@@ -303,9 +303,7 @@ def test_in_a_browser(reported, text, tmp_path, width):
     found = json.loads(re.search(r'<pre id="found">(.*?)</pre>', dom)[1])
     assert found["needed"] <= found["room"] <= width
     assert set(found["requests"]) <= {"data:"}
-    scenes = [("paper", "fig3"), ("paper", "fig6"), ("paper", "fig7"), ("low", "fig3")]
-    shapes = [
-        pixels(reported.path / "results" / variant / "figures" / f"{scene}.png").shape
-        for variant, scene in scenes
-    ]
+    results = reported.path / "results"
+    files = [results / f"paper/figures/{name}.png" for name in ("fig3", "fig6", "fig7")]
+    shapes = [pixels(file).shape for file in (*files, *sorted(results.glob("low/figures/*.png")))]
     assert found["images"] == [[wide, high] for high, wide, _ in shapes]
