@@ -174,7 +174,7 @@ def test_a_sound_file_is_judged_and_another_is_not(datasets, tmp_path, number, n
     file = tmp_path / "given.nc"
     dataset = change(datasets["spread/spread"])
     artifacts.save(dataset, file, {}, stage=name.rpartition("/")[2])
-    line = claim_verdicts.check(None, number, f"{name}={file}")
+    line = claim_verdicts.check(None, number, name, file)
     assert line.startswith(f"{number}  {'' if CORRECTED in words else UNDECIDED}") and words in line
 
 
@@ -192,6 +192,6 @@ def test_the_file_of_a_sweep_is_judged_with_the_gravity_of_its_block(
     line, file = datasets["atlas/line"], tmp_path / "line.nc"
     artifacts.save(line.drop_attrs(deep=False), file, json.loads(line.attrs["config"]))
     for sweeps in ({}, {"line": {}}):
-        assert claim_verdicts.check({"sweeps": sweeps}, 43, str(file)).startswith("43  ")
-    words = claim_verdicts.check({"sweeps": {"line": {"g": 0.04}}}, 43, str(file))
+        assert claim_verdicts.check({"sweeps": sweeps}, 43, "", file).startswith("43  ")
+    words = claim_verdicts.check({"sweeps": {"line": {"g": 0.04}}}, 43, "", file)
     assert words.startswith(f"43  {HOLDS}; regular share of the section from ")
