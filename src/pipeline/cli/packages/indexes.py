@@ -61,7 +61,7 @@ def pip_environment(settings: dict[str, str]) -> dict[str, str]:
 
 
 def uv_environment(settings: dict[str, str]) -> dict[str, str]:
-    """Return the environment for uv: its own settings, which override those of pip."""
+    """Return the environment for uv: pip's settings, each overridden by uv's of the same name."""
     own = {name: value for name, value in os.environ.items() if re.match(_UV, name)}
     of_pip = {_SOURCES[name]: value for name, value in settings.items() if name in _SOURCES}
     # As pip does, search all indexes for a version; its hash decides what is installed.
