@@ -45,7 +45,6 @@ def test_axes_and_view_of_jumps_are_refused():
         ({"x": 0.1, "y": 0, "xdot": 0}, "a point {x, xdot} or {x, y}"),
         ({"x": 0.1, "z": 0}, "starts[0].z: unknown key: allowed here: x, xdot, y"),
         ({"y": 0.1}, "starts[0].x: missing: expected a number"),
-        ({"x": "0.1", "y": 0}, "write 0.1"),
     ],
 )
 def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
@@ -95,16 +94,14 @@ def test_values_outside_the_axes_are_reported(scene, fields, lines):
 
 
 # A path, of a scene unless it begins otherwise, a value that is refused there, and how the line
-# goes on.
+# goes on. `test_the_committed_schema_is_up_to_date` holds the bounds of single values.
 BAD = [
     ("ball", ..., ": missing: expected a mapping with the keys k and g"),
     ("ball.k", ..., ": missing: expected a number with 0 < k <= 1"),
     ("ball.k", 0, ": 0 is not allowed: expected a number with 0 < k <= 1"),
-    ("ball.k", 1.01, ": 1.01 is"),
     ("ball.k", "0.2", ": '0.2' is not allowed"),
     ("ball.k", True, ": true is"),
     ("ball.k", float("nan"), ": nan is"),
-    ("ball.g", -1e-9, ": -1e-09 is not allowed: expected a number with 0 < g < k"),
     ("ball.g", 0.2, ": 0.2 is not allowed: expected 0 < g < k = 0.2"),
     ("ball.gravity", 0.04, ": unknown key: allowed here: k, g"),
     ("scene", {}, ": unknown key: did you mean scenes?"),
@@ -113,59 +110,39 @@ BAD = [
     ("scenes.new", None, ": nothing is"),
     ("scenes.new", {"energy": 1}, ".picture: missing: expected one of"),
     ("a_portrait.method", {"scan": 0.1}, ".tolerance: missing: expected a number from 1e-15"),
-    ("a_portrait.method", "scan", ": 'scan' is not allowed: expected a mapping with the keys scan"),
-    *(("a_motion.method", {"scan": scan, "tolerance": 1e-12}, f".scan: {scan} is")
-      for scan in (0, 1e-4, 1.5, float("nan"))),
-    *((f"{scene}.method", {"scan": 0.1, "tolerance": tolerance}, ".tolerance: ")
-      for scene in SCENES for tolerance in (1e-16, 0.01)),
+    ("a_portrait.method", "scan", ": 'scan' is not allowed: expected a mapping with the keys scan "
+     "and tolerance, or {exact: true}"),
     ("a_tangle.method", {"scan": 0.1, "tolerance": 1e-6},
      ".tolerance: 1e-06 is not allowed: expected a number from 1e-15 to 1e-12, for manifolds"),
     ("a_motion.picture", "movie", ": 'movie' is not allowed: expected one of"),
-    ("a_motion.energie", 1, ": unknown key: did you mean energy?"),
     ("a_motion.starts", [0.1], ": unknown key"),
     ("a_motion.energy", ..., ": missing: expected a number with"),
-    ("a_motion.energy", "low", ": 'low' is not allowed: expected a number"),
-    ("a_motion.energy", float("inf"), ": inf is"),
     ("a_motion.energy", 10**400, ": 1000"),
     ("a_motion.energy", 0.06, ": 0.06 is not allowed: expected a number below k/2 - g = 0.06,"),
     ("a_motion.energy", -0.004, ": -0.004 is not allowed: expected a number above -g^2/(2k)"),
     ("a_motion.ball", {"k": 0.1, "g": 0.1}, ".g: 0.1 is"),
-    ("a_motion.period", 0, ": 0 is not allowed: expected a whole number from 1 to 12"),
-    ("a_motion.period", 13, ": 13 is"),
-    ("a_motion.period", 6.0, ": 6.0 is"),
-    ("a_motion.period", True, ": true is"),
+    ("a_motion.period", 6.0, ": 6.0 is not allowed: expected a whole number from 1 to 12"),
     ("a_motion.type", "eliptic", ": 'eliptic' is not allowed: expected one of elliptic"),
-    ("a_tangle.type", "elliptic", ": 'elliptic' is not allowed: expected one of hyperbolic, "),
-    ("a_motion.duration", 0, ": 0 is not allowed: expected a number with 0 < duration"),
     ("a_motion.formats", ["svg"], ": ['svg'] is not allowed: expected a list of png"),
     ("a_motion.formats", ["png", "gif"], "[1]: 'gif' is not allowed: expected one of png, svg"),
     ("a_motion.formats", ["png", "png"], ": ['png', 'png'] is"),
     ("a_motion.formats", "png", ": 'png' is not allowed: expected a list"),
     ("a_motion.axes.t.limits", [16, 0], ": [16, 0] is not allowed: expected a list of two incr"),
     ("a_motion.axes.t.ticks", [0, 17], ": 17 is not allowed: expected numbers within the limit"),
-    ("a_motion.axes.t.ticks", [], ": [] is not allowed: expected a list of 1 to 50 numbers"),
     ("a_motion.axes.x", AXES, ": unknown key: allowed here: t, displacement"),
-    ("a_motion.axes.y", {}, ": unknown key"),
     ("a_motion.axes.display", 3, ": unknown key: did you mean displacement?"),
     ("a_motion.axes", [], ": [] is not allowed: expected a mapping with the keys t and displace"),
     ("a_portrait.starts", [-0.5, 1], "[1]: 1 is not allowed: expected a fraction of"),
-    ("a_portrait.starts", [], ": [] is"),
     ("a_portrait.impacts", [10], ": [10] is not allowed: expected one number for each of the 2"),
     ("a_portrait.impacts", "many", ": 'many' is not allowed: expected a whole number"),
     ("a_portrait.impacts", 6_000_000, ": 6000000 is not allowed: expected at most 10000000"),
     ("a_portrait.impacts", [10, 2.5], "[1]: 2.5 is not allowed: expected a whole number"),
     ("a_portrait.sea", [2], ": 2 is not allowed: expected a place in starts, from 0 to 1"),
-    ("a_portrait.view.elevation", 90, ": 90 is not allowed: expected a number of degrees"),
+    ("a_portrait.sea", [1, 1], ": [1, 1] is"),
     ("a_tangle.branches", {}, ": {} is"),
-    ("a_tangle.branches", {"upper": {"length": 1}}, ".upper: unknown key"),
-    ("a_tangle.branches.outer.length", 0, ": 0 is not allowed: expected a positive number"),
     ("a_tangle.branches.outer.length", 1e6, ": 1000000.0 is not allowed: expected at most"),
-    ("a_tangle.resolution.distance", 0, ": 0 is"),
-    ("a_tangle.resolution.bend", 100, ": 100 is"),
     ("a_closeup.point", 6, ": 6 is not allowed: expected a whole number from 0 to period - 1"),
-    ("a_closeup.point", -1, ": -1 is"),
     ("a_closeup.length", 1e300, ": 1e+300 is not allowed: expected at most 10000000 times"),
-    ("a_closeup.window.x", [0.1, 0.1], ": [0.1, 0.1] is"),
     ("exponents.records", 1001, ": 1001 is not allowed: expected at most impacts = 1000"),
 ]  # fmt: skip
 
@@ -194,30 +171,6 @@ def test_a_field_is_checked_against_others_and_has_a_text_as_key():
     assert first.startswith("scenes.a_portrait[3]: unknown key: allowed here: ")
     assert second.startswith("scenes.a_motion.energy: 0.01") and "0.005" in second
     assert third.startswith("scenes.exponents.records: 10") and "at most impacts = 9" in third
-
-
-@pytest.mark.parametrize(
-    ("path", "value", "advice"),
-    [
-        ("scenes.a_motion.period", "6", "6"),
-        ("scenes.a_motion.duration", "16.0", "16"),
-        ("scenes.a_motion.energy", "1e-3", "0.001"),
-        ("scenes.a_tangle.resolution.distance", "1e-5", "1.0e-05"),
-        ("scenes.a_tangle.branches.outer.length", "1e3", "1000"),
-        ("scenes.exponents.impacts", "1e3", "1000"),
-        ("scenes.a_portrait.impacts", ["1e3", 1], "1000"),
-        ("scenes.exponents.impacts", "1e9", ""),  # above what is allowed
-        ("scenes.exponents.impacts", "2.5", ""),
-        ("scenes.exponents.energy", "inf", ""),
-        ("scenes.exponents.energy", "nan", ""),
-        ("scenes.5 6", SCENES["a_motion"], ""),
-    ],
-)
-def test_the_suggested_number_is_accepted(path, value, advice):
-    line = complaint(changed(path, value))
-    assert line.partition("; this is text to YAML, write ")[2] == advice
-    if advice and isinstance(value, str):
-        config.check(changed(path, yaml.safe_load(advice)))
 
 
 @pytest.mark.parametrize(("g", "bound"), [(0.01, "0.14, "), (0.0100000003, "0.1399999997, ")])

@@ -51,22 +51,7 @@ def schema() -> Schema:
         (pattern,) = blocks_by_name["patternProperties"]
         blocks_by_name["patternProperties"] = {pattern: {"$ref": f"#/$defs/{name}"}}
         blocks_by_name["additionalProperties"] = False
-    whole: Schema = {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
-    described: Schema = _described(whole)
-    return described
-
-
-def _described(part: Any) -> Any:
-    """Move the words for what is allowed into the descriptions, which editors show."""
-    if isinstance(part, list):
-        return [_described(item) for item in part]
-    if not isinstance(part, dict):
-        return part
-    described = {key: _described(value) for key, value in part.items() if key != "allowed"}
-    if isinstance(part.get("allowed"), str):
-        words = [part.get("description", ""), f"Allowed: {part['allowed']}."]
-        described["description"] = " ".join(words).strip()
-    return described
+    return {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
 
 
 class _Generator(GenerateJsonSchema):
@@ -79,10 +64,12 @@ class _Generator(GenerateJsonSchema):
         return made
 
     def model_schema(self, schema: Any) -> Schema:
-        """Add the docstrings of the fields, which pydantic does not read."""
+        """Put the docstrings of the fields before the words for what is allowed."""
         made: Schema = super().model_schema(schema)
-        for key, words in meanings(schema["cls"]).items():
-            made["properties"][key]["description"] = words
+        for key, meaning in meanings(schema["cls"]).items():
+            field = made["properties"][key]
+            words = [f"Allowed: {field['description']}."] if "description" in field else []
+            field["description"] = " ".join([meaning, *words])
         return made
 
     def field_title_should_be_set(self, schema: Any) -> bool:

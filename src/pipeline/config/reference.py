@@ -58,7 +58,7 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
         field = fields_of(model)[key]
         default = "optional" if field.default is None else f"default `{field.default}`"
         default = "required" if field.is_required() else default
-        words = allowed_at(model, (key,))[1]
+        words = allowed_at(model, (key,))
         text = f"- `{key}` ({default}): {meaning(model, key)} *Allowed:* {words}."
         items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
     return "\n".join(items)

@@ -29,7 +29,7 @@ class Block(BaseModel):
 
 def allowed(words: str, **constraints: Any) -> Any:
     """Return a pydantic field with these constraints, and the words that describe them."""
-    return Field(json_schema_extra={"allowed": words}, **constraints)
+    return Field(description=words, **constraints)
 
 
 def whole(low: int, high: int, multiple: int = 1) -> Any:
@@ -74,13 +74,7 @@ Range = Annotated[
     allowed("a list of two increasing numbers", min_length=2, max_length=2),
     Predicate(rising),
 ]
-Name = Annotated[
-    str,
-    allowed(
-        "a name of letters, digits, - and _ that does not begin with -",
-        pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$",
-    ),
-]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$")]
 
 
 class BallBlock(Block):
@@ -109,14 +103,8 @@ class Scan(Block):
     smaller step misses fewer impacts and takes longer; a ball whose impact is missed falls through
     the floor. 0.1 is a typical choice."""
     tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
-    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding."""
-
-
-class FineScan(Scan):
-    """a mapping with the keys scan and tolerance"""
-
-    # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
-    tolerance: float = allowed("a number from 1e-15 to 1e-12, for manifolds", ge=1e-15, le=1e-12)
+    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding, and
+    scenes with manifolds allow no more."""
 
 
 class Exact(Block):
@@ -131,12 +119,10 @@ def _if_exact(value: Any) -> str:
     return TAGS[not (isinstance(value, dict) and "exact" in value)]
 
 
-_METHODS = allowed("a mapping with the keys scan and tolerance, or {exact: true}")
 Method = Annotated[
-    Annotated[Exact, _FIRST] | Annotated[Scan, _SECOND], Discriminator(_if_exact), _METHODS
-]
-FineMethod = Annotated[
-    Annotated[Exact, _FIRST] | Annotated[FineScan, _SECOND], Discriminator(_if_exact), _METHODS
+    Annotated[Exact, _FIRST] | Annotated[Scan, _SECOND],
+    Discriminator(_if_exact),
+    allowed("a mapping with the keys scan and tolerance, or {exact: true}"),
 ]
 
 

@@ -187,9 +187,6 @@ class OfPeriodicOrbit(Scene):
 class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
 
-    method: fields.FineMethod = ABSENT
-    """How the next impact is found, as in every scene. With a scan, `tolerance` must not exceed
-    1e-12: a coarser one leaves noise instead of a line."""
     type: fields.Saddle
     """Stability of the periodic orbit, which must be a saddle to have manifolds. It selects among
     the orbits of the period."""
@@ -198,8 +195,13 @@ class OfManifolds(OfPeriodicOrbit):
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that no branch is longer than the largest number of points allows."""
+        """Check the tolerance of a scan, and that no branch needs too many points."""
         yield from super().cross_field_errors(block)
+        # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
+        tolerance = block.get("method", {}).get("tolerance", 0)
+        if tolerance > 1e-12:
+            words = "a number from 1e-15 to 1e-12, for manifolds"
+            yield ("method", "tolerance"), tolerance, words
         branches = 4 * block["period"]  # stable and unstable, on both sides of each point
         longest = fields.LARGEST * block["resolution"]["distance"] / branches
         sides = block.get("branches", {})

@@ -1,5 +1,6 @@
 """Reading of config.yaml."""
 
+import re
 from collections.abc import Hashable
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ LARGEST_FILE = 500_000
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader that refuses duplicate keys; PyYAML silently keeps the last one."""
+    """A YAML loader that refuses duplicate keys, and reads 1e-3 as a number, as YAML 1.2 does."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
         seen: set[str] = set()
@@ -31,6 +32,10 @@ class _Loader(yaml.SafeLoader):
                     raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
                 seen.add(key.value)
         return super().construct_mapping(node, deep)
+
+
+_NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)[eE][-+]?[0-9]+$")
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", _NUMBER, [*"-+.0123456789"])
 
 
 def load(path: str | Path) -> YamlMapping:
