@@ -169,13 +169,6 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     assert handler.failed
 
 
-def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
-    block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10}, [])
-    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
-    emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
-    assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
-
-
 def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
     (tmp_path / DRAWING).parent.mkdir(parents=True)
     (tmp_path / DRAWING).touch()
