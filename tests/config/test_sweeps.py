@@ -54,7 +54,7 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
         ({"k": [0.2, 1.5]}, "k: 1.5", "0 < k <= 1"),
         ({"energy": [-2.5, 1]}, "energy: -2.5", "above -1/(2k) = -2.5"),
         ({"energy": [1, 1e10]}, "energy: 10000000000.0", "at most 1e+09"),
-        ({"chains": [5, 5]}, "chains: [5, 5]", "that differ"),
+        ({"chains": [5, 5]}, "chains: [5, 5]", "none of them twice"),
         ({"chains": [5], "k": [0.2]}, "chains: [5]", "one k"),
         ({"chains": [5], "energy": [-0.1, 1]}, "energy: -0.1", "> 0"),
         ({"g": 0.1}, "g: 0.1", "0 < g < k = 0.1"),

@@ -15,9 +15,6 @@ from ..records.sources import ROOT
 from .reference import meanings
 from .schema.fields import Block
 from .schema.kinds import KINDS
-from .schema.published import PAPER, PUBLISHED
-from .schema.sweep import Sweep
-from .schema.variant import Variant
 from .validation.document import Document
 
 FILE = "config.schema.json"
@@ -27,7 +24,7 @@ Schema = dict[str, Any]
 
 def schema() -> Schema:
     """Return the JSON schema of config.yaml."""
-    models: list[type[Block]] = [Document, Variant, Sweep, *KINDS.values()]
+    models: list[type[Block]] = [Document, *KINDS.values()]
     mode: Literal["validation"] = "validation"
     references, definitions = models_json_schema(
         [(model, mode) for model in models], schema_generator=_Generator
@@ -44,13 +41,10 @@ def schema() -> Schema:
         ],
     }
     document = blocks.pop("Document")
-    of_names = {"scenes": "AnyScene", "variants": "Variant", "sweeps": "Sweep"}
-    of_names |= {name: "AnyScene" for name in PUBLISHED if name != PAPER}
-    for key, name in of_names.items():
-        blocks_by_name = document["properties"][key]
-        (pattern,) = blocks_by_name["patternProperties"]
-        blocks_by_name["patternProperties"] = {pattern: {"$ref": f"#/$defs/{name}"}}
-        blocks_by_name["additionalProperties"] = False
+    for field in document["properties"].values():
+        for pattern, block in field.get("patternProperties", {}).items():
+            field["patternProperties"] = {pattern: block or {"$ref": "#/$defs/AnyScene"}}
+            field["additionalProperties"] = False
     return {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
 
 

@@ -54,6 +54,8 @@ def rising(numbers: Sequence[float]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
+NOT_EMPTY = Predicate(lambda given: given.model_fields_set)  # of a block with optional fields
+
 # A union of two types names them by tags, of which pydantic makes a part of an error's location.
 TAGS = ("(first)", "(second)")
 _FIRST, _SECOND = map(Tag, TAGS)
@@ -173,9 +175,6 @@ class BothBranches(Block):
     """Branches on the far side of the fixed point, which fold in the chaotic sea."""
     inner: Branch = ABSENT
     """Branches on the fixed point's side, which enclose the main island."""
-
-
-Branches = Annotated[BothBranches, Predicate(lambda given: given.model_fields_set)]
 
 
 class Resolution(Block):

@@ -217,7 +217,7 @@ class OfManifolds(OfPeriodicOrbit):
 class OfBranches(OfManifolds):
     """A scene of branches of both sides, each with its own length."""
 
-    branches: fields.Branches
+    branches: Annotated[fields.BothBranches, fields.NOT_EMPTY]
     """Which branches of the manifolds are traced, and how far."""
 
 

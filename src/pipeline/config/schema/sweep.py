@@ -2,9 +2,10 @@
 
 from typing import Annotated, Literal
 
+from annotated_types import Predicate
 from pydantic import Tag
 
-from .fields import ABSENT, TAGS, Block, Gravity, Number, allowed, first_if, whole
+from .fields import ABSENT, TAGS, Block, Gravity, Number, allowed, distinct, first_if, whole
 
 
 class Span(Block):
@@ -30,7 +31,8 @@ Values = Annotated[
 
 Orders = Annotated[
     list[Annotated[int, whole(3, 12)]],
-    allowed("a list of whole numbers from 3 to 12, at least one", min_length=1),
+    allowed("a list of whole numbers from 3 to 12, at least one, none of them twice", min_length=1),
+    Predicate(distinct),
 ]
 
 

@@ -3,9 +3,10 @@
 import re
 from typing import Annotated, Any
 
-from ..schema.fields import BallBlock, Block, Name, YamlMapping, allowed
+from ..schema.fields import NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.published import PAPER, PUBLISHED
-from ..schema.variant import Prove
+from ..schema.sweep import Sweep
+from ..schema.variant import Prove, Variant
 from . import scenes, sweeps
 from .mistakes import complete, mistakes
 from .words import ConfigError, refusal
@@ -24,8 +25,10 @@ class Document(Block):
 
     ball: BallBlock
     scenes: dict[Name, Any] = allowed("a mapping from names to scenes, at least one", min_length=1)
-    variants: Annotated[dict[Name, Any], allowed("a mapping from names to variants")] = {}
-    sweeps: Annotated[dict[Name, Any], allowed("a mapping from names to sweeps")] = {}
+    variants: Annotated[
+        dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
+    ] = {}
+    sweeps: Annotated[dict[Name, Sweep], allowed("a mapping from names to sweeps")] = {}
     claims: _Scenes = {}
     families: _Scenes = {}
     proofs: _Scenes = {}

@@ -69,8 +69,10 @@ def _node(model: type[Block], loc: Place) -> dict[str, Any]:
             node = {"description": node["description"]} | node["oneOf"][TAGS.index(str(part))]
         elif "items" in node:
             node = node["items"]
+        elif part in node.get("properties", {}):
+            node = node["properties"][part]
         else:
-            node = node.get("properties", {}).get(part) or node["additionalProperties"]
+            (node,) = node.get("patternProperties", {}).values() or [node["additionalProperties"]]
         if "$ref" in node:
             node = whole["$defs"][node["$ref"].rpartition("/")[2]] | node
     return node

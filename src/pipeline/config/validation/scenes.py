@@ -13,7 +13,6 @@ from ..schema.fields import YamlMapping
 from ..schema.kinds import KINDS
 from ..schema.published import FOLDERS
 from ..schema.scene import exact
-from ..schema.variant import Variant
 from .mistakes import complete, has_types, mistakes
 from .words import Place, dotted, refusal, unknown
 
@@ -51,16 +50,12 @@ def checked(
     return ({}, lines) if lines else (block, [])
 
 
-def derive(document: YamlMapping, name: str, given: object) -> tuple[YamlMapping, list[str]]:
-    """Return the scenes of a variant of a correct document, and a line for each mistake."""
+def derive(document: YamlMapping, name: str, given: YamlMapping) -> tuple[YamlMapping, list[str]]:
+    """Return the scenes of a variant, and a line for each mistake between fields."""
     place = ("variants", name)
     if name in RESERVED:
         return {}, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
-    lines = mistakes(Variant, given, place)
-    if not lines and not given:
-        lines = [refusal(place, given, Variant.__doc__ or "")]
-    if lines or not isinstance(given, dict):
-        return {}, lines
+    lines: list[str] = []
     changes = given.get("scenes", {})
     for scene, change in changes.items():
         lines += _change_mistakes(document["scenes"], scene, change, (*place, "scenes", scene))

@@ -19,10 +19,9 @@ _FORTY_DIGITS = Context(prec=40)
 
 
 def checked(given: YamlMapping, place: Place) -> tuple[YamlMapping, list[str]]:
-    """Return a sweep with k and E/g^2 written out as lists, and a line for each mistake."""
-    lines = mistakes(Sweep, given, place)
-    if lines:
-        return {}, lines
+    """Return a sweep with k and E/g^2 written out, and a line for each mistake between fields."""
+    if mistakes(Sweep, given, place):
+        return {}, []
     sweep = dict(given)
     errors: list[CrossFieldError] = []
     for axis in ("k", "energy"):
@@ -53,8 +52,6 @@ def _cross_field_errors(sweep: YamlMapping) -> Iterator[CrossFieldError]:
             return
     yield from _energy_errors(energy[0], energy[-1], k, sweep.get("g"))
     orders = sweep.get("chains", [])
-    if len(set(orders)) < len(orders):
-        yield ("chains",), orders, "whole numbers that differ"
     if orders and len(k) == 1:
         yield ("chains",), orders, "no chains in a sweep of one k"
     if orders and not energy[0] > 0:
