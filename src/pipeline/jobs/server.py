@@ -122,11 +122,9 @@ def job_server(
 
 def _start_forkserver(plan: Plan) -> None:
     """Start the process that forks jobs; it imports what the outdated results need."""
-    steps = [plan.specs[path].step for path in plan.outdated if path in plan.specs]
-    wanted = ["data"] if any(path.endswith(".nc") for path in plan.outdated) else []
-    wanted += ["sweep"] if any(step.startswith("block") for step in steps) else []
+    wanted = "data" if any(path.endswith(".nc") for path in plan.outdated) else ""
     before = dict(os.environ)
-    os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": " ".join(wanted)})
+    os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": wanted})
     # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
