@@ -180,7 +180,9 @@ def forge(tree, path, content=None):
 def test_a_forged_dataset_is_refused_until_it_is_recomputed(moved):
     forge(moved, DATA)
     checked = config.load(moved.config)
-    assert not Freshness(moved.path, build_specs.of_scenes(checked["variants"])).outdated()
+    assert not Freshness(
+        moved.path, build_specs.of_variants(checked["variants"], ["paper"])
+    ).outdated()
     found = verified(moved)
     assert (found.status, set(found.wrong)) == (1, {"fig3.png", "fig3.svg"})
     assert found.findings[0] == f"{DATA}: {FORGED}: delete it: run ./reproduce"

@@ -25,7 +25,7 @@ def test_any_config(tmp_path):
         except config.ConfigError as error:
             assert all(line.startswith("config.yaml: ") for line in str(error).splitlines())
             return
-        for result in build_specs.of_scenes(checked["variants"]):
+        for result in build_specs.of_variants(checked["variants"], ["paper"]):
             assert (tmp_path / result).resolve().is_relative_to(tmp_path / "results" / "paper")
 
     trial()

@@ -20,7 +20,7 @@ INEXACT = re.compile(
 
 def sources_of_the_figures():
     """Every Python file whose bits can reach a figure."""
-    specs = build_specs.of_scenes(config.load(SHIPPED)["variants"]).values()
+    specs = build_specs.of_variants(config.load(SHIPPED)["variants"], ["paper"]).values()
     return sorted({file for spec in specs for file in spec.sources if file.endswith(".py")})
 
 

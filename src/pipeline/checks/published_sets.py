@@ -88,7 +88,7 @@ def _figures(checked: dict[str, Any], variant: str) -> PublishedSet:
     for (name, scene, stage), path in paths.artifact_paths(variants).items():
         if name == variant:
             data[scene][stage] = path
-    return _set(variant, config, data, build_specs.of_scenes(variants, variant))
+    return _set(variant, config, data, build_specs.of_variants(variants, [variant]))
 
 
 def _study(variants: paths.Variants) -> PublishedSet:

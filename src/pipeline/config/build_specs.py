@@ -64,11 +64,6 @@ def of_variants(variants: Variants, names: Iterable[str] | None = None) -> dict[
     return specs
 
 
-def of_scenes(variants: Variants, variant: str = paths.PAPER) -> dict[str, BuildSpec]:
-    """Specify each result of a variant's scenes, from its path; inputs come first."""
-    return of_variants(variants, [variant])
-
-
 def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
     """Return the results `wanted` and all that they are made from, each after its inputs."""
     results: dict[str, None] = {}
