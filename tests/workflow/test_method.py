@@ -1,7 +1,7 @@
 """Scenes with a `method`: their data count what it missed, and nothing else changes."""
 
 import pytest
-from project import Tree, fresh_tree, of_scenes, shipped
+from project import Tree, fresh_tree, of_scenes
 
 from pipeline.records.artifacts import load
 
@@ -58,7 +58,3 @@ def test_a_method_makes_its_own_data_alone(published, tmp_path):
     (planned,) = tree.run("fig3", "-n").stdout.splitlines()
     assert planned.startswith("fig3: method")
     assert planned.endswith(": motion, drawing")
-
-
-def test_the_papers_own_scenes_are_certified():
-    assert not [block for block in shipped()["scenes"].values() if "method" in block]

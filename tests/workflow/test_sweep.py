@@ -12,7 +12,6 @@ from runs import rows
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import sweep
 from pipeline.cli.session import UsageError
-from pipeline.config import build_specs, check, paths
 from pipeline.records.artifacts import load
 from pseudorigid.sweep import cell
 
@@ -23,7 +22,6 @@ SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 2
     ("name", "sweeps", "line"),
     [
         ("lime", {"plane": SMALL, "line": SMALL}, "no sweep lime: did you mean line"),
-        ("line", {}, "no sweep line"),
         (None, {}, "sweeps: missing, or empty"),
     ],
 )
@@ -128,10 +126,3 @@ def test_the_atlas_is_drawn_and_published(tree):
     before = times(tree)
     tree.succeed("atlas", "-c", "1")
     assert times(tree) == before
-
-
-def test_the_papers_figures_need_no_sweep():
-    checked = check(of_scenes("fig3", sweeps={"small": SMALL}))
-    drawings = [upstream[-1] for _, upstream in paths.figures(checked["variants"]).values()]
-    needed = build_specs.with_dependencies(build_specs.of_all(checked), drawings)
-    assert needed and all(path.startswith("results/paper/") for path in needed)
