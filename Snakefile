@@ -12,7 +12,6 @@ include: "workflow/rules/common.smk"
 
 wildcard_constraints:
     variant=any_of(VARIANTS),
-    scene=any_of(ALL),
     extension="png|svg|pdf",
     number=r"\d{4}",
 

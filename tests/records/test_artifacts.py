@@ -55,7 +55,6 @@ def test_round_trip_keeps_values_types_and_attributes(tmp_path):
     config = '{"ball":{"g":0.04,"k":0.2},"starts":[0.5]}'
     expected = artifacts.ABOUT | ABOUT | {"config": config, "period": 6, "resolution": 1e-3}
     assert expected.items() <= back.attrs.items()
-    assert back["row_size"].attrs["sample_dimension"] == "point"
     assert list(back.attrs["window_x"]) == [0.21, 0.2116]
 
 
@@ -87,7 +86,6 @@ def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
         (lambda d: d["x"].attrs.pop("units"), "x has units None"),
         (lambda d: d["x"].attrs.pop("scale"), "x has no scale"),
         (lambda d: d.update({"x": variable("point", np.ones(5, bool))}), "x has dtype bool"),
-        (lambda d: d.update({"row_size": variable("orbit", np.array([2, 2]))}), "adds up to 4"),
     ],
 )
 def test_refuses_what_is_incomplete(tmp_path, change, words):

@@ -69,7 +69,6 @@ for name, (result, scenes) in RULES.items():
             log_path(result),
         wildcard_constraints:
             scene=any_of(scenes),
-            number=r"\d+",
         priority: priority(result)
         conda:
             "../envs/python.yaml"

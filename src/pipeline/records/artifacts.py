@@ -49,7 +49,7 @@ def save(
     `attributes`, and `config` (the block of configuration behind the data) as canonical JSON.
     """
     attributes |= {"config": canonical_json(config)} | ABOUT
-    dataset = _with_sample_dimension(dataset.assign_attrs(attributes), path)
+    dataset = dataset.assign_attrs(attributes)
     _check(dataset, path)
     for name, variable in dataset.variables.items():  # older files without scales can be loaded
         if not _is_text(variable) and not variable.attrs.get("scale"):
@@ -115,24 +115,6 @@ def plain_attributes(source: xr.Dataset | xr.Variable) -> dict[str, Any]:
 def canonical_json(value: Any) -> str:
     """JSON with sorted keys and without spaces, so that equal values give equal text."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-def _with_sample_dimension(dataset: xr.Dataset, path: str | os.PathLike[str]) -> xr.Dataset:
-    """Add the attribute `sample_dimension` to `row_size`, as CF's ragged arrays require."""
-    if "row_size" not in dataset:
-        return dataset
-    counts = dataset["row_size"]
-    dims = [dim for dim in dataset.sizes if dim not in counts.dims]
-    sample = counts.attrs.get("sample_dimension", dims[0] if len(dims) == 1 else None)
-    if sample not in dataset.sizes:
-        raise ArtifactError(f"{path}: row_size does not say which dimension it counts")
-    if int(counts.sum()) != dataset.sizes[sample]:
-        raise ArtifactError(
-            f"{path}: row_size adds up to {int(counts.sum())}, "
-            f"but dimension {sample} has {dataset.sizes[sample]}"
-        )
-    attrs = counts.attrs | {"sample_dimension": sample}
-    return dataset.assign(row_size=(counts.dims, counts.values, attrs))
 
 
 def _check(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:

@@ -31,7 +31,8 @@ class Variant(Block):
     """Change the unit of length. g is multiplied by this number and energies by its square, so that
     positions and velocities are multiplied by it, while times and exponents stay."""
     scenes: Annotated[
-        YamlMapping, allowed("a mapping from names of scenes to the fields that differ")
+        dict[str, Annotated[YamlMapping, allowed("a mapping with fields of the scene")]],
+        allowed("a mapping from names of scenes to the fields that differ"),
     ] = ABSENT
     """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
     lists, numbers and texts are replaced."""

@@ -90,11 +90,11 @@ def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> Y
     return derived | ({"axes": change["axes"]} if moved and "axes" in change else {})
 
 
-def _change_mistakes(scenes: YamlMapping, scene: str, change: object, place: Place) -> list[str]:
+def _change_mistakes(
+    scenes: YamlMapping, scene: str, change: YamlMapping, place: Place
+) -> list[str]:
     if scene not in scenes:
         return [f"{dotted(place)}: {unknown('scene', scene, list(scenes))}"]
-    if not isinstance(change, dict):
-        return [refusal(place, change, "a mapping with fields of the scene")]
     picture = scenes[scene]["picture"]
     if change.get("picture", picture) != picture:
         words = f"{picture}, which a variant does not change"
