@@ -7,15 +7,14 @@ import xarray as xr
 from ...dynamics.ball import Ball
 from ...dynamics.orbits import ragged_orbits
 from ...dynamics.starts import start_state
-from ..enclosure.surface import Exact, Surface
+from ..enclosure.surface import Surface
 from .orbit import follow
 from .start import Start
 
 
 def true_scene_orbits(
-    k: Exact,
-    g: Exact,
-    energy: Exact,
+    ball: Ball,
+    energy: float,
     starts: list,
     impacts: int | list[int],
     *,
@@ -23,21 +22,30 @@ def true_scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene, one after the other (CF), correctly rounded.
 
-    The numbers are exact, and the starts in the form of the argument `start` of `true_orbit`.
-    `progress` is called with the share done of the current orbit, and its index. Raises ValueError
-    as `true_orbit` does.
+    Each number stands for the decimal that Python prints: 0.2 is 1/5. `progress` is called with the
+    share of all orbits that is done, and the current orbit in words. Raises ValueError as
+    `true_orbit` does.
 
-    >>> true_scene_orbits("1/5", "1/25", "1/100", ["0.5", "-0.2"], [3, 2]).sizes["point"]
+    >>> true_scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
     5
     """
-    surface = Surface(k, g, energy)
+    surface = Surface(str(ball.k), str(ball.g), str(energy))
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
-    exact_starts = [Start(surface, start) for start in starts]
+    exact_starts = [Start(surface, _as_text(start)) for start in starts]
     pieces = []
     for i, (start, count) in enumerate(zip(exact_starts, impacts, strict=True)):
-        report = None if progress is None else lambda share, orbit=i: progress(share, orbit)
+
+        def report(share: float, orbit: int = i) -> None:
+            if progress is not None:
+                progress((orbit + share) / len(starts), f"orbit {orbit + 1} of {len(starts)}")
+
         pieces.append(follow(start, count, report).values.T)
-    ball = Ball(k=float(surface.k), g=float(surface.g))
-    floats = [start.floats() for start in exact_starts]
-    states = [start_state(ball, float(surface.energy), start) for start in floats]
-    return ragged_orbits(pieces, floats, states, impacts)
+    states = [start_state(ball, energy, start) for start in starts]
+    return ragged_orbits(pieces, starts, states, impacts)
+
+
+def _as_text(start: float | dict[str, float]) -> str | dict[str, str]:
+    """Return a start with its numbers as decimals."""
+    if isinstance(start, dict):
+        return {name: str(value) for name, value in start.items()}
+    return str(start)
