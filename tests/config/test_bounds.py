@@ -30,6 +30,7 @@ TANGLE = (
      "resolution": {"distance": 0.01, "bend": 10}},
 )  # fmt: skip
 PLANE = ("sweeps", None, SWEEP)
+FAMILIES = ("families", "families", {"ball": {"k": 0.2, "g": 0.04}})
 SHELL = {"k": 0.3333333333333333, "g": 0.02}
 TWIST = ("proofs", "twist", {"marks": []})
 ROTATION, SPREAD = ("claims", "rotation", {}), ("claims", "spread", {})
@@ -66,6 +67,10 @@ def refusals(part, block):
          "24 branches = 4166.666666666667"),
         (PLANE, {"k": {"from": 0.01, "to": 0.3, "count": 1001}}, "energy: [1.0, ",
          "at most 1000000 cells"),
+        (FAMILIES, {"span": [-0.004, 0.01]}, "span[0]: -0.004", "above -g^2/(2k)"),
+        (FAMILIES, {"parameter": "k", "span": [0, 0.3]}, "span: [0, 0.3]", "0 < k <= 1"),
+        (FAMILIES, {"step": 1e-6}, "step: 1e-06", "2000 values in the span"),
+        (FAMILIES, {"drawn": 7}, "drawn: 7", "at most period = 6"),
         # What a kind cannot show.
         (TWIST, {"ball": SHELL, "energies": [0.01, 0.016]}, "energies[1]", "0.0138241"),
         (ROTATION, {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),

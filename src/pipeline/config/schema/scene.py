@@ -320,7 +320,9 @@ def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
     k, g = (exact(block["ball"][name]) for name in "kg")
     lowest, highest = -g * g / (2 * k), k / 2 - g
     energies: dict[tuple[str | int, ...], float] = {("energy",): block["energy"]}
-    energies |= {("energies", i): energy for i, energy in enumerate(block.get("energies", ()))}
+    lists = ["energies", "span"] if block.get("parameter") == "energy" else ["energies"]
+    for name in lists:
+        energies |= {(name, i): energy for i, energy in enumerate(block.get(name, ()))}
     for place, energy in energies.items():
         if not exact(energy) > lowest:
             bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
