@@ -27,14 +27,12 @@ class Scene(fields.Block):
 
     # Stages that compute the data, in the order in which the kind's `draw` takes their datasets.
     stages: ClassVar[tuple[str, ...]]
-    # A variant that changes one of these, the ball or the energy does not inherit `axes`.
-    axes_depend_on: ClassVar[tuple[str, ...]] = ()
     # Axis -> the field whose values lie along it.
     along: ClassVar[dict[str, str]] = {}
+    # A variant that changes one of these or of `along`, the ball or the energy inherits no `axes`.
+    axes_depend_on: ClassVar[tuple[str, ...]] = ()
     # The quantity of `numbers` that stands for the figure in a list.
     headline: ClassVar[str]
-    # The measure of error that the study applies (pseudorigid.study.figure_errors), or None.
-    studied: ClassVar[str | None] = None
     # Quantity -> value as text, measured in the datasets: numbers(block, **{stage: dataset}).
     numbers: ClassVar[Callable[..., dict[str, str]]]
 

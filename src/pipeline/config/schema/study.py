@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 from .fields import YamlMapping
-from .kinds import KINDS
 from .published import FOLDERS
 
 # Data that are the same on every machine, and measurements.
@@ -27,6 +26,8 @@ CHARTS: dict[str, tuple[str, str, tuple[object, ...]]] = {
     "seconds_grazing": ("work_all", "work", (1, "seconds")),
     "edges_all": ("edges_all", "edges", ()),
 }
+# Kinds of picture with a measure of error in pseudorigid.study.figure_errors.
+STUDIED = ("portrait", "motion", "tangle", "closeup", "exponents")
 FOLDER = FOLDERS["study"]
 # Functions of a name that return a path from the project's root.
 data = "results/study/{}.nc".format  # of a part
@@ -41,9 +42,12 @@ def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:
     """
     if part != "needs":
         return {"part": part}
-    measures = {name: KINDS[block["picture"]].studied for name, block in scenes.items()}
-    measures = {name: kind for name, kind in measures.items() if kind and "axes" in scenes[name]}
-    chosen = {name: scenes[name] for name in measures}
+    chosen = {
+        name: block
+        for name, block in scenes.items()
+        if block["picture"] in STUDIED and "axes" in block
+    }
+    measures = {name: block["picture"] for name, block in chosen.items()}
     return {"part": part, "scenes": chosen, "measures": measures}
 
 

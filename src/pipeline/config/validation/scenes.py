@@ -83,7 +83,7 @@ def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> Y
         block = {key: value for key, value in block.items() if key != "method"}
     derived: YamlMapping = _merged(_merged(block, replaced), change)
     kind = KINDS[block["picture"]]
-    framing = ("ball", "energy", *kind.axes_depend_on)
+    framing = ("ball", "energy", *kind.axes_depend_on, *kind.along.values())
     moved = variant.get("scale", 1) != 1 or any(block.get(f) != derived.get(f) for f in framing)
     if moved:
         derived.pop("axes", None)

@@ -25,7 +25,6 @@ class Portrait(OnSurface, OfChaoticOrbits):
 
     stages = ("orbits",)
     headline = "impacts"
-    studied = "portrait"
 
     @staticmethod
     def numbers(block: YamlMapping, orbits: Dataset) -> dict[str, str]:
@@ -44,10 +43,9 @@ class Motion(OfPeriodicOrbit):
     """a periodic motion in time"""
 
     stages = ("motion",)
-    axes_depend_on = ("period", "type", "duration")
+    axes_depend_on = ("period", "type")
     along = {"t": "duration"}
     headline = "orbit"
-    studied = "motion"
 
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
     """Length of time that is drawn, in 1/omega, from an impact on. The orbit repeats as needed."""
@@ -75,7 +73,6 @@ class Tangle(OfBranches, OfOrbits, OnSurface):
 
     stages = ("orbits", "manifolds", "periodic")
     headline = "orbit"
-    studied = "tangle"
 
     @staticmethod
     def numbers(
@@ -94,7 +91,6 @@ class Closeup(OfManifolds):
     stages = ("manifolds",)
     axes_depend_on = ("period", "type", "point", "window")
     headline = "x of the point"
-    studied = "closeup"
 
     point: int = whole(0, 11)
     """Point that the window surrounds, from 0 to period - 1, in the order of dataset `periodic`."""
@@ -141,10 +137,8 @@ class Exponents(OfRecords):
     """Lyapunov exponents against the number of impacts"""
 
     stages = ("lyapunov",)
-    axes_depend_on = ("impacts",)
     along = {"impact": "impacts"}
     headline = "largest exponent"
-    studied = "exponents"
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and

@@ -51,7 +51,6 @@ class Twist(Scene):
     """the fixed point's twist coefficient against the energy"""
 
     stages = ("twist",)
-    axes_depend_on = ("energies",)
     along = {"energy": "energies"}
     headline = "zero of the twist"
 
