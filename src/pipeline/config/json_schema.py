@@ -5,17 +5,22 @@ every key, type and bound of one value. Conditions between fields, such as eq. (
 `./reproduce` alone.
 """
 
+import ast
+import inspect
 import json
+from functools import cache
+from itertools import pairwise
+from textwrap import dedent
 from typing import Any, Literal
 
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from .reference import meanings
 from .schema.fields import Block
 from .schema.kinds import KINDS
 from .validation.document import Document
+from .validation.mistakes import allowed_at
 
 FILE = "config.schema.json"
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -27,7 +32,7 @@ def schema() -> Schema:
     models: list[type[Block]] = [Document, *KINDS.values()]
     mode: Literal["validation"] = "validation"
     references, definitions = models_json_schema(
-        [(model, mode) for model in models], schema_generator=_Generator
+        [(model, mode) for model in models], schema_generator=Described
     )
     blocks: dict[str, Schema] = definitions["$defs"]
 
@@ -48,8 +53,11 @@ def schema() -> Schema:
     return {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
 
 
-class _Generator(GenerateJsonSchema):
-    """Pydantic's generator without titles and without null as the value of an absent field."""
+class Described(GenerateJsonSchema):
+    """Pydantic's generator with the meaning of each field and in words what it allows.
+
+    There are no titles, and no null as the value of an absent field.
+    """
 
     def default_schema(self, schema: Any) -> Schema:
         made: Schema = super().default_schema(schema)
@@ -58,16 +66,32 @@ class _Generator(GenerateJsonSchema):
         return made
 
     def model_schema(self, schema: Any) -> Schema:
-        """Put the docstrings of the fields before the words for what is allowed."""
         made: Schema = super().model_schema(schema)
-        for key, meaning in meanings(schema["cls"]).items():
-            field = made["properties"][key]
-            words = [f"Allowed: {field['description']}."] if "description" in field else []
-            field["description"] = " ".join([meaning, *words])
+        for key, field in made["properties"].items():
+            allowed = f"Allowed: {allowed_at(schema['cls'], (key,))}."
+            meaning = _meanings(schema["cls"]).get(key, "")
+            field["description"] = f"{meaning} {allowed}".lstrip()
         return made
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         return False
+
+
+@cache
+def _meanings(model: type[Block]) -> dict[str, str]:
+    """Return the docstrings of the fields of a model, by their keys.
+
+    Pydantic can read them too, but does so whenever a class is made, at each start of a command.
+    """
+    found: dict[str, str] = {}
+    for base in model.__mro__[model.__mro__.index(Block) - 1 :: -1]:
+        (tree,) = ast.parse(dedent(inspect.getsource(base))).body
+        assert isinstance(tree, ast.ClassDef)
+        for field, text in pairwise(tree.body):
+            match field, text:
+                case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
+                    found[model.model_fields[name].alias or name] = inspect.cleandoc(words)
+    return found
 
 
 def text() -> str:

@@ -3,11 +3,7 @@
 Run `.venv/bin/python -m pipeline.config.reference` to renew it.
 """
 
-import ast
-import inspect
 from collections.abc import Iterable
-from functools import cache
-from itertools import pairwise
 from pathlib import Path
 from textwrap import dedent, fill
 
@@ -15,6 +11,7 @@ import jinja2
 
 from ..records.files import write_whole
 from ..records.sources import ROOT
+from .json_schema import Described
 from .schema import fields
 from .schema.fields import Block, fields_of
 from .schema.kinds import KINDS
@@ -22,7 +19,6 @@ from .schema.scene import Scene
 from .schema.stages import STAGES, upstream
 from .schema.sweep import Span, Sweep
 from .schema.variant import Prove, Variant
-from .validation.mistakes import allowed_at
 
 EXAMPLES = Path(__file__).parent / "schema" / "kinds" / "examples.yaml"
 
@@ -53,39 +49,19 @@ def own_fields(kind: type[Scene]) -> list[str]:
 
 def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
     """List fields of a model, or all of them, with their meanings and what they allow."""
-    items = []
-    for key in keys or fields_of(model):
-        field = fields_of(model)[key]
-        default = "optional" if field.default is None else f"default `{field.default}`"
-        default = "required" if field.is_required() else default
-        words = allowed_at(model, (key,))
-        text = f"- `{key}` ({default}): {meaning(model, key)} *Allowed:* {words}."
+    described, items = model.model_json_schema(schema_generator=Described), []
+    for key in keys or described["properties"]:
+        field = described["properties"][key]
+        if "default" in field:
+            default = f"default `{field['default']}`"
+        else:
+            default = "required" if key in described.get("required", ()) else "optional"
+        if field["description"].startswith("Allowed: "):
+            raise ValueError(f"{model.__name__}.{key} has no docstring")
+        words = field["description"].replace(" Allowed: ", " *Allowed:* ")
+        text = f"- `{key}` ({default}): {words}"
         items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
     return "\n".join(items)
-
-
-def meaning(model: type[Block], key: str) -> str:
-    """Return the docstring of a field, from the nearest class that has one."""
-    if key not in meanings(model):
-        raise ValueError(f"{model.__name__}.{key} has no docstring")
-    return meanings(model)[key]
-
-
-@cache
-def meanings(model: type[Block]) -> dict[str, str]:
-    """Return the docstrings of the fields of a model, by their keys.
-
-    Pydantic can read them too, but does so whenever a class is made, at each start of a command.
-    """
-    found: dict[str, str] = {}
-    for base in model.__mro__[model.__mro__.index(Block) - 1 :: -1]:
-        (tree,) = ast.parse(dedent(inspect.getsource(base))).body
-        assert isinstance(tree, ast.ClassDef)
-        for field, text in pairwise(tree.body):
-            match field, text:
-                case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
-                    found[model.model_fields[name].alias or name] = inspect.cleandoc(words)
-    return found
 
 
 def quoted(names: Iterable[str]) -> str:
