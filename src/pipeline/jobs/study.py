@@ -36,30 +36,19 @@ def _grazing_solvers() -> list[Any]:
     return [m for m in (OURS, *_library_solvers()) if m.name in _GRAZING_SOLVERS]
 
 
-def _errors_of_figures(spec: BuildSpec) -> xr.Dataset:
-    """Compare the scenes of the block with the figures' own datasets."""
-    loaded = {(stage, scene): artifacts.load(path) for stage, scene, path in spec.given}
-    scenes, measures = spec.config["scenes"], spec.config["measures"]
-    dataset: xr.Dataset = figure_errors.figure_errors(scenes, measures, loaded)
-    return dataset
-
-
-def _verdicts() -> xr.Dataset:
-    from pseudorigid.study.verdicts import verdicts  # takes long to import
-
-    dataset: xr.Dataset = verdicts()
-    return dataset
-
-
 def make(spec: BuildSpec) -> None:
     """Compute the part that the block of config names; measured parts describe the machine."""
     part = spec.config["part"]
+    figures = {(stage, scene): artifacts.load(path) for stage, scene, path in spec.given}
     parts: dict[str, Callable[[], xr.Dataset]] = {
         "work": work.counted,
         "edges": lambda: failures.edges(failures.EDGE_METHODS),
         "orbits": failures.orbits,
-        "needs": lambda: _errors_of_figures(spec),
-        "verdicts": _verdicts,
+        "needs": lambda: figure_errors.figure_errors(
+            spec.config["scenes"], spec.config["measures"], figures
+        ),
+        # takes long to import
+        "verdicts": lambda: import_module("pseudorigid.study.verdicts").verdicts(),
         "work_all": lambda: work.measured([*METHODS, *_library_solvers()]),
         "edges_all": lambda: failures.edges(_grazing_solvers(), 40),
         "missed_all": lambda: failures.missed(_grazing_solvers()),
