@@ -269,19 +269,15 @@ def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:
     if not is_sound(block):
         return
     k, g = (block["ball"][name] for name in "kg")
-    theta = _last(lambda theta: _fixed_point(k, theta)[1] > -2)
+    low, high = 0.0, math.pi  # of theta: the trace falls through -2 between them
+    while (theta := (low + high) / 2) not in (low, high):
+        low, high = (theta, high) if _fixed_point(k, theta)[1] > -2 else (low, theta)
     highest = _fixed_point(k, theta)[0] * g * g
     several = isinstance(block[name], list)
     for i, energy in enumerate(block[name] if several else [block[name]]):
         if not energy < highest:
             words = f"an energy below {highest:.6g}, where the fixed point is elliptic"
             yield ((name, i) if several else (name,)), energy, words
-
-
-def fixed_point_trace(ball: YamlMapping, energy: float) -> float:
-    """Return the trace of the map's derivative at the fixed point, to about nine digits."""
-    k, scaled = ball["k"], energy / ball["g"] ** 2
-    return _fixed_point(k, _last(lambda theta: _fixed_point(k, theta)[0] < scaled))[1]
 
 
 def _fixed_point(k: float, theta: float) -> tuple[float, float]:
@@ -293,14 +289,6 @@ def _fixed_point(k: float, theta: float) -> tuple[float, float]:
     energy = ((1 + k) * theta * theta + b * b - 1) / (2 * k)
     shear = b * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
     return energy, 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
-
-
-def _last(condition: Callable[[float], bool]) -> float:
-    """Return the theta in (0, pi) up to which a condition holds, by bisection."""
-    low, high = 0.0, math.pi
-    while (theta := (low + high) / 2) not in (low, high):
-        low, high = (theta, high) if condition(theta) else (low, theta)
-    return theta
 
 
 def exact(value: float) -> Fraction:

@@ -14,12 +14,8 @@ from ..scene import (
     OfChaoticOrbits,
     OfOrbits,
     Scene,
-    fixed_point_trace,
-    is_sound,
     not_elliptic,
 )
-
-RESONANT = 1e-9  # distance of a trace from one at which the multiplier is a root of unity
 
 
 class Horseshoe(OfBranches):
@@ -69,17 +65,12 @@ class Twist(Scene):
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that marks are among the energies, and that the twist exists at each of these."""
+        """Check that marks are among the energies, at which the fixed point must be elliptic."""
         yield from super().cross_field_errors(block)
         for mark in block["marks"]:
             if mark not in block["energies"]:
                 yield ("marks",), mark, "one of energies"
         yield from not_elliptic(block, "energies")
-        for i, energy in enumerate(block["energies"] if is_sound(block) else ()):
-            trace = fixed_point_trace(block["ball"], energy)
-            if min(abs(trace - root) for root in (-1, 0)) < RESONANT:
-                words = "an energy at which no power of the multiplier up to the fourth is 1"
-                yield ("energies", i), energy, words
 
     @staticmethod
     def numbers(block: YamlMapping, twist: Dataset) -> dict[str, str]:
