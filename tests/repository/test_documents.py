@@ -8,8 +8,12 @@ from fnmatch import fnmatch
 import pytest
 import yaml
 from project import ROOT, Tree, run, shipped
+from slowly import slowly
 
 from pipeline import config
+from pipeline.checks import datasets
+from pipeline.config import reference
+from pipeline.publication import metadata
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
@@ -28,6 +32,10 @@ FILES = [
     if file.is_file()
 ]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
+
+
+# Files that a module writes: python -m MODULE renews them.
+GENERATED = {"docs/config.md": reference} | dict.fromkeys(metadata.pages(), metadata)
 
 
 def text_of(document):
@@ -54,6 +62,14 @@ def is_long(command):
 
 def shell(script, folder, **environment):
     return run("sh", "-c", f"({script}) 2>&1", cwd=folder, env=os.environ | environment)
+
+
+@pytest.mark.parametrize(
+    ("file", "module"), [*GENERATED.items(), *slowly(("docs/data.md", datasets))]
+)
+def test_a_generated_file_is_up_to_date(file, module):
+    text = module.pages()[file] if module is metadata else module.page()
+    assert text_of(file) == text, f"renew it: python -m {module.__name__}"
 
 
 def test_the_readme_is_short():

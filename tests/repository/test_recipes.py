@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from project import ROOT, fresh_tree
+from project import fresh_tree
 from runs import rows
 
-from pipeline.config import reference
 from pipeline.records.artifacts import load
 
 FILES = {
@@ -52,22 +51,6 @@ class Returns(OfOrbits):
         """Return how many orbits there are."""
         return {"orbits": f"{orbits.sizes['orbit']}"}
 ''',
-    "tests/figures/test_returns.py": '''
-"""Next position against the present one."""
-
-import numpy as np
-import xarray as xr
-
-from pseudorigid.figures.kinds import returns
-
-
-def test_each_pair_is_a_dot():
-    x = np.array([0.1, 0.2, 0.4, 0.3, 0.5])
-    data = xr.Dataset({"x": ("point", x), "row_size": ("orbit", np.array([3, 2]))})
-    scene = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
-    dots = [a for a in returns.draw(scene, data, None).artists if a.get_marker() == "o"]
-    assert [len(line.get_xdata()) for line in dots] == [2, 1]
-''',
     "src/pseudorigid/dynamics/flights.py": '''
 """Mean time of flight of orbits."""
 
@@ -82,20 +65,6 @@ def mean_flights(ball, energy, orbits):
     ends = np.cumsum(orbits["row_size"].values)[:-1]
     means = [part.mean() for part in np.split(orbits["tau"].values, ends)]
     return xr.Dataset(variables("orbit", [np.array(means)], {"mean": "mean time of flight"}))
-''',
-    "tests/dynamics/test_flights.py": '''
-"""Mean time of flight of orbits."""
-
-from pseudorigid import Ball
-from pseudorigid.dynamics.flights import mean_flights
-from pseudorigid.dynamics.orbits import scene_orbits
-
-
-def test_each_orbit_has_its_mean():
-    ball = Ball(0.2, 0.04)
-    orbits = scene_orbits(ball, 0.01, [0.1, 0.5], [3, 5])
-    means = mean_flights(ball, 0.01, orbits)["mean"].values
-    assert means.tolist() == [orbits["tau"][:3].mean(), orbits["tau"][3:].mean()]
 ''',
 }
 STAGES = "src/pipeline/config/schema/stages.py"
@@ -136,10 +105,8 @@ def copy(tmp_path):
         with (tree.path / "src/pipeline" / name).open("a") as file:
             file.write(text)
     for name, text in FILES.items():
-        path = tree.path / name
-        assert not path.exists()
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text.lstrip())
+        assert not (tree.path / name).exists()
+        (tree.path / name).write_text(text.lstrip())
     table = tree.path / STAGES
     text = table.read_text()
     start = text.index("\n}\n", text.index("\nSTAGES = {")) + 1
@@ -151,9 +118,6 @@ def copy(tmp_path):
 @pytest.mark.slow
 def test_a_kind_and_a_stage_are_three_files_each(copy):
     """They have data, a figure, caption, number, refusals, docs, variant and a line of verify."""
-    tests = [name for name in FILES if name.startswith("tests")]
-    result = copy.python("-m", "pytest", "-q", "-p", "no:cacheprovider", *tests)
-    assert result.returncode == 0, result.stdout
     assert rows(copy.succeed("report")) == {"paper_figures/map.png": "recomputed"}
     report = (copy.path / "results" / "report" / "report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
@@ -194,8 +158,3 @@ def test_a_kind_and_a_stage_are_three_files_each(copy):
     with (copy.path / "src" / "pseudorigid" / "dynamics" / "flights.py").open("a") as file:
         file.write("_EDITED = 1\n")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
-
-
-def test_the_page_of_fields_is_up_to_date():
-    committed = (ROOT / "docs" / "config.md").read_text()
-    assert reference.page() == committed, "renew it: python -m pipeline.config.reference"
