@@ -1,61 +1,39 @@
-"""Real browsers for tests: Debian's Chromium by Selenium, Debian's Firefox by Marionette.
+"""Real browsers for tests: Debian's Chromium and Firefox, by Selenium.
 
-Debian 12 has no geckodriver, so the client of Firefox's own protocol is here. Both browsers have
-the same interface: `open` a page, `click`, `run` a script, and `errors`.
+Debian 12 has no geckodriver, so Firefox is driven by WebDriver BiDi, which it speaks itself. Both
+browsers have the same interface: `open` a page, `click`, `run` a script, and `errors`.
 """
 
 import json
 import shutil
-import socket
 import subprocess
-import time
-from pathlib import Path
+from contextlib import closing, contextmanager
+from types import SimpleNamespace
 
 import pytest
+from project import wait_for
 
 PROGRAMS = {"chromium": ("chromium", "chromedriver"), "firefox": ("firefox-esr",)}
 _TIMEOUT = 600  # seconds that a script may take
-# What a page's script gets: its arguments, and `done`, which ends the script with a result or an
-# error. Exceptions of the script itself are reported as errors, too.
-_SCRIPT = """
-const done = arguments[arguments.length - 1];
-(async (...args) => {{ {} }})(...[...arguments].slice(0, -1)).then(
-  value => done({{value}}), error => done({{error: String(error && error.stack || error)}}));
-"""
 
 
-class ScriptError(Exception):
-    """A script in a page ended with an exception."""
-
-
-def start(name, folder, width=1200, height=900):
+@contextmanager
+def started(name, folder, width=1200, height=900):
     """Start a browser with its profile in `folder`; skip the test if it is not installed."""
+    pytest.importorskip("selenium")
     missing = [program for program in PROGRAMS[name] if not shutil.which(program)]
     if missing:
         pytest.skip(f"{' and '.join(missing)} not installed (Debian packages, see .ci/run)")
-    return {"chromium": Chromium, "firefox": Firefox}[name](Path(folder), width, height)
+    with closing({"chromium": Chromium, "firefox": Firefox}[name](folder, width, height)) as opened:
+        yield opened
 
 
-class _Browser:
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.quit()
-
-    def run(self, script, *args):
-        """Run the body of an async function in the page, and return its result."""
-        result = self._async(_SCRIPT.format(script), list(args))
-        if "error" in result:
-            raise ScriptError(result["error"])
-        return result.get("value")
-
-
-class Chromium(_Browser):
-    """Chromium by Selenium and chromedriver."""
+class Chromium:
+    """Chromium by chromedriver."""
 
     def __init__(self, folder, width, height):
-        webdriver = pytest.importorskip("selenium.webdriver")
+        from selenium import webdriver
+
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium")
         for argument in (
@@ -71,8 +49,11 @@ class Chromium(_Browser):
     def open(self, address):
         self.driver.get(address)
 
-    def _async(self, script, args):
-        return self.driver.execute_async_script(script, *args)
+    def run(self, script, *args):
+        """Run the body of an async function in the page, and return its result."""
+        return self.driver.execute_script(
+            f"return (async (...args) => {{ {script} }})(...arguments)", *args
+        )
 
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
@@ -85,90 +66,97 @@ class Chromium(_Browser):
         """Return messages of the console since the last call: errors and warnings."""
         return [entry["message"] for entry in self.driver.get_log("browser")]
 
-    def quit(self):
+    def close(self):
         self.driver.quit()
 
 
-class Firefox(_Browser):
-    """Firefox by Marionette: JSON messages, each after its length, on a local socket."""
+class Firefox:
+    """Firefox by Selenium's connection for WebDriver BiDi."""
 
     def __init__(self, folder, width, height):
+        from selenium.webdriver.remote.websocket_connection import WebSocketConnection
+
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / "user.js").write_text(
-            'user_pref("marionette.port", 0);\n'  # it chooses a port and writes it to a file
-            'user_pref("datareporting.policy.dataSubmissionEnabled", false);\n'
-        )
-        self._log = (folder / "log").open("w+")
         self._process = subprocess.Popen(
-            [shutil.which("firefox-esr"), "--headless", "--marionette", "--no-remote",
-             "--profile", str(folder), f"--width={width}", f"--height={height}"],
-            stdout=self._log, stderr=subprocess.STDOUT,
+            [shutil.which("firefox-esr"), "--headless", "--remote-debugging-port=0",
+             "--no-remote", "--profile", str(folder), f"--width={width}", f"--height={height}"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             env={"HOME": str(folder), "PATH": "/usr/bin:/bin", "MOZ_DISABLE_CONTENT_SANDBOX": "1"},
         )  # fmt: skip
-        self._socket = self._connected(folder / "MarionetteActivePort")
-        self._count, self._read = 0, 0
-        self._message()  # the greeting
-        self._command("WebDriver:NewSession", {"capabilities": {"alwaysMatch": {}}})
-        self._command("WebDriver:SetTimeouts", {"script": 1000 * _TIMEOUT})
+        server = folder / "WebDriverBiDiServer.json"
+        wait_for(lambda: server.is_file() and server.read_text().endswith("}"))
+        port = json.loads(server.read_text())["ws_port"]
+        self._socket = WebSocketConnection(f"ws://127.0.0.1:{port}/session", _TIMEOUT, 0.01)
+        self._command("session.new", capabilities={})
+        (page,) = self._command("browsingContext.getTree")["contexts"]
+        self._page, self._messages = page["context"], []
+        logged = SimpleNamespace(event_class="log.entryAdded", from_json=dict)
+        self._socket.add_callback(logged, self._messages.append)
+        self._command("session.subscribe", events=[logged.event_class])
 
-    def _connected(self, port_file, patience=60):
-        """Return the socket once the browser listens."""
-        end = time.monotonic() + patience
-        while time.monotonic() < end and self._process.poll() is None:
-            try:
-                return socket.create_connection(("127.0.0.1", int(port_file.read_text())))
-            except (OSError, ValueError):
-                time.sleep(0.1)
-        self._process.kill()
-        raise RuntimeError(f"Firefox does not answer: {Path(self._log.name).read_text()[-500:]}")
-
-    def _message(self):
-        size = b""
-        while not size.endswith(b":"):
-            size += self._socket.recv(1)
-        data = b""
-        while len(data) < int(size[:-1]):
-            data += self._socket.recv(int(size[:-1]) - len(data))
-        return json.loads(data)
-
-    def _command(self, name, parameters=None):
-        self._count += 1
-        text = json.dumps([0, self._count, name, parameters or {}])
-        self._socket.sendall(f"{len(text.encode())}:{text}".encode())
-        _, _, error, result = self._message()
-        if error:
-            raise ScriptError(f"{error['error']}: {error['message']}")
-        return result
+    def _command(self, method, **parameters):
+        reply = self._socket.send_cmd(method, parameters)
+        assert "result" in reply, reply
+        return reply["result"]
 
     def open(self, address):
-        self._command("WebDriver:Navigate", {"url": address})
+        self._command("browsingContext.navigate", context=self._page, url=address, wait="complete")
 
-    def _async(self, script, args):
-        parameters = {"script": script, "args": args, "sandbox": None}
-        return self._command("WebDriver:ExecuteAsyncScript", parameters)["value"]
+    def run(self, script, *args):
+        """Run the body of an async function in the page, and return its result."""
+        function = f"(async (...args) => {{ {script} }})(...JSON.parse($given))"
+        reply = self._command(
+            "script.callFunction",
+            functionDeclaration=f"async $given => JSON.stringify(await {function})",
+            arguments=[{"type": "string", "value": json.dumps(args)}],
+            awaitPromise=True,
+            target={"context": self._page},
+        )
+        assert reply["type"] == "success", reply["exceptionDetails"]["text"]
+        return json.loads(reply["result"].get("value", "null"))
+
+    def middle(self, selector):
+        """Scroll to the first element that a selector finds, and return where its middle is."""
+        return self.run(
+            "const e = document.querySelector(args[0]); e.scrollIntoView({block: 'center'});"
+            "const b = e.getBoundingClientRect();"
+            "return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)",
+            selector,
+        )
 
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
-        how = {"using": "css selector", "value": selector}
-        (element,) = self._command("WebDriver:FindElement", how)["value"].values()
-        self._command("WebDriver:ElementClick", {"id": element})
+        self.tap("mouse", [self.middle(selector)])
+
+    def tap(self, kind, *paths):
+        """Move pointers along paths at once, from where they press to where they let go."""
+        fingers = [
+            [
+                {"type": "pointerMove", "x": path[0][0], "y": path[0][1], "duration": 20},
+                {"type": "pointerDown", "button": 0},
+                *({"type": "pointerMove", "x": x, "y": y, "duration": 50} for x, y in path[1:]),
+                {"type": "pointerUp", "button": 0},
+            ]
+            for path in paths
+        ]
+        parameters = {"pointerType": kind}
+        actions = [
+            {"type": "pointer", "id": f"{kind}{i}", "parameters": parameters, "actions": finger}
+            for i, finger in enumerate(fingers)
+        ]
+        self._command("input.performActions", context=self._page, actions=actions)
+        self._command("input.releaseActions", context=self._page)
 
     def errors(self):
-        """Return lines about exceptions in pages since the last call.
+        """Return exceptions in the page since the last call."""
+        texts = [each["text"] for each in self._messages if each["type"] == "javascript"]
+        self._messages.clear()
+        return texts
 
-        Other lines of the console may be the browser's own.
-        """
-        self._log.seek(self._read)
-        text = self._log.read()
-        self._read = self._log.tell()
-        marks = "JavaScript error: file:", "JavaScript error: blob:"
-        return [line for line in text.splitlines() if any(mark in line for mark in marks)]
-
-    def quit(self):
+    def close(self):
         try:
-            self._command("Marionette:Quit", {"flags": ["eForceQuit"]})
+            self._command("browser.close")
             self._process.wait(30)
-        except (OSError, ValueError, ScriptError, subprocess.TimeoutExpired):
+        finally:
             self._process.kill()
-        self._socket.close()
-        self._log.close()
+            self._socket.close()

@@ -18,7 +18,7 @@ def browser(request, tmp_path_factory):
     file = folder / "page.html"
     script = f"<script>{page.kernel_scripts()}\n{SCRIPT}</script>"
     file.write_text(f'<!doctype html><meta charset="utf-8">{script}', encoding="utf-8")
-    with browsers.start(request.param, folder / "profile") as opened:
+    with browsers.started(request.param, folder / "profile") as opened:
         opened.open(file.as_uri())
         yield opened
 
@@ -32,7 +32,7 @@ def address(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def chromium(tmp_path_factory):
-    with browsers.start("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
+    with browsers.started("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
         yield browser
 
 

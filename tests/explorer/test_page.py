@@ -484,17 +484,13 @@ return found;
 
 
 def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
-    with browsers.start("firefox", tmp_path / "firefox", 1280, 1000) as firefox:
+    with browsers.started("firefox", tmp_path / "firefox", 1280, 1000) as firefox:
         firefox.open(address)
         rows = "return [...document.querySelectorAll('#orbits .facts')].map(n => n.textContent)"
         wait_for(lambda: firefox.run(rows)[-1:] and "25,000" in firefox.run(rows)[-1])
         exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, ENERGY), 25000, 1)["exponent"]
         assert f"exponent {float(exponent[0, 0]):.4g} " in firefox.run(rows)[-1]
-        across, down = firefox.run(
-            "const b = document.getElementById('section').getBoundingClientRect();"
-            "return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)"
-        )
-        tap(firefox, "mouse", [(across, down)])
+        firefox.click("#section")
         hint = "return document.getElementById('hint').textContent"
         wait_for(lambda: firefox.run(hint).startswith("This orbit is"))
         assert len(firefox.run(rows)) == 9
@@ -504,32 +500,13 @@ def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
         )
         wait_for(lambda: "view" in firefox.run("return location.hash"))
         before = firefox.run(half)
+        across, down = firefox.middle("#section")
         apart = [[(across + side * d, down) for d in (30, 50, 90)] for side in (-1, 1)]
-        tap(firefox, "touch", *apart)  # two fingers
+        firefox.tap("touch", *apart)  # two fingers
         wait_for(lambda: firefox.run(half) < 0.5 * before)
-        tap(firefox, "touch", [(across, down)])
+        firefox.tap("touch", [(across, down)])
         wait_for(lambda: len(firefox.run(rows)) == 10)
         firefox.run("location.hash = 'flux'")
         note = "return document.getElementById('branch-note').textContent"
         wait_for(lambda: "24 branches" in firefox.run(note))
         assert firefox.errors() == []
-
-
-def tap(firefox, kind, *paths):
-    """Move pointers along paths at the same time, from where they press to where they let go."""
-    fingers = [
-        [
-            {"type": "pointerMove", "x": path[0][0], "y": path[0][1], "duration": 20},
-            {"type": "pointerDown", "button": 0},
-            *({"type": "pointerMove", "x": x, "y": y, "duration": 50} for x, y in path[1:]),
-            {"type": "pointerUp", "button": 0},
-        ]
-        for path in paths
-    ]
-    parameters = {"pointerType": kind}
-    actions = [
-        {"type": "pointer", "id": f"{kind}{i}", "parameters": parameters, "actions": finger}
-        for i, finger in enumerate(fingers)
-    ]
-    firefox._command("WebDriver:PerformActions", {"actions": actions})
-    firefox._command("WebDriver:ReleaseActions")
