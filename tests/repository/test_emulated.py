@@ -11,7 +11,6 @@ it), which replaces the system's. A test whose requirements are missing is skipp
 
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -22,6 +21,8 @@ from project import ROOT, run
 from test_matrix import CONTROLS, probe
 
 from pipeline.checks.checksums import read_sums
+from pipeline.cli.packages import wheels
+from pipeline.cli.session import UsageError
 
 pytestmark = pytest.mark.emulated
 
@@ -30,14 +31,6 @@ DEBIAN = """
     libpython3.11-minimal libpython3.11-stdlib libreadline8 libsqlite3-0 libssl3 libstdc++6
     libtinfo6 libtirpc3 libuuid1 python3.11 python3.11-minimal zlib1g
 """
-WHEELS = """
-    annotated-types attrs certifi cftime contourpy cycler deflate fonttools jsonschema
-    jsonschema-specifications kiwisolver llvmlite matplotlib netcdf4 numba numpy packaging pandas
-    pillow pydantic pydantic-core pyparsing python-dateutil pyyaml referencing rpds-py six
-    typing-extensions typing-inspection tzdata xarray
-"""
-PLATFORMS = [f"manylinux_2_{minor}_aarch64" for minor in (28, 27, 26, 24, 17)]
-PLATFORMS += ["manylinux2014_aarch64"]
 
 
 def require(*tools):
@@ -70,20 +63,13 @@ def aarch64(tmp_path_factory):
     run_or_skip("apt-get", "download", *(f"{name}:arm64" for name in DEBIAN.split()), cwd=debs)
     for package in debs.iterdir():
         run_or_skip("dpkg", "-x", package, folder / "root", cwd=folder)
-    locked = (ROOT / "requirements" / "lock.txt").read_text()
-    wanted = {
-        entry
-        for entry in re.split(r"^(?=[a-z0-9])", locked, flags=re.MULTILINE)
-        if entry.partition("==")[0] in WHEELS.split()
-    }
-    (folder / "lock.txt").write_text("".join(sorted(wanted)))
-    pip = [sys.executable, "-m", "pip", "download", "--no-deps", "--require-hashes", "-q"]
-    pip += ["--only-binary", ":all:", "--python-version", "3.11", "--implementation", "cp"]
-    pip += [f"--abi={abi}" for abi in ("cp311", "abi3", "none")]
-    pip += [f"--platform={platform}" for platform in PLATFORMS]
-    run_or_skip(*pip, "-r", "lock.txt", "-d", "wheels", cwd=folder)
-    for wheel in (folder / "wheels").iterdir():
-        zipfile.ZipFile(wheel).extractall(folder / "site")
+    try:
+        packages = wheels.download(folder / "packages", "3.11", "aarch64")
+    except UsageError as error:
+        pytest.skip(str(error))
+    for wheel in packages:
+        if wheel.suffix == ".whl":
+            zipfile.ZipFile(wheel).extractall(folder / "site")
     python = folder / "root" / "usr" / "bin" / "python3.11"
     command = ["qemu-aarch64", "-L", str(folder / "root"), str(python), "-s"]
     return command, {"PYTHONPATH": f"{ROOT / 'src'}{os.pathsep}{folder / 'site'}"}
