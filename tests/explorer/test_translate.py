@@ -202,20 +202,18 @@ REFUSED = {
     "a method": ("return a.real", 1, "Attribute"),
     "an unknown name": ("return a + unknown", 1, "the name unknown"),
     "a list": ("return [a]", 1, "List"),
-    "a lambda": ("h = lambda: a\n    return h()", 1, "Lambda"),
     "a division rounded down": ("return a // b", 1, "FloorDiv of anything but 64-bit integers"),
-    "a remainder": ("return a % b", 1, "Mod of anything but 64-bit integers"),
     "bits of numbers": ("return a & b", 1, "BitAnd of anything but 64-bit integers"),
-    "a matrix product": ("return a @ b", 1, "MatMult of anything but 64-bit integers"),
     "a number as a condition": ("return 1.0 if a else 2.0", 1, "a number here"),
     "a comparison with is": ("return 1.0 if a is b else 2.0", 1, "the comparison Is"),
-    "a loop over values": ("for i in (a, b):\n        a += i\n    return a", 1, "a loop over"),
+    "a loop over values": ("for i in (a, b):\n        a += i\n    return a", 1,
+                           "a loop over anything but range"),
     "an else of a loop": ("while a < b:\n        a += 1\n    else:\n        a = b\n    return a", 1,
                           "While"),
     "a loop's variable after it": ("for i in range(3):\n        a += 1\n    return a + i", 3,
                                    "the name i"),
     "several results in a condition": ("return 1.0 if other(a) > b else 2.0", 1,
-                                       "other, with several results, in a condition"),
+                                       "other, with several results, in a condition or a choice,"),
     "several results in a choice": ("b, a = other(a) if a > b else (a, b)\n    return a", 1,
                                     "other, with several results, in a condition or a choice,"),
     "another number of arguments": ("a, b = other(a, b)\n    return a", 1,
@@ -229,21 +227,13 @@ REFUSED = {
     "a keyword argument": ("return other(t=a)", 1, "a keyword argument"),
     "a star": ("return max(*other(a))", 1, "the call of max"),
     "try": ("try:\n        return a\n    finally:\n        b = a", 1, "Try"),
-    "with": ("with a:\n        return b", 1, "With"),
-    "an assertion": ("assert a > b\n    return a", 1, "Assert"),
-    "a walrus": ("return (c := a) + c", 1, "NamedExpr"),
-    "an inner function": ("def h():\n        return a\n    return h()", 1, "FunctionDef"),
     "no result": ("a = b", 0, "f, which returns nothing,"),
     "an empty return": ("if a > b:\n        return\n    return a", 2, "a return of nothing"),
-    "another exception": ('raise ValueError("no")', 1, "Raise"),
     "two meanings": ("c = other(a)\n    c_0 = b\n    return c[0] + c_0", 0,
                      "f, in which c_0 has two meanings,"),
     "itself": ("return f(b, a)", 0, "the recursive function f"),
     "an array": ("c = np.zeros(3)\n    return a", 1, "the call of np.zeros"),
-    "a text": ('return "a"', 1, "Constant"),
     "an imaginary number": ("return a * 2j", 1, "Constant"),
-    "an annotation": ("c: float = a\n    return c", 1, "AnnAssign"),
-    "a global": ("global c\n    return a", 1, "Global"),
 }  # fmt: skip
 BODY = """@jit
 def f(a, b):
@@ -271,10 +261,8 @@ REFUSED_MODULES = {
     "a syntax error": ("def f(a:\n", "kernel/zoo.py:"),
     "no such function": ("", "kernel/zoo.py: there is no function f"),
 }  # fmt: skip
-
-
 for fault, (body, below, words) in REFUSED.items():  # `def f` stands in line 9
-    REFUSED_MODULES[fault] = BODY.format(body), f"kernel/zoo.py:{9 + below}: {words}"
+    REFUSED_MODULES[fault] = BODY.format(body), f"kernel/zoo.py:{9 + below}: {words} is not transl"
 
 
 @pytest.mark.parametrize("fault", REFUSED_MODULES)
@@ -284,7 +272,6 @@ def test_what_is_not_known_is_refused_with_file_and_line(tmp_path, fault):
         translator(tmp_path, text).function("zoo", "f")
     message = str(caught.value)
     assert message.startswith(words) and "\n" not in message, message
-    assert fault not in REFUSED or message.endswith(" is not translated")
 
 
 def test_a_fixed_parameter_disappears_with_what_it_excludes(tmp_path):
@@ -328,31 +315,12 @@ def test_a_variable_that_hides_a_function_is_refused(tmp_path):
         hiding.function("zoo", "f")
 
 
-# Edits of the kernel's Python, and what they change in the script.
-EDITS = {
-    "a constant": ("flight.py", "_SLACK = 1e-17", "_SLACK = 2e-17", "const _SLACK = 2e-17;"),
-    "an operation": ("impact.py", "    v = b + g * tau\n", "    v = g * tau + b\n",
-                     "v = g * tau + b;"),
-    "a function": ("impact_law.py", "return v - k * e, w - e, s", "return v - e * k, w - e, s",
-                   "$out[0] = v - e * k;"),
-    "a choice": ("arithmetic.py", "if abs(t) < WIDE:\n        return narrow_quadrant(t)",
-                 "if abs(t) <= WIDE:\n        return narrow_quadrant(t)", "Math.abs(t) <= WIDE"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("edit", EDITS)
-def test_an_edited_kernel_changes_the_script(tmp_path, edit):
-    file, old, new, expected = EDITS[edit]
+def test_the_script_follows_the_kernel_and_not_its_comments(tmp_path):
     folder = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=NO_CACHES)
+    file = folder / "impact_law.py"
+    text = file.read_text()
+    unused = "# A comment.\n@jit\ndef unused(a):\n    return math.sin(a)\n"
+    file.write_text(f"{text}\n\n{unused}")
     assert kernel.javascript(folder) == kernel.javascript()
-    text = (folder / file).read_text()
-    assert text.count(old) == 1
-    (folder / file).write_text(text.replace(old, new))
-    assert expected not in kernel.javascript() and expected in kernel.javascript(folder)
-
-
-def test_comments_and_what_is_not_called_change_nothing(tmp_path):
-    folder = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=NO_CACHES)
-    with (folder / "flight.py").open("a") as file:
-        file.write("\n\n# A comment.\n@jit\ndef unused(a):\n    return math.sin(a)\n")
-    assert kernel.javascript(folder) == kernel.javascript()
+    file.write_text(text.replace("return v - k * e, w - e, s", "return v - e * k, w - e, s"))
+    assert "$out[0] = v - e * k;" in kernel.javascript(folder)
