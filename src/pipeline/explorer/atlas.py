@@ -27,7 +27,7 @@ def stored() -> dict[str, Any]:
     """Return the committed map.
 
     `k` and `energy`, in g^2, are the values of the grid, and `regular` the shares in STEPS as bytes
-    in base64, row by row of k. `sha256` is the hash of the shares that were rounded.
+    in base64, row by row of k.
     """
     atlas: dict[str, Any] = json.loads(_FILE.read_text(encoding="utf-8"))
     return atlas

@@ -8,19 +8,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from .values import Function, Scalar, constant
-
-# Words that cannot name a variable of a script, and names that the translation uses.
-RESERVED = frozenset(
-    (
-        *("arguments", "await", "case", "catch", "class", "const", "debugger", "default", "delete"),
-        *("do", "enum", "eval", "export", "extends", "function", "implements", "import", "in"),
-        *("instanceof", "interface", "let", "new", "null", "package", "private", "protected"),
-        *("public", "static", "super", "switch", "this", "throw", "try", "typeof", "undefined"),
-        *("var", "void", "with", "yield", "BigInt", "BigInt64Array", "Error", "Float64Array"),
-        *("Infinity", "Math", "NaN", "Number"),
-    )
-)
+from .values import Function, Scalar, constant, safe
 
 
 class TranslationError(ValueError):
@@ -108,11 +96,6 @@ class Modules:
                 except Exception as error:
                     self.refuse(module, node, f"a constant ({type(error).__name__}: {error})")
         return source.constants
-
-
-def safe(name: str) -> str:
-    """Return a name that a variable of a script may have."""
-    return f"{name}_" if name in RESERVED else name
 
 
 def _read(path: Path, shown: str) -> Module:

@@ -15,6 +15,18 @@ _PHRASES = {
 # Precedence of JavaScript's operators.
 TERNARY, OR, AND, EQUAL, LESS, SHIFT, SUM, PRODUCT, UNARY, ATOM = range(2, 12)
 
+# Words that cannot name a variable of a script, and names that the translation uses.
+RESERVED = frozenset(
+    (
+        *("arguments", "await", "case", "catch", "class", "const", "debugger", "default", "delete"),
+        *("do", "enum", "eval", "export", "extends", "function", "implements", "import", "in"),
+        *("instanceof", "interface", "let", "new", "null", "package", "private", "protected"),
+        *("public", "static", "super", "switch", "this", "throw", "try", "typeof", "undefined"),
+        *("var", "void", "with", "yield", "BigInt", "BigInt64Array", "Error", "Float64Array"),
+        *("Infinity", "Math", "NaN", "Number"),
+    )
+)
+
 
 @dataclass(frozen=True)
 class Scalar:
@@ -66,6 +78,11 @@ def long_literal(value: int) -> str:
     return f"{hex(value) if value > 255 else value}n"
 
 
+def safe(name: str) -> str:
+    """Return a name that a variable of a script may have."""
+    return f"{name}_" if name in RESERVED else name
+
+
 def leaves_of(value: Value) -> list[Scalar]:
     """Return the scalars of a value, in order."""
     if isinstance(value, Scalar):
@@ -90,9 +107,9 @@ def filled(shape: Shape, scalars: Iterator[Scalar]) -> Value:
 
 
 def variables_of(name: str, shape: Shape) -> Value:
-    """Return the variables that hold a value of a shape: `a`, or `a_0`, `a_1`, ..."""
+    """Return the JavaScript variables that hold a value: `a`, or `a_0`, `a_1`, ..."""
     if isinstance(shape, str):
-        return Scalar(name, shape)
+        return Scalar(safe(name), shape)
     return [variables_of(f"{name}_{i}", each) for i, each in enumerate(shape)]
 
 
