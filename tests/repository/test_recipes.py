@@ -14,18 +14,15 @@ FILES = {
 from ..axes.limits import complete, of_data
 from ..axes.plane import Plane
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 
 
 @style.pinned()
 def draw(scene, orbits, flights):
-    """Return the Figure of x' against x, one hue per orbit."""
+    """Return the Figure of x' against x."""
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
     picture = Plane(scene, ("x", "next"), ("$x$", "$x'$"))
-    for i, span in enumerate(rows(orbits)):
-        hue = style.HUES[i % len(style.HUES)]
-        picture.dots(x[span][:-1], x[span][1:], hue, 1.5)
+    picture.dots(x[:-1], x[1:], style.HUES[0], 1.5)
     return picture.figure
 ''',
     "src/pipeline/config/schema/kinds/returns.py": '''
@@ -67,9 +64,8 @@ def mean_flights(ball, energy, orbits):
     return xr.Dataset(variables("orbit", [np.array(means)], {"mean": "mean time of flight"}))
 ''',
 }
-STAGES = "src/pipeline/config/schema/stages.py"
-ROW = """    "flights": Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False),
-}
+ROW = """
+STAGES["flights"] = Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False)
 """
 SCENE = {"picture": "returns", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
 DOCUMENT = {
@@ -77,8 +73,6 @@ DOCUMENT = {
     "scenes": {"map": SCENE},
     "variants": {"low": {"energy": 0.0017}},
 }
-
-
 CAPTION = """
 [kinds.returns]
 title = "the next position against the present one"
@@ -98,19 +92,12 @@ returns:
 def copy(tmp_path):
     """A copy of the project with a new kind, a new stage and a scene of them."""
     tree = fresh_tree(tmp_path / "recipes", DOCUMENT)
-    for name, text in {
-        "checks/report/captions.toml": CAPTION,
-        "config/schema/kinds/examples.yaml": EXAMPLE,
-    }.items():
-        with (tree.path / "src/pipeline" / name).open("a") as file:
-            file.write(text)
+    tree.append("pipeline/checks/report/captions.toml", CAPTION)
+    tree.append("pipeline/config/schema/kinds/examples.yaml", EXAMPLE)
     for name, text in FILES.items():
         assert not (tree.path / name).exists()
         (tree.path / name).write_text(text.lstrip())
-    table = tree.path / STAGES
-    text = table.read_text()
-    start = text.index("\n}\n", text.index("\nSTAGES = {")) + 1
-    table.write_text(text[:start] + ROW + text[start + 2 :])
+    tree.append("pipeline/config/schema/stages.py", ROW)
     tree.warm()
     return tree
 
@@ -130,13 +117,10 @@ def test_a_kind_and_a_stage_are_three_files_each(copy):
 
     for change, line in (
         ({"start": [0.1]}, "map.start: unknown key: did you mean starts?"),
-        ({"starts": [1.5]}, "map.starts[0]: 1.5 is not allowed: expected a fraction"),
         ({"axes": {"y": {}}}, "map.axes.y: unknown key: allowed here: x, next"),
     ):
         copy.write(DOCUMENT | {"scenes": {"map": SCENE | change}})
-        result = copy.run()
-        assert (result.returncode, result.stdout.count("\n")) == (1, 1)
-        assert result.stdout.startswith(f"config.yaml: scenes.{line}")
+        assert copy.run().stdout == f"config.yaml: scenes.{line}\n"
     copy.write(DOCUMENT)
 
     (copy.path / "docs").mkdir()
@@ -155,6 +139,5 @@ def test_a_kind_and_a_stage_are_three_files_each(copy):
     result = copy.run("verify")
     assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
     assert "map.png  identical\n" in result.stdout
-    with (copy.path / "src" / "pseudorigid" / "dynamics" / "flights.py").open("a") as file:
-        file.write("_EDITED = 1\n")
+    copy.append("pseudorigid/dynamics/flights.py")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
