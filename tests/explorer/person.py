@@ -158,7 +158,7 @@ class Person:
 
     def every_point(self):
         """The impacts of all orbits on the page, joined as in a dataset of orbits."""
-        columns = {"x": [], "xdot": [], "udot": []}
+        columns = {"x": [], "xdot": [], "udot": [], "tau": []}
         for at in range(len(self.orbits())):
             self.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
             rows = self.saved()[1:]

@@ -29,6 +29,8 @@ def test_orbits_of_two_clicks_are_copied(person, tmp_path):
     person.click(0.4, 0.3)
     person.click(-0.2)
     assert len(person.settled()) == 2
+    places = [start.split("*")[0].split(":") for start in person.state()["orbits"].split(";")]
+    assert np.allclose([*map(float, places[0]), float(places[1][0])], [0.4, 0.3, -0.2], atol=0.01)
     name, block = copied(person, "portrait")
     document = shipped() | {"scenes": {name: block}, "variants": {}}
     (tmp_path / "config.yaml").write_text(yaml.safe_dump(document))
