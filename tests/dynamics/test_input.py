@@ -26,13 +26,17 @@ def trace(**arguments):
 
 def results(name, call, value, **others):
     """Call a function with one argument replaced, and return the values of its result."""
-    found = call(**others | {name: value})
+    return values_of(call(**others | {name: value}))
+
+
+def values_of(found):
+    """Return the values of a function's result."""
     if isinstance(found, xr.Dataset):
         return [found[variable].values for variable in sorted(found.data_vars)]
     if isinstance(found, Ball):
         return [found.k, found.g]
     if isinstance(found, ImpactMap):
-        return list(found.root_finder)
+        return list(found.scan)
     return list(found) if isinstance(found, tuple) else [found]
 
 
@@ -147,6 +151,50 @@ def test_a_coordinate_that_is_not_finite_gives_nan_only_there(case):
     for bad in (np.nan, np.inf, -np.inf, np.ma.masked):
         for found in results(name, call, bad, **others):
             assert np.isnan(found).all()
+
+
+def arrays(layout):
+    """Return read-only arrays x, xdot and udot of the shape (3, 4), or that broadcast to it."""
+    state = [np.linspace(-0.3, 0.3, 3)[:, None], np.array(0.1), np.linspace(0.1, 0.3, 4)]
+    if layout:
+        state = [layout(np.array(a)) for a in np.broadcast_arrays(*state)]
+    for array in state:
+        array.flags.writeable = False
+    return state
+
+
+LAYOUTS = {
+    "broadcast": None,
+    "plain": np.asarray,
+    "strided": lambda a: np.repeat(a, 2, axis=1)[:, ::2],
+    "fortran": np.asfortranarray,
+    "reversed": lambda a: a[:, ::-1],
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("call", FUNCTIONS_OF_STATES)
+def test_each_element_has_the_bits_of_the_scalar_call(call, layout):
+    state = arrays(LAYOUTS[layout])
+    found = values_of(call(*state))
+    x, xdot, udot = np.broadcast_arrays(*state)
+    for i in np.ndindex(3, 4):
+        for all_of, alone in zip(found, values_of(call(x[i], xdot[i], udot[i])), strict=True):
+            assert all_of.dtype == np.float64 and type(alone) in (float, np.ndarray)
+            assert np.reshape(all_of, (3, 4, -1))[i].tobytes() == np.asarray(alone).tobytes()
+
+
+@pytest.mark.parametrize("call", FUNCTIONS_OF_STATES)
+def test_shapes_that_do_not_broadcast_are_rejected(call):
+    with pytest.raises(ValueError, match="broadcast"):
+        call(np.zeros(2), np.zeros(3), 0.1)
+
+
+@pytest.mark.parametrize("call", FUNCTIONS_OF_STATES[1:])
+def test_states_off_the_section_are_rejected(call):
+    for udot in (-0.2, [0.2, -0.2]):
+        with pytest.raises(ValueError, match=r"xdot \+ udot"):
+            call(0.1, 0.1, udot)
 
 
 @pytest.mark.parametrize("case", COORDINATES)

@@ -56,9 +56,7 @@ def distances(points, line):
 
 def mapped(points, impacts):
     """Return the points (3, n) some impacts later."""
-    columns = [a.copy() for a in points]
-    BALL.map.steps(*columns, BALL.k, BALL.g, impacts, np.empty(points.shape[1]))
-    return np.stack(columns)
+    return BALL.after(points, impacts)[:3]
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -94,20 +92,13 @@ def test_a_branch_is_mapped_into_itself(orbit, energy, side, length, mapped_leng
     assert np.max(distances(mapped(part, orbit.sizes["point"]), branch)) < limit * radius
 
 
-@pytest.mark.parametrize("stable", [False, True])
-def test_a_branch_leaves_or_approaches_its_point_by_the_multiplier(stable):
-    branch = line(saddle=2, stable=stable, length=0.01)
-    distance = norm(branch - branch[:, :1])
-    near = (distance > 1e-6 * RADIUS) & (distance < 1e-5 * RADIUS)
-    ratio = norm(mapped(branch[:, near], 6) - branch[:, :1]) / distance[near]
-    multiplier = float(SADDLE["multiplier"])
-    assert ratio == pytest.approx(1.0 / multiplier if stable else multiplier, rel=1e-3)
-
-
-def test_the_stable_branch_is_the_mirror_image():
-    mirrored = np.stack(BALL.reflect(*line(saddle=1, length=0.5)))
+@pytest.mark.parametrize(("orbit", "energy"), [(SADDLE, ENERGY), (WEAK, WEAK_ENERGY)])
+def test_the_stable_branch_is_the_mirror_image(orbit, energy):
+    options = {"energy": energy, "length": 0.5}
+    mirrored = np.stack(BALL.reflect(*line(orbit, 1, **options)))
+    found = line(orbit, 0, stable=True, **options)
     # Rounding may shift points along the line.
-    assert np.max(distances(mirrored, line(stable=True, length=0.5))) < 1e-4 * RADIUS
+    assert np.max(distances(mirrored, found)) < 1e-4 * BALL.section(energy)[1]
 
 
 @pytest.mark.parametrize("saddle", range(6))
@@ -211,18 +202,6 @@ def test_a_weak_branch_has_few_vertices_and_the_documented_accuracy(energy, side
     assert "ended" not in branch.attrs
     fine = line(orbit, energy=energy, side=side, length=0.52, distance=0.001, bend=1.0)
     assert np.max(distances(points[:, :-2], fine)) < 2e-6 * radius
-
-
-@pytest.mark.parametrize(("side", "length"), [("inner", 0.8), ("outer", 0.6)])
-def test_mapping_images_and_mapping_the_segment_give_one_line(side, length, monkeypatch):
-    """Both ways are accurate at the paper's saddle, treated as if it were weak."""
-    options = {"side": side, "length": length, "distance": 0.005, "bend": 3.0}
-    expected = line(**options)
-    monkeypatch.setattr(rule, "WEAK", 3.0)
-    branch = trace_manifold(BALL, ENERGY, SADDLE, **options)
-    assert "ended" not in branch.attrs
-    # One line may be longer by a vertex.
-    assert np.max(distances(states_of(branch)[:, :-2], expected)) < 1e-5 * RADIUS
 
 
 def test_a_branch_ends_where_rounding_takes_over():

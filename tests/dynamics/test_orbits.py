@@ -7,7 +7,7 @@ import pytest
 from cycles import SETTINGS, motion_of
 from sections import BALL
 
-from pseudorigid import Ball, orbit, symmetric_orbits
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
@@ -44,6 +44,9 @@ def test_an_orbit_has_the_bits_of_single_impacts():
 @pytest.mark.parametrize("impacts", [1, 7, np.int64(17), 200.0])
 def test_dims_follow_the_state_and_keep_last_returns_the_last_impact(fractions, dims, impacts):
     state = BALL.start(fractions, 0.01)
+    exponent = lyapunov_spectrum(BALL, state, 5, records=1)["exponent"]
+    assert exponent.dims == ("impact", *dims, "index")
+    assert exponent.shape == (1, *np.shape(fractions), 3)
     found = orbit(BALL, state, impacts)
     last = orbit(BALL, state, impacts, keep="last")
     for name in NAMES:
@@ -54,31 +57,6 @@ def test_dims_follow_the_state_and_keep_last_returns_the_last_impact(fractions, 
         assert last[name].dims == dims
         assert bits(last[name].values) == bits(found[name].values[-1])
     assert found["impact"].values.tolist() == list(range(1, int(impacts) + 1))
-
-
-LAYOUTS = {
-    "plain": np.asarray,
-    "strided": lambda a: np.repeat(a, 2, axis=1)[:, ::2],
-    "fortran": np.asfortranarray,
-    "reversed": lambda a: a[:, ::-1],
-}
-
-
-@pytest.mark.parametrize("layout", LAYOUTS)
-def test_each_element_has_the_bits_of_the_scalar_call(layout):
-    state = [LAYOUTS[layout](a) for a in BALL.start(FRACTIONS, 0.01)]
-    before = bits(state)
-    together = values(orbit(BALL, state, 400))
-    assert bits(state) == before  # arguments are not changed
-    for i in np.ndindex(FRACTIONS.shape):
-        alone = values(orbit(BALL, [a[i] for a in state], 400))
-        assert bits(alone) == bits(together[(slice(None), slice(None), *i)])
-
-
-def test_states_broadcast():
-    state = [0.0, 0.1, 0.2], 0.05, [[0.1], [0.3]]
-    found = values(orbit(BALL, state, 5))
-    assert bits(found) == bits(values(orbit(BALL, np.broadcast_arrays(*state), 5)))
 
 
 def test_keep_last_takes_constant_memory():

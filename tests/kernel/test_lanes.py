@@ -1,39 +1,76 @@
-"""Orbits of an ensemble have the bits of single orbits, in lanes and in threads."""
+"""Orbits of an ensemble have the bits of single orbits: states, tangent vectors and exponents."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from sections import BALL, any_sea, sea
 
+from pseudorigid import lyapunov_spectrum
 from pseudorigid.dynamics import ensemble
-from pseudorigid.kernel import impact, lanes
+from pseudorigid.kernel import impact, lanes, tangents
+from pseudorigid.kernel.arithmetic import WIDE
+
+
+def vectors_of(states):
+    """Return a random tangent vector for each state, (3, n)."""
+    return np.random.default_rng(states[0].size).normal(size=(3, states[0].size))
 
 
 def orbit_by_orbit(states, ball, impacts):
-    """Return the history (n, impacts, 4) of each state, computed orbit by orbit."""
-    out = np.empty((states[0].size, impacts, 4))
-    impact.history(*(a.copy() for a in states), ball.k, ball.g, out, None)
-    return out
+    """Return the history (n, impacts, 4) of states and the last tangent vectors (3, n)."""
+    coefficients = impact.impact_coefficients(ball.k)
+    history, vectors = np.empty((states[0].size, impacts, 4)), vectors_of(states)
+    for i, state in enumerate(zip(*states, strict=True)):
+        x, v, w = state
+        for j in range(impacts):
+            x, v, w, tau, *flight, _ = impact.step_with_flight(
+                x, v, w, ball.k, ball.g, coefficients, None
+            )
+            history[i, j] = x, v, w, tau
+            vectors[:, i] = impact.tangent(
+                *vectors[:, i], ball.k, ball.g, coefficients, x, w, *flight
+            )
+    return history, vectors
 
 
-def in_lanes(states, ball, impacts):
-    """Return the history (n, impacts, 4) of each state, computed in lanes."""
-    out = np.empty((states[0].size, impacts, 4))
-    tau = np.empty(states[0].size)
-    ends = [a.copy() for a in states]
-    lanes.steps(*ends, ball.k, ball.g, impacts, tau, out)
-    assert np.array_equal(np.stack([*ends, tau], axis=1), out[:, -1], equal_nan=True)
-    return out
+def in_chunks(states, ball, impacts, root_finder=None):
+    """Return the last states (3, n) and tangent vectors (3, n), computed in chunks."""
+    ends, vectors = np.array(states), vectors_of(states)
+    coefficients = impact.impact_coefficients(ball.k)
+    for first in range(0, ends.shape[1], tangents.GROUP):
+        group, buffers = slice(first, first + tangents.GROUP), tangents.allocate_buffers()
+        for done in range(0, impacts, tangents.CHUNK):
+            count = min(tangents.CHUNK, impacts - done)
+            tangents.advance_chunk(
+                *(row[group] for row in ends), ball.k, ball.g, count, *buffers, root_finder
+            )
+            for row, i in np.ndindex(count, ends[0, group].size):
+                vectors[:, first + i] = tangents.push_tangent(
+                    *vectors[:, first + i], ball.k, ball.g, coefficients, *buffers,
+                    row * tangents.GROUP + i,
+                )  # fmt: skip
+    return ends, vectors
 
 
 def assert_same_bits(states, ball, impacts):
-    alone = orbit_by_orbit(states, ball, impacts)
-    assert np.array_equal(in_lanes(states, ball, impacts), alone, equal_nan=True)
+    """Compare lanes and chunks with single orbits, and return the tangent vectors."""
+    expected, expected_vectors = orbit_by_orbit(states, ball, impacts)
+    ends, tau, out = np.array(states), np.empty(len(expected)), np.empty_like(expected)
+    lanes.steps(*ends, ball.k, ball.g, impacts, tau, out)
+    assert np.array_equal(out, expected, equal_nan=True)
+    assert np.array_equal([*ends, tau], expected[:, -1].T, equal_nan=True)
+    ends, vectors = in_chunks(states, ball, impacts)
+    assert np.array_equal(ends, expected[:, -1, :3].T, equal_nan=True)
+    assert np.array_equal(vectors, expected_vectors, equal_nan=True)
+    return vectors
 
 
-@pytest.mark.parametrize("n", [1, 2, 33, lanes.LANES, lanes.LANES + 1])
+MIN_ORBITS = lanes.MIN_ORBITS_FOR_LANES
+
+
+@pytest.mark.parametrize("n", [1, MIN_ORBITS - 1, MIN_ORBITS, 33, lanes.LANES, lanes.LANES + 1])
 def test_every_lane_has_the_bits_of_one_orbit(n):
-    assert_same_bits(sea(n), BALL, 150)
+    assert_same_bits(sea(n), BALL, 2 * tangents.CHUNK + 9)
 
 
 @settings(max_examples=30, deadline=None)
@@ -44,7 +81,7 @@ def test_lanes_for_any_ball_and_energy(ball_and_states):
 
 
 def test_states_that_leave_their_lane():
-    """Mix ordinary states with ones on the rim, huge, tiny, NaN and infinite."""
+    """Mix ordinary states with ones on the rim, huge, tiny, NaN and infinite, and long flights."""
     x, v, w = sea(60)
     x[3], v[3], w[3] = -0.04, 0.05, -0.05
     x[7], v[7], w[7] = 0.1, 0.05, -0.05
@@ -53,33 +90,28 @@ def test_states_that_leave_their_lane():
     x[19], v[19], w[19] = 2.0**300, 2.0**300, 2.0**300
     x[23], v[23], w[23] = 2.0**-300, 0.0, 2.0**-300
     x[27], v[27], w[27] = 0.0, 1e9, 0.0
-    assert_same_bits((x, v, w), BALL, 5)
+    x[31], v[31], w[31] = 0.0, 0.0, 1e9
+    assert BALL.time_to_impact(x[31], v[31], w[31]) > WIDE
+    vectors = assert_same_bits((x, v, w), BALL, 5)
+    assert np.all(np.isfinite(vectors[:, 31])) and np.all(np.isnan(vectors[:, 11]))
 
 
-def test_few_flights_leave_their_lane():
+def test_few_flights_leave_their_lane(monkeypatch):
     """`impact.step` may do few flights only, or lanes would gain nothing."""
-    n, impacts = lanes.LANES, 300
+    n, impacts, step_alone, alone = lanes.LANES, 300, lanes._step_alone, []
+
+    def counted(*arguments):
+        alone.append(arguments)
+        step_alone(*arguments)
+
+    monkeypatch.setattr(lanes, "_step_alone", counted)
     row, orbit = np.zeros(lanes.SIZE), np.empty(n, np.int64)
     for first, values in zip((lanes.X, lanes.V, lanes.W), sea(n), strict=True):
         row[first : first + n] = values
-    coefficients = impact.impact_coefficients(BALL.k)
-    alone = 0
     for _ in range(impacts):
-        flying, orbit[:] = n, np.arange(n)
-        lanes._begin_flights(row, n, BALL.k, BALL.g, coefficients)
-        while flying:
-            lanes._gaps(row, flying, BALL.g)
-            lanes._find_ends(row, flying, BALL.g)
-            lanes._land(row, flying, BALL.g)
-            flying = lanes._close_up(row, orbit, flying)
-            lanes._march(row, flying, BALL.g)
-            lanes._choose(row, flying)
-            for i in range(flying):
-                odd = row[lanes.ODD + i]
-                if odd == lanes._ALONE or (odd and not lanes._stride_alone(row, i, BALL.g)):
-                    lanes._step_alone(row, orbit, i, BALL.k, BALL.g, coefficients)
-                    alone += 1
-    assert alone < 0.005 * n * impacts
+        coefficients = impact.impact_coefficients(BALL.k)
+        lanes._advance.py_func(row, orbit, n, BALL.k, BALL.g, coefficients)
+    assert len(alone) < 0.01 * n * impacts  # the last lane of an impact is always among them
 
 
 @pytest.mark.parametrize("threads", ["1", "3", "8", "", "many"])
@@ -87,18 +119,26 @@ def test_threads_do_not_matter(threads, monkeypatch):
     states = sea(300)
     assert 3 * ensemble.MIN_IMPACTS_PER_THREAD < 300 * 400
     assert 3 * ensemble.MIN_ORBITS_PER_THREAD < 300
-    expected = orbit_by_orbit(states, BALL, 400)
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
-    out = np.empty_like(expected)
-    BALL.map.history(*(a.copy() for a in states), BALL.k, BALL.g, out)
-    assert np.array_equal(out, expected)
-    ends, tau = [a.copy() for a in states], np.empty(300)
-    BALL.map.steps(*ends, BALL.k, BALL.g, 400, tau)
-    assert np.array_equal(np.stack([*ends, tau], axis=1), expected[:, -1])
+    out = BALL.history(states, 400)
+    assert np.array_equal(BALL.after(states, 400), out[:, -1].T)
+    spectra = lyapunov_spectrum(BALL, states, 400, 3)["exponent"].values
+    for i in (0, 31, 32, 149, 150, tangents.GROUP, 299):
+        alone = [a[i] for a in states]
+        assert np.array_equal(BALL.history(alone, 400)[0], out[i])
+        alone = lyapunov_spectrum(BALL, alone, 400, 3)["exponent"].values
+        assert np.array_equal(alone, spectra[:, i])
 
 
 def test_no_impacts_leave_the_states():
-    states = sea(40)
-    ends = [a.copy() for a in states]
-    BALL.map.steps(*ends, BALL.k, BALL.g, 0, np.empty(40))
-    assert all(np.array_equal(a, b) for a, b in zip(ends, states, strict=True))
+    assert np.array_equal(BALL.after(sea(40), 0)[:3], sea(40))
+
+
+def test_vectors_with_the_scan():
+    states, scan, steps = sea(20), (0.1, 1e-12), np.array(sea(20))
+    ends, found = in_chunks(states, BALL, 10, scan)
+    impact.steps(*steps, BALL.k, BALL.g, 10, np.empty(20), np.empty((20, 0, 4)), scan)
+    assert np.array_equal(ends, steps)
+    _, exact = in_chunks(states, BALL, 10)
+    assert not np.array_equal(found, exact)
+    assert found == pytest.approx(exact, rel=1e-4)

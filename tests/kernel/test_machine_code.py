@@ -30,9 +30,7 @@ def test_machine_code_is_strict():
     assert not impact.steps.targetoptions.get("parallel")
     state = section_states(BALL, 2)
     for kernel, arguments in (
-        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), None)),
-        (impact.steps_back, (*state, 0.2, 0.04, 1, np.empty(2), None)),
-        (impact.history, (*state, 0.2, 0.04, np.empty((2, 1, 4)), None)),
+        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)), None)),
         (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
         (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)), None)),
         (arithmetic.log, (2.0,)),

@@ -98,10 +98,10 @@ def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
     at = (at + np.pi) % (2 * np.pi) - np.pi
     length = 0.99 * share * np.interp(at, angle, radius, period=2 * np.pi)
     x, y = centre + length * np.array([np.cos(at), np.sin(at)])
-    states = [np.ascontiguousarray(row) for row in BALL.state_xy(x, y, 0.01)]
-    out, furthest, impacts = np.empty((400, 2_500, 4)), 0.0, 0
+    states, furthest, impacts = BALL.state_xy(x, y, 0.01), 0.0, 0
     for _ in range(100):
-        BALL.map.history(*states, 0.2, 0.04, out)
+        out = BALL.history(states, 2_500)
+        states = out[:, -1, :3].T
         dx, dy = chart(0.2, *np.moveaxis(out[..., :3], 2, 0)).reshape(2, -1) - centre
         bound = np.interp(np.arctan2(dy, dx), angle, radius, period=2 * np.pi)
         furthest = max(furthest, np.max((dx * dx + dy * dy) / (bound * bound)))

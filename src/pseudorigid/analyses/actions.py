@@ -193,12 +193,12 @@ def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int]
         crossings = _crossings(ball, states)
         if crossings.size:
             return float(parameters[crossings[0]]), impacts
-        ball.map.steps(*states, ball.k, ball.g, saddle.period, np.empty(parameters.size))
+        states = ball.after(states, saddle.period)[:3]
         impacts += saddle.period
     return None
 
 
-def _crossings(ball: Ball, states: list[np.ndarray]) -> np.ndarray:
+def _crossings(ball: Ball, states: np.ndarray) -> np.ndarray:
     """Indices of the states after which y changes its sign."""
     _, y = chart(ball.k, *states)
     return np.flatnonzero(y[1:] * y[:-1] <= 0.0)
@@ -210,16 +210,14 @@ def _scan_parameters(saddle: Saddle) -> np.ndarray:
     return _SCAN_END * (ratio + (1.0 - ratio) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS)
 
 
-def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> list[np.ndarray]:
+def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> np.ndarray:
     """States, in doubles, some impacts after the points of the branch's tangent."""
     ball = saddle.ball
     x, y = (
         float(a) + sign * parameters * float(e)
         for a, e in zip(saddle.point, saddle.direction, strict=True)
     )
-    states = [np.array(a) for a in ball.state_xy(x, y, float(saddle.surface.energy))]
-    ball.map.steps(*states, ball.k, ball.g, impacts, np.empty(x.size))
-    return states
+    return ball.after(ball.state_xy(x, y, float(saddle.surface.energy)), impacts)[:3]
 
 
 def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> tuple[float, int]:

@@ -27,6 +27,5 @@ def half_turns(k: float, states: np.ndarray) -> float:
 def trace_by_differences(ball: Ball, point: np.ndarray, step: float, period: int) -> float:
     """Return the trace of the map's iterate on the energy surface by forward differences."""
     states = np.concatenate([point[:, None], point[:, None] + step * np.eye(3)], axis=1)
-    x, v, w = after = [row.copy() for row in states]
-    ball.map.steps(x, v, w, ball.k, ball.g, period, np.empty(4))
+    after = ball.after(states, period)[:3]
     return sum(float(row[i + 1] - row[0]) for i, row in enumerate(after)) / step - 1.0

@@ -59,7 +59,7 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
     states = sea_states(ball, energy, between, orbits)
     out = np.full((orbits, impacts + 1, 4), math.nan)
     out[:, 0, :3] = np.transpose(states)
-    ball.map.history(*states, ball.k, ball.g, out[:, 1:])
+    out[:, 1:] = ball.history(states, impacts)
     tau = out[:, 1:, 3]
     edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
     time, depth, strain_energy, least, most = _strains(out, ball.k, ball.g)

@@ -226,10 +226,10 @@ def _region(ball: Ball, energy: float, arc: np.ndarray, points: int) -> np.ndarr
 
 def _images(ball: Ball, states: np.ndarray, count: int) -> list[np.ndarray]:
     """Return the points (2, n) of states (3, n) and of their images, `count` arrays in all."""
-    states, points = [np.array(values) for values in states], []
+    points = []
     for _ in range(count):
-        points.append(np.stack(chart(ball.k, *states)))
-        ball.map.steps(*states, ball.k, ball.g, 1, np.empty(states[0].size))
+        points.append(chart(ball.k, *states))
+        states = ball.after(states)[:3]
     return points
 
 

@@ -70,13 +70,12 @@ def _halves(number: int) -> np.ndarray:
 def _entered_cells(ball, energy, states, cells, visits):
     """Count the cells of the chart that orbits enter, at `visits` impacts and its halves."""
     centre, (radius, high) = ball.section(energy)[0], half_axes(ball, energy)
-    states = [a.copy() for a in states]
     entered = np.zeros((states[0].size, cells * cells), dtype=bool)
     lengths, done, counts = _halves(visits), 0, []
     for length in lengths.tolist():
         while done < length:
-            out = np.empty((len(entered), min(_CHUNK, length - done), 4))
-            ball.map.history(*states, ball.k, ball.g, out)
+            out = ball.history(states, min(_CHUNK, length - done))
+            states = out[:, -1, :3].T
             done += out.shape[1]
             x, y = chart(ball.k, *np.moveaxis(out[..., :3], -1, 0))
             across, up = _cell((x - centre) / radius, cells), _cell(y / high, cells)

@@ -1,12 +1,13 @@
 """Ball: its parameters, energy and section, and the impact map on numbers or arrays."""
 
-from collections.abc import Callable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import impact as kernel
 from ..kernel import section
 from ..kernel.impact_law import impact_coefficients, rebound
 from .ensemble import ImpactMap
@@ -167,14 +168,16 @@ class Ball:
         They are the state just before the next impact, and the time of flight, eq. (27). Where the
         ball only touches the floor, tau is defined to the square root of a rounding.
         """
-        return self._map_once(self.map.steps, x, xdot, udot)
+        columns, shape = self.columns(x, xdot, udot)
+        return tuple(_plain(a.reshape(shape)) for a in self.after(columns))
 
     def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
 
         It returns x, xdot, udot just before the previous impact, and the time of flight since then.
         """
-        return self._map_once(self.map.steps_back, x, xdot, udot)
+        *state, tau = self.impact(*self.reflect(x, xdot, udot))
+        return *self.reflect(*state), tau
 
     def jacobian(
         self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
@@ -188,7 +191,8 @@ class Ball:
         impacts = whole_number("impacts", impacts)
         columns, shape = self.columns(x, xdot, udot)
         out = np.empty((columns[0].size, 3, 3))
-        self.map.jacobians(*columns, self.k, self.g, impacts, out)
+        missed = kernel.jacobians(*columns, self.k, self.g, impacts, out, self.map.scan)
+        self.map.count(impacts * columns[0].size, missed)
         return out.reshape(*shape, 3, 3)
 
     @np.errstate(all="ignore")
@@ -227,13 +231,24 @@ class Ball:
         x, xdot, udot = self.on_section(x, xdot, udot)
         return (x.flatten(), xdot.flatten(), udot.flatten()), x.shape
 
-    def _map_once(
-        self, loop: Callable[..., None], x: ArrayLike, xdot: ArrayLike, udot: ArrayLike
-    ) -> NextState:
-        columns, shape = self.columns(x, xdot, udot)
-        tau = np.empty(columns[0].size)
-        loop(*columns, self.k, self.g, 1, tau)
-        return tuple(_plain(a.reshape(shape)) for a in (*columns, tau))
+    def after(self, states: Iterable[ArrayLike], impacts: int = 1) -> np.ndarray:
+        """Return x, xdot, udot and tau (4, n) some impacts after states (3, n) on the section."""
+        return np.stack(self._advanced(states, impacts, 0)[0])
+
+    def history(self, states: Iterable[ArrayLike], impacts: int) -> np.ndarray:
+        """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after states (3, n)."""
+        return self._advanced(states, impacts, impacts)[1]
+
+    def _advanced(
+        self, states: Iterable[ArrayLike], impacts: int, kept: int
+    ) -> tuple[list[np.ndarray], np.ndarray]:
+        """Return the last impact of each state, and `kept` impacts: none, or all."""
+        columns = [np.array(a, dtype=float, ndmin=1) for a in states]
+        columns.append(np.empty(columns[0].size))
+        out = np.empty((columns[0].size, kept, 4))
+        x, xdot, udot, tau = columns
+        self.map.steps(x, xdot, udot, self.k, self.g, impacts, tau, out)
+        return columns, out
 
 
 def _plain(array: Any) -> Any:

@@ -125,9 +125,7 @@ class Branch:
 
     def _image(self, states, images):
         """Return the states after a number of images."""
-        ball, columns = self.ball, [np.array(a) for a in states]
-        ball.map.steps(*columns, ball.k, ball.g, images * self.period, np.empty(columns[0].size))
-        return np.stack(columns)
+        return self.ball.after(states, images * self.period)[:3]
 
     def _mirror(self, states):
         return np.stack(self.ball.reflect(*states)) if self.mirrored else states

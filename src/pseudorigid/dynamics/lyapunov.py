@@ -2,8 +2,8 @@
 
 Benettin's method: the analytic Jacobian, eq. (33), carries an orthonormal frame of three vectors
 along the orbit, and the frame is made orthonormal again at each impact (Benettin et al. 1980,
-reference [18] of the paper). Kernels write the exponents of n orbits after each of the impacts
-`at` (m,) to `out` (n, m, 3), and return how many impacts were missed, as in `kernel.impact`.
+reference [18] of the paper). Kernels write the exponents after each of the impacts `at` (m,) to
+`out` (m, 3) or (n, m, 3), and return how many impacts were missed, as in `kernel.impact`.
 """
 
 import numpy as np
@@ -13,13 +13,7 @@ from ..kernel.arithmetic import log
 from ..kernel.compiled import jit
 from ..kernel.impact import impact_coefficients, step_with_flight
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
-from ..kernel.spectrum import (
-    in_range,
-    normalized,
-    orthogonal_part,
-    push_frame,
-    with_logarithms,
-)
+from ..kernel.spectrum import in_range, orthonormal, push_frame, with_logarithms
 from ..kernel.tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
 from .ball import Ball
 from .ensemble import shared
@@ -81,9 +75,12 @@ def lyapunov_spectrum(ball: Ball, state, impacts: int, records: int = 400) -> xr
         raise not_allowed("records", records, "fewer: memory is short") from None
 
     def piece(x, v, w, out):
-        few = x.size < MIN_ORBITS_FOR_LANES
-        spectra = _orbit_by_orbit if few else _in_groups  # the second one takes long to compile
-        return spectra(x, v, w, ball.k, ball.g, at, out, ball.map.root_finder)
+        parts, compute = range(x.size), _one_orbit
+        if x.size >= MIN_ORBITS_FOR_LANES:  # fewer are not worth the time to compile `_group`
+            parts = [slice(i, i + GROUP) for i in range(0, x.size, GROUP)]
+            compute = _group
+        k, g, scan = ball.k, ball.g, ball.map.scan
+        return sum(compute(x[i], v[i], w[i], k, g, at, out[i], scan) for i in parts)
 
     missed = shared(piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
@@ -133,50 +130,29 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
 
     Return whether one of the products of lengths nears the limits of a double.
     """
-    # `orthonormal` is not called here, because LLVM does not vectorise the loop with its tuples.
     extremes = 0
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
+        at = row + i
         a0, a1, a2 = frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i]
         b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
         c0, c1, c2 = frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i]
-        at = row + i
-        a0, a1, a2 = push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at)
-        b0, b1, b2 = push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at)
-        c0, c1, c2 = push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at)
-        p, a0, a1, a2 = normalized(a0, a1, a2)
-        q, b0, b1, b2 = normalized(*orthogonal_part(a0, a1, a2, b0, b1, b2))
-        c0, c1, c2 = orthogonal_part(a0, a1, a2, c0, c1, c2)
-        r, c0, c1, c2 = normalized(*orthogonal_part(b0, b1, b2, c0, c1, c2))
-        p, q, r = (
-            frames[_GROWN + i] * p,
-            frames[_GROWN + GROUP + i] * q,
-            frames[_GROWN + 2 * GROUP + i] * r,
+        p0, q0, r0 = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
+        p, q, r, a, b, c = orthonormal(
+            push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at),
+            push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at),
+            push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at),
         )
+        a0, a1, a2 = a
+        b0, b1, b2 = b
+        c0, c1, c2 = c
+        p, q, r = p0 * p, q0 * q, r0 * r
         frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i] = a0, a1, a2
         frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
         frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
         frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
         extremes += 0 if in_range(p) & in_range(q) & in_range(r) else 1
     return extremes > 0
-
-
-@jit
-def _collect(total, frames, i):
-    """Add the logarithms of the lengths of orbit i to its sums, and reset the lengths to 1."""
-    for m in range(3):
-        total[m, i] += log(frames[_GROWN + m * GROUP + i])
-        frames[_GROWN + m * GROUP + i] = 1.0
-
-
-@jit
-def _in_groups(x, v, w, k, g, at, out, root_finder):
-    """Compute the exponents of orbits in groups."""
-    missed = 0
-    for first in range(0, x.size, GROUP):
-        group = slice(first, min(first + GROUP, x.size))
-        missed += _group(x[group], v[group], w[group], k, g, at, out[group], root_finder)
-    return missed
 
 
 @jit
@@ -203,15 +179,6 @@ def _one_orbit(x, v, w, k, g, at, out, root_finder):
 
 
 @jit
-def _orbit_by_orbit(x, v, w, k, g, at, out, root_finder):
-    """Compute the exponents of orbits one after the other, which is faster for few orbits."""
-    missed = 0
-    for i in range(x.size):
-        missed += _one_orbit(x[i], v[i], w[i], k, g, at, out[i], root_finder)
-    return missed
-
-
-@jit
 def _group(x, v, w, k, g, at, out, root_finder):
     """Compute the exponents of at most GROUP orbits."""
     n = x.size
@@ -228,19 +195,21 @@ def _group(x, v, w, k, g, at, out, root_finder):
             missed += advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder)
             for row in range(0, impacts * GROUP, GROUP):
                 if _advance(frames, n, k, g, coefficients, states, flights, row):
-                    _collect_extremes(total, frames, n)
+                    _collect(total, frames, n, False)
             done += impacts
+        _collect(total, frames, n, True)
         for i in range(n):
-            _collect(total, frames, i)
             for j in range(3):
                 out[i, m, j] = total[j, i] / done
     return missed
 
 
 @jit
-def _collect_extremes(total, frames, n):
-    """Collect the lengths of orbits for which one nears the limits of a double."""
+def _collect(total, frames, n, every):
+    """Add the logarithms of lengths to the sums of every orbit, or of those with an extreme one."""
     for i in range(n):
         p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
-        if not (in_range(p) and in_range(q) and in_range(r)):
-            _collect(total, frames, i)
+        if every or not (in_range(p) and in_range(q) and in_range(r)):
+            for m in range(3):
+                total[m, i] += log(frames[_GROWN + m * GROUP + i])
+                frames[_GROWN + m * GROUP + i] = 1.0

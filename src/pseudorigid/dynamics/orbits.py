@@ -56,15 +56,12 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     columns, shape = ball.columns(*state_of(state))
     dims = orbit_dims(shape)
     if keep == "last":
-        tau = np.empty(columns[0].size)
-        ball.map.steps(*columns, ball.k, ball.g, impacts, tau)
-        values = [a.reshape(shape) for a in (*columns, tau)]
+        values = [a.reshape(shape) for a in ball.after(columns, impacts)]
         return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
     try:
-        out = np.empty((columns[0].size, impacts, 4))
+        out = ball.history(columns, impacts)
     except (MemoryError, ValueError):
         raise not_allowed("impacts", impacts, "fewer, or keep='last': memory is short") from None
-    ball.map.history(*columns, ball.k, ball.g, out)
     values = [a.reshape(impacts, *shape) for a in out.T]
     return xr.Dataset(
         variables(("impact", *dims), values),
@@ -89,12 +86,8 @@ def scene_orbits(
     """
     impacts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
     states = [start_state(ball, energy, start) for start in starts]
-    pieces = []
-    for state, count in zip(states, impacts, strict=True):
-        out = np.empty((1, count, 4))
-        x, xdot, udot = (np.array([a]) for a in state)
-        ball.map.history(x, xdot, udot, ball.k, ball.g, out)
-        pieces.append(out[0].T)
+    pairs = zip(states, impacts, strict=True)
+    pieces = [ball.history(state, count)[0].T for state, count in pairs]
     return ragged_orbits(pieces, starts, states, impacts)
 
 

@@ -168,9 +168,7 @@ def _solutions(ball, line, period, radius):
     start, parameters, defect = line
 
     def value(p):
-        state = start(p)
-        ball.map.steps(*state, ball.k, ball.g, period // 2, np.empty(p.size))
-        return defect(*state)
+        return defect(*ball.after(start(p), period // 2)[:3])
 
     ends = np.concatenate(_sign_changes(value, parameters))
     states = start(ends)
@@ -209,8 +207,7 @@ def _halve(low, high, goes_right):
 
 def _gaps(ball, states, period):
     """Return P^n z, and the largest coordinate of P^n z - z (n,), for states z (3, n)."""
-    after = states.copy()
-    ball.map.steps(*after, ball.k, ball.g, period, np.empty(states.shape[1]))
+    after = ball.after(states, period)[:3]
     return after, np.max(np.abs(after - states), axis=0)
 
 
@@ -243,9 +240,7 @@ def _closest(ball, energy, state, period):
 
 def _orbit_from(ball, state, period):
     """Return x, xdot, udot and the time of the next flight (4, period) along an orbit."""
-    out = np.empty((1, period, 4))
-    ball.map.history(*(np.array([a]) for a in state), ball.k, ball.g, out)
-    after = out[0].T
+    after = ball.history(state, period)[0].T
     return np.vstack((np.column_stack((state, after[:3, :-1])), after[3]))
 
 

@@ -18,20 +18,14 @@ rebound = jit(impact_law.rebound)
 
 
 @jit
-def next_impact(x, b, c, s, g, root_finder):
-    """Return tau, position and udot at tau, evaluations of the gap, and impacts missed."""
-    if root_finder is None:
-        tau, p, q, evaluations = first_impact(x, b, c, s, g)
-        return tau, p, q, evaluations, 0
-    tau, p, q, missed = scanned_impact(x, b, c, s, g, root_finder)
-    return tau, p, q, 0, missed
-
-
-@jit
 def step(x, v, w, k, g, coefficients, root_finder):
     """Apply the map, eq. (28): return x, v, w, tau (1/omega), evaluations of the gap, misses."""
     b, c, s = rebound(v, w, k, coefficients)
-    tau, p, q, evaluations, missed = next_impact(x, b, c, s, g, root_finder)
+    evaluations, missed = 0, 0
+    if root_finder is None:
+        tau, p, q, evaluations = first_impact(x, b, c, s, g)
+    else:
+        tau, p, q, missed = scanned_impact(x, b, c, s, g, root_finder)
     v = b + g * tau
     # max keeps the state on the section, w >= -v, despite rounding where the impact grazes.
     return p, v, max(q, -v), tau, evaluations, missed
@@ -82,15 +76,21 @@ def step_with_flight(x, v, w, k, g, coefficients, root_finder):
 
 
 @jit
-def steps(x, v, w, k, g, impacts, tau, root_finder):
-    """Advance states by `impacts` in place; `tau` (n,) receives the times of the last flights."""
+def steps(x, v, w, k, g, impacts, tau, out, root_finder):
+    """Advance states by `impacts` in place.
+
+    `tau` (n,) receives the times of the last flights, and `out` (n, impacts, 4), unless it is
+    empty, x, v, w and tau of every impact.
+    """
     coefficients = impact_coefficients(k)
     missed = 0
     for i in range(x.size):
         xi, vi, wi, t = x[i], v[i], w[i], tau[i]
-        for _ in range(impacts):
+        for j in range(impacts):
             xi, vi, wi, t, _, late = step(xi, vi, wi, k, g, coefficients, root_finder)
             missed += late
+            if out.size > 0:
+                out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = xi, vi, wi, t
         x[i], v[i], w[i], tau[i] = xi, vi, wi, t
     return missed
 
@@ -100,36 +100,6 @@ def reflect(x, v, w, k, coefficients):
     """Apply the reversor R: reverse the velocities after the impact. R F R is the inverse of F."""
     b, c, _ = rebound(v, w, k, coefficients)
     return x, -b, max(-c, b)  # max as in `step`
-
-
-@jit
-def steps_back(x, v, w, k, g, impacts, tau, root_finder):
-    """Apply F^-1 = R F R in place; `tau` (n,) has the last flights from the states reached."""
-    coefficients = impact_coefficients(k)
-    missed = 0
-    for i in range(x.size):
-        xi, vi, wi, t = x[i], v[i], w[i], tau[i]
-        for _ in range(impacts):
-            t, p, q, _, late = next_impact(xi, -vi, -wi, vi + wi, g, root_finder)
-            xi, vi, wi = reflect(p, g * t - vi, q, k, coefficients)
-            missed += late
-        x[i], v[i], w[i], tau[i] = xi, vi, wi, t
-    return missed
-
-
-@jit
-def history(x, v, w, k, g, out, root_finder):
-    """Advance states in place, and write x, v, w, tau of each impact to out (n, impacts, 4)."""
-    coefficients = impact_coefficients(k)
-    missed = 0
-    for i in range(x.size):
-        xi, vi, wi = x[i], v[i], w[i]
-        for j in range(out.shape[1]):
-            xi, vi, wi, t, _, late = step(xi, vi, wi, k, g, coefficients, root_finder)
-            out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = xi, vi, wi, t
-            missed += late
-        x[i], v[i], w[i] = xi, vi, wi
-    return missed
 
 
 @jit

@@ -11,7 +11,7 @@ import numpy as np
 from . import lanes
 from .arithmetic import WIDE, narrow_quadrant, quadrant
 from .compiled import jit
-from .impact import flight_derivatives, history, impact_coefficients, rebound, tangent
+from .impact import flight_derivatives, impact_coefficients, rebound, steps, tangent
 
 # Impacts in a chunk and orbits in a group; the buffers then fit into the processor's cache.
 CHUNK = 32
@@ -39,7 +39,7 @@ def advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder):
     if root_finder is None and n >= lanes.MIN_ORBITS_FOR_LANES:
         lanes.steps(x, v, w, k, g, impacts, np.empty(n), out)
     else:
-        missed = history(x, v, w, k, g, out, root_finder)
+        missed = steps(x, v, w, k, g, impacts, np.empty(n), out, root_finder)
     coefficients = impact_coefficients(k)
     for j in range(impacts):
         if not _derive(states, flights, j * GROUP, n, k, g, coefficients):

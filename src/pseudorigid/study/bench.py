@@ -80,20 +80,21 @@ def run(repetitions: int = REPETITIONS) -> list[str]:
     chaotic = states.chaotic()
     states_20, states_500 = _along(chaotic, 20), _along(chaotic, 500)
     ensemble = ball.start(0.52 + 0.1 * (np.arange(LANES) / LANES), states.ENERGY)
+    nothing = np.empty((LANES, 0, 4))
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
     scan = scan_method(0.1, 1e-12)
     dop853 = scipy_events.ivp_method("DOP853", 1e-9)
     heyoka = taylor.taylor_method(1e-15, "positive")
     calls = {  # name: (call, number of impacts or other units that it does)
         "three sincos": (partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
-        "orbit": (partial(_steps, chaotic, IMPACTS), IMPACTS),
+        "orbit": (partial(_advance, chaotic, IMPACTS, nothing), IMPACTS),
         "scan": (partial(scan.solve, ball, *states_500), 500),
         "heyoka": (partial(heyoka.solve, ball, *states_500), 500),
         "DOP853": (partial(dop853.solve, ball, *states_20), 20),
         "spectrum": (partial(lyapunov_spectrum, ball, chaotic, IMPACTS, records=1), IMPACTS),
         "pynamicalsys": (partial(pynamicalsys_lyapunov.spectrum, ball, chaotic, IMPACTS), IMPACTS),
-        "ensemble": (partial(_steps, ensemble, 200), 200 * LANES),
-        "stored": (partial(_history, ensemble, out), 200 * LANES),
+        "ensemble": (partial(_advance, ensemble, 200, nothing), 200 * LANES),
+        "stored": (partial(_advance, ensemble, 200, out), 200 * LANES),
         "vectors": (partial(_with_tangent, ensemble, 192), 192 * LANES),
         "spectra": (partial(lyapunov_spectrum, ball, ensemble, 192, records=1), 192 * LANES),
     } | _cells_branches_and_searches()
@@ -153,17 +154,10 @@ def _spread(seconds: tuple[float, float, float]) -> str:
     return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
 
 
-def _columns(start) -> tuple:
-    """Return states as columns that a loop may change, and the ball's k and g."""
-    return *(np.array(a, ndmin=1) for a in start), states.BALL.k, states.BALL.g
-
-
-def _steps(start, impacts: int) -> None:
-    states.BALL.map.steps(*_columns(start), impacts, np.empty(np.size(start[0])))
-
-
-def _history(start, out: np.ndarray) -> None:
-    states.BALL.map.history(*_columns(start), out)
+def _advance(start, impacts: int, out: np.ndarray) -> None:
+    """Advance states; `out` receives every impact, unless it is empty."""
+    ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
+    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size), out)
 
 
 def _with_tangent(start, impacts: int) -> None:
@@ -176,9 +170,7 @@ def _with_tangent(start, impacts: int) -> None:
 
 def _along(state, count: int) -> tuple[np.ndarray, ...]:
     """Return the first `count` states of an orbit, as columns."""
-    out = np.empty((1, count, 4))
-    _history(state, out)
-    return tuple(a.copy() for a in out[0].T[:3])
+    return tuple(a.copy() for a in states.BALL.history(state, count)[0].T[:3])
 
 
 if __name__ == "__main__":

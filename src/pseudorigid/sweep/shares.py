@@ -222,10 +222,8 @@ def _owners(
     owners, longest = np.full(count, -1), np.zeros(count, np.int64)
     orbits = elliptic_orbits(ball, families, parameter, level)
     most = max((points.shape[1] for _, points in orbits), default=1)
-    out = np.empty((count, ROUNDS * most, 4))
     # the sweep's unit of length is g R
-    columns = [np.ascontiguousarray(a) * ball.g for a in states]
-    ball.map.history(*columns, ball.k, ball.g, out)
+    out = ball.history([a * ball.g for a in states], ROUNDS * most)
     x, y = out[:, :, 0], out[:, :, 1] - ball.k * out[:, :, 2]
     for number, points in orbits:
         period = points.shape[1]

@@ -126,8 +126,7 @@ def bisection(lyapunov: xr.Dataset) -> Outcome:
     k, g, energy = (float(lyapunov.attrs[name]) for name in ("k", "g", "energy"))
     ball = Ball(k, g, map=ImpactMap((method["scan"], method["tolerance"])))
     starts = lyapunov["start"].values
-    out = np.empty((starts.size, impacts // starts.size, 4))
-    ball.map.history(*ball.start(starts, energy), k, g, out)
+    out = ball.history(ball.start(starts, energy), impacts // starts.size)
     least = (out[..., 1] + out[..., 2]).min()
     holds = missed == 0 and least >= 0.0
     return outcome_of(holds, missed=missed, impacts=impacts, least=least, step=method["scan"])

@@ -66,9 +66,8 @@ class DoubleMap:
             if not np.all(square > 0.0):
                 raise ValueError("a point is outside the section")
             s = np.sqrt(square)
-            state = np.array(x), (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
-            self.ball.map.steps(*state, k, g, 1, np.empty(x.size))
-            points = chart(k, *state)
+            state = x, (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+            points = chart(k, *self.ball.after(state)[:3])
         return points
 
     def jacobian(self, point: Sequence[float]) -> np.ndarray:
