@@ -2,17 +2,15 @@
 
 A Python file is hashed by its syntax tree without positions, docstrings and the annotations of
 local variables that have a value. Other annotations count, because they are the fields of
-dataclasses and named tuples. The hash is the same under Python 3.11 to 3.14. A Snakefile is hashed
-by its tokens, any other file by its bytes.
+dataclasses and named tuples. The hash is the same under Python 3.11 to 3.14. Any other file is
+hashed by its bytes.
 """
 
 import ast
 import functools
 import hashlib
-import io
 import json
 import os
-import tokenize
 from contextlib import suppress
 from pathlib import Path
 
@@ -24,7 +22,6 @@ _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 # Fields that follow from a node's position or have no effect.
 _LEFT_OUT = ("ctx", "kind", "type_comment", "type_ignores")
-_LAYOUT = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
 
 
 def syntax_hash(path):
@@ -36,7 +33,7 @@ def syntax_hash(path):
 
 def facts(name, data):
     """Return the hash of a file's text and its imports, [number of dots, module, names] each."""
-    suffix = ".smk" if name == "Snakefile" else Path(name).suffix
+    suffix = Path(name).suffix
     key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
     known = _known()
     if key not in known:
@@ -79,8 +76,6 @@ def _facts(suffix, data):
             tree = ast.parse(data)
             _describe(tree, words, local=False)
             imports = list(_imports(tree))
-        elif suffix == ".smk":
-            words += _tokens(data)
         else:
             words.append(data.hex())
     except (SyntaxError, ValueError, RecursionError):  # hash the bytes of an unreadable file
@@ -169,24 +164,3 @@ def _is_string(node):
 
 def _is_text(statement):
     return isinstance(statement, ast.Expr) and _is_string(statement.value)
-
-
-def _tokens(data):
-    """Yield the tokens that count; each f-string is one token, as before Python 3.12."""
-    begins, ends = (getattr(tokenize, f"FSTRING_{name}", None) for name in ("START", "END"))
-    text = data.decode("utf-8")
-    lines, depth, start = text.splitlines(keepends=True), 0, None
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == begins:
-            start = start if depth else token.start
-            depth += 1
-        elif token.type == ends:
-            depth -= 1
-            if not depth:
-                (row, column), (last, end) = start, token.end
-                inside = [*lines[row - 1 : last - 1], lines[last - 1][:end]]
-                inside[0] = inside[0][column:]
-                yield f"STRING {''.join(inside)}"
-        elif not depth and token.type not in _LAYOUT:
-            layout = token.type in (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
-            yield tokenize.tok_name[token.type] + ("" if layout else f" {token.string}")
