@@ -120,9 +120,8 @@ def error(state):
     true = proved(state)
     if true is not None and true > 0 and tau > 0.0:
         off = abs(float((tau - true) / true))
-        if off <= TAU:
-            return off
-        off /= max(1.0, condition(*state, true))
+        if off > TAU:
+            off /= max(1.0, condition(*state, true))
         if off <= TAU:
             return off
     return by_mpmath(tau, judge(*state))

@@ -114,6 +114,7 @@ def test_a_parameter_is_one_finite_number_within_its_range(case):
     name, call, value, others = case
     bad = [np.nan, np.inf, -np.inf, np.ma.masked, Decimal("NaN"), [value], np.array([value] * 2)]
     bad += [[], -2.5, 200.5, 2**53 + 1] if case in COUNTS else [[], -0.25]
+    bad += [6] if name == "saddle" else [] if name == "energy" else [0.0]
     for one in bad:
         with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: ") as error:
             results(name, call, one, **others)

@@ -50,9 +50,10 @@ def test_against_numpy_over_two_thousand_impacts(k, g, energy):
 
 
 @pytest.mark.parametrize(
-    ("impacts", "records"), [(1, 1), (7, 400), (1000, 7), (1000, 1), (999, 400)]
+    ("impacts", "records"), [(1, 1), (7, 400), (1000, 7), (999, 400), (20_000, 1)]
 )
 def test_history_ends_with_the_final_value(impacts, records):
+    """Over 20,000 impacts a vector grows beyond the range of doubles."""
     state = BALL.start(0.6, 0.01)
     found = lyapunov_spectrum(BALL, state, impacts, records)
     at = found["impact"].values
@@ -65,13 +66,6 @@ def test_history_ends_with_the_final_value(impacts, records):
     assert np.max(np.abs(found["exponent"].values - expected)) < 1e-13
     first = final(state, int(at[0]), records=1)
     assert np.max(np.abs(first - found["exponent"].values[0])) < 1e-13
-
-
-def test_growth_beyond_the_range_of_doubles():
-    """Growth between records may exceed the range of doubles."""
-    state = BALL.start(0.6, 0.01)
-    once, often = (final(state, 20_000, records=records) for records in (1, 20_000))
-    assert np.max(np.abs(once - often)) < 1e-13
 
 
 def test_a_scene_has_a_history_for_each_start():

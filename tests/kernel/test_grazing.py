@@ -50,14 +50,11 @@ def test_towards_grazing(decade, g):
         assert off <= TAU, [a.hex() for a in state]
 
 
-def touching(x, t, height, g=0.04, k=0.2):
-    """Return (v, w) of a flight whose gap has a maximum of this height at t.
-
-    x, b and c enter the gap linearly; as doubles they miss the height by a rounding.
-    """
+def touching(x, t, g=0.04, k=0.2):
+    """Return (v, w), rounded, of a flight whose gap has a maximum of height 0 at t."""
     x, t, g, k = (mpf(a) for a in (x, t, g, k))
     cosine, sine = mpmath.cos_sin(t)
-    c = (height + g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
+    c = (g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
     b = -g * t - x * sine - c * cosine
     assert b + c < 0  # the ball leaves the floor
     assert g + x * cosine - c * sine < 0
@@ -69,21 +66,10 @@ TOUCHES = ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.0399999, 5.0), (
            (-0.2, 7.0), (-0.2, 25.0))  # fmt: skip
 
 
-@pytest.mark.parametrize("decade", range(2, 15))
-@pytest.mark.parametrize(("x", "t"), TOUCHES)
-def test_touched_and_missed(x, t, decade):
-    """A maximum of +-1e-2 to +-1e-14 makes an impact before t, or none until later."""
-    for sign in (1, -1):
-        v, w = touching(x, t, sign * mpf(10) ** -decade)
-        tau = BALL.time_to_impact(x, v, w)
-        assert (tau < t) == (sign > 0)
-        assert error((0.2, 0.04, x, v, w)) <= TAU, (x.hex(), v.hex(), w.hex())
-
-
 @pytest.mark.parametrize(("x", "t"), TOUCHES)
 def test_a_touch_to_the_last_bit(x, t):
     """tau is t to the root of a rounding, or the next impact, but nothing in between."""
-    v, w = touching(x, t, 0)
+    v, w = touching(x, t)
     tau = BALL.time_to_impact(x, v, w)
     assert abs(tau - t) < 3e-7 * t or tau > t + 0.01
     assert error((0.2, 0.04, x, v, w)) <= TAU
@@ -101,18 +87,6 @@ def test_energies_at_both_bounds(ball, off):
                 assert error((ball.k, ball.g, *state)) <= TAU, [a.hex() for a in state]
     assert ball.start(0.3, low) == (ball.g / ball.k, 0.0, 0.0)
     assert ball.impact(ball.g / ball.k, 0.0, 0.0) == (ball.g / ball.k, 0.0, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1.0)])
-def test_the_rim(ball):
-    """At v + w = 0 the ball is pressed down above x = -g, and leaves the floor below it."""
-    for x in sides(ball.g):
-        for v in (0.3, -0.3, 1e-8, -1e-8, 1e-200, 0.0):
-            tau = ball.time_to_impact(x, v, -v)
-            # At x = -g the third derivative, -c = -w, decides.
-            pressed = x > -ball.g or (x == -ball.g and v >= 0.0)
-            assert (tau == 0.0) == pressed, (x, v)
-            assert error((ball.k, ball.g, x, v, -v)) <= TAU, (x.hex(), v.hex())
 
 
 @pytest.mark.parametrize("unit", [5e-324, 1e-320, 1e-312, 2.3e-308])
@@ -135,11 +109,12 @@ def signed(low, high):
 
 @settings(max_examples=1000, derandomize=True, deadline=None)
 @given(
-    st.floats(-12, 0), st.floats(-6, 2), signed(-9, 3), signed(-9, 3), signed(-9, 3), st.booleans()
-)
+    st.floats(-12, 0) | st.just(-323.3), st.floats(-6, 2), signed(-9, 3), signed(-9, 3),
+    signed(-9, 3), st.booleans(),
+)  # fmt: skip
 @example(-2.0, -4.0, -1.0, 1.0, -1.0, True)
 def test_any_state_of_any_ball(k, g, x, v, w, near):
-    """Cover k from 1e-12 to 1, g from 1e-6 to 100, lengths from 1e-9 g to 1000 g, and x near -g."""
+    """Cover k from 1e-12 to 1, and 5e-324, g from 1e-6 to 100, lengths to 1000 g, x near -g."""
     k, g = 10.0**k, 10.0**g
     x, v, w = x * g, v * g, w * g
     x = -g + 1e-6 * x if near else x

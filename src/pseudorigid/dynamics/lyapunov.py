@@ -107,15 +107,15 @@ def scene_exponents(
     True
     """
     states = np.array([start_state(ball, energy, start) for start in starts])
-    if isinstance(impacts, list) and len(set(impacts)) > 1:
+    counts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
+    if len(set(counts)) > 1:
         spectra = [
             lyapunov_spectrum(ball, state[:, None], count, records)
-            for state, count in zip(states, impacts, strict=True)
+            for state, count in zip(states, counts, strict=True)
         ]
         spectrum = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
-        count = impacts[0] if isinstance(impacts, list) else impacts
-        spectrum = lyapunov_spectrum(ball, tuple(states.T), count, records)
+        spectrum = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
     return spectrum.assign(start_variables(starts, states))
 
 
