@@ -1,24 +1,11 @@
 """States spread over the section of the energy surface."""
 
-import math
-
 import numpy as np
 from hypothesis import strategies as st
 
 from pseudorigid.dynamics.ball import Ball
 
 BALL = Ball(k=0.2, g=0.04)
-
-
-def section_states(ball, count, seed=0, energy=None):
-    """Random states of a ball at an energy, by default E/g^2 = 6.25 as in Figure 2."""
-    energy = 6.25 * ball.g**2 if energy is None else energy
-    rng = np.random.default_rng(seed)
-    centre, radius = ball.section(energy)
-    x, y = rng.uniform(-1.0, 1.0, (2, 2 * count))
-    keep = x * x + y * y < 0.999
-    height = radius * math.sqrt(ball.k * (1.0 + ball.k))
-    return ball.state_xy(centre + radius * x[keep][:count], height * y[keep][:count], energy)
 
 
 def sea(n, energy=0.01, ball=BALL):

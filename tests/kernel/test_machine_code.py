@@ -9,7 +9,7 @@ import numba
 import numpy as np
 from matrix_probe import FUSED, traces
 from project import run
-from sections import BALL, section_states
+from sections import sea
 
 from pseudorigid.dynamics import lyapunov, tangent_orbits
 from pseudorigid.kernel import arithmetic, impact, lanes, tangents
@@ -28,7 +28,7 @@ def compiled(function, *arguments):
 def test_machine_code_is_strict():
     assert impact.steps.targetoptions["fastmath"] is False
     assert not impact.steps.targetoptions.get("parallel")
-    state = section_states(BALL, 2)
+    state = sea(2)
     for kernel, arguments in (
         (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)), None)),
         (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
