@@ -168,8 +168,8 @@ class Ball:
         They are the state just before the next impact, and the time of flight, eq. (27). Where the
         ball only touches the floor, tau is defined to the square root of a rounding.
         """
-        columns, shape = self.columns(x, xdot, udot)
-        return tuple(_plain(a.reshape(shape)) for a in self.after(columns))
+        state = self.on_section(x, xdot, udot)
+        return tuple(_plain(a.reshape(state[0].shape)) for a in self.after(state))
 
     def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
@@ -189,11 +189,12 @@ class Ball:
         map has no derivative there.
         """
         impacts = whole_number("impacts", impacts)
-        columns, shape = self.columns(x, xdot, udot)
-        out = np.empty((columns[0].size, 3, 3))
+        state = self.on_section(x, xdot, udot)
+        out = np.empty((state[0].size, 3, 3))
+        columns = (a.flatten() for a in state)
         missed = kernel.jacobians(*columns, self.k, self.g, impacts, out, self.map.scan)
-        self.map.count(impacts * columns[0].size, missed)
-        return out.reshape(*shape, 3, 3)
+        self.map.count(impacts * state[0].size, missed)
+        return out.reshape(*state[0].shape, 3, 3)
 
     @np.errstate(all="ignore")
     def chart_jacobian(
@@ -224,26 +225,19 @@ class Ball:
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
-    def columns(
-        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike
-    ) -> tuple[Arrays, tuple[int, ...]]:
-        """Return copies of x, xdot and udot as arrays (n,), and the shape that they had before."""
-        x, xdot, udot = self.on_section(x, xdot, udot)
-        return (x.flatten(), xdot.flatten(), udot.flatten()), x.shape
-
     def after(self, states: Iterable[ArrayLike], impacts: int = 1) -> np.ndarray:
-        """Return x, xdot, udot and tau (4, n) some impacts after states (3, n) on the section."""
+        """Return x, xdot, udot and tau, (4, n), some impacts after n states (x, xdot, udot)."""
         return np.stack(self._advanced(states, impacts, 0)[0])
 
     def history(self, states: Iterable[ArrayLike], impacts: int) -> np.ndarray:
-        """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after states (3, n)."""
+        """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after n states."""
         return self._advanced(states, impacts, impacts)[1]
 
     def _advanced(
         self, states: Iterable[ArrayLike], impacts: int, kept: int
     ) -> tuple[list[np.ndarray], np.ndarray]:
         """Return the last impact of each state, and `kept` impacts: none, or all."""
-        columns = [np.array(a, dtype=float, ndmin=1) for a in states]
+        columns = [a.flatten() for a in self.on_section(*states)]
         columns.append(np.empty(columns[0].size))
         out = np.empty((columns[0].size, kept, 4))
         x, xdot, udot, tau = columns

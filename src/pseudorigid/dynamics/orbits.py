@@ -53,13 +53,14 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     """
     one_of("keep", keep, ("all", "last"))
     impacts = whole_number("impacts", impacts)
-    columns, shape = ball.columns(*state_of(state))
+    state = ball.on_section(*state_of(state))
+    shape = state[0].shape
     dims = orbit_dims(shape)
     if keep == "last":
-        values = [a.reshape(shape) for a in ball.after(columns, impacts)]
+        values = [a.reshape(shape) for a in ball.after(state, impacts)]
         return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
     try:
-        out = ball.history(columns, impacts)
+        out = ball.history(state, impacts)
     except (MemoryError, ValueError):
         raise not_allowed("impacts", impacts, "fewer, or keep='last': memory is short") from None
     values = [a.reshape(impacts, *shape) for a in out.T]
