@@ -205,7 +205,7 @@ def test_a_consistent_certificate_of_another_ball_is_refused():
 
 def test_a_flight_that_meets_the_floor_before_its_apex_is_no_half_orbit():
     with ctx.workprec(128):
-        gap = events.Gap(arb("-0.39"), arb("-0.2"), arb(0), arb("0.04"))
-        events._check_clear(gap, arb(1))
+        flight = events.Flight(*map(arb, ("-0.39", "0.2", "-0.2", 0, "0.04")))
+        events._check_clear(flight, arb(1))
         with pytest.raises(events.UndecidedError):
-            events._check_clear(gap, arb(20))
+            events._check_clear(flight, arb(20))

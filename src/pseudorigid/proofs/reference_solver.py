@@ -10,8 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from flint import arb, ctx
 
-from .enclosure import flight
-from .enclosure.flight import UndecidedError
+from .enclosure.flight import UndecidedError, launch
 from .enclosure.surface import Exact, ball_of, exact
 
 _START_BITS, _MOST_BITS = 256, 8192  # a touch closer than 1e-2000 is not decided
@@ -55,11 +54,11 @@ def _decided(compute: Callable, bits: int):
 
 def _impact(k: arb, g: arb, x: arb, v: arb, w: arb) -> tuple[arb, arb, arb, arb]:
     """Return x', v', w' and tau of the next impact; tau = 0 where the ball is pressed down."""
-    b, c, s = flight.rebound(k, v, w)
-    curvature = g + x
-    if s == 0 and (curvature > 0 or (curvature == 0 and c <= 0)):
+    flight, curvature = launch(k, g, x, v, w, v + w), g + x
+    if flight.s == 0 and (curvature > 0 or (curvature == 0 and flight.c <= 0)):
         return x, v, w, arb(0)
-    return flight.fly(x, b, c, s, g)
+    tau = flight.first_root()
+    return *flight.end(tau), tau
 
 
 def flight_times(ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> list[float]:

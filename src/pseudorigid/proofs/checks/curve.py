@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from flint import acb, arb, ctx
 
-from ..enclosure import complex_impact
+from ..enclosure import complex_flight
 from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface, ball_of
@@ -256,9 +256,9 @@ def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Pla
             for x, y, slopes, root in _row_of_cells(surface, curve, plan, row, known):
                 image += [x, y]
                 if row >= plan.rows:
-                    image += complex_impact.impact(surface, x, y, root)
+                    image += surface.impact(x, y, root)[:2]
                     continue
-                jets = complex_impact.impact(surface, *Jet.plane(2, x, y), root)
+                jets = surface.impact(*Jet.plane(2, x, y), root)[:2]
                 image += [jet.constant for jet in jets]
                 sizes = [[c.abs_upper() for c in jet.coefficients] for jet in jets]
                 first.append(_most(a + b for _, a, b, *_ in sizes))
@@ -316,9 +316,8 @@ def _row_of_cells(
     edge = [values(waves, plan.columns, arb(0.5), top) for waves in curve]
     for j in range(plan.columns):
         x, y = (_inflated(cell[j], NEAR) for cell in cells)
-        root = complex_impact.unique_root(complex_impact.Flights.of(surface, x, y), known[j])
-        upper = complex_impact.gap_at(surface, edge[0][j], edge[1][j])
-        known[j] = complex_impact.point_root(upper, root)
+        root = complex_flight.unique_root(surface, x, y, known[j])
+        known[j] = complex_flight.point_root(surface.flight(edge[0][j], edge[1][j]), root)
         yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root
 
 

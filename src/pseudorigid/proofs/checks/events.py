@@ -11,7 +11,7 @@ from functools import partial
 from flint import arb, arb_mat, ctx
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
-from ..enclosure.flight import Gap, UndecidedError, first_root
+from ..enclosure.flight import Flight, UndecidedError, launch
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface, ball_of, fraction_of
 from . import periodic
@@ -189,18 +189,12 @@ def _check_within(name: str, value: arb, limits: Range) -> None:
         raise NotProvedError(f"the {name} is not proved to lie where the statement says")
 
 
-def _launch(k: arb, x: Jet, v: Jet, w: Jet, s: Jet) -> tuple[Jet, Jet, Jet, Jet]:
-    """Return position, velocities b and c after an impact, and s, which v + w would round."""
-    return x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s
-
-
-def _land(g: arb, x: Jet, b: Jet, c: Jet, s: Jet, gap: Jet | int = 0) -> tuple[Jet, Jet, Jet]:
+def _land(flight: Flight, gap: Jet | int = 0) -> tuple[Jet, Jet, Jet]:
     """Return x, xdot, udot at the end of a flight; it begins with a small gap above the floor."""
-    tau = first_root(x, c, s, g)
+    tau = flight.first_root()
     if isinstance(gap, Jet):  # f(tau) = gap, to first order, around gap = 0
-        tau = tau + gap * (1 / Gap(x, c, s, g).derivatives(tau)[1].constant)
-    sine, cosine = tau.sin_cos()
-    return x * cosine - c * sine, b + g * tau, x * sine + c * cosine
+        tau = tau + gap * (1 / flight.slope(tau).constant)
+    return flight.end(tau)
 
 
 def grazing(
@@ -227,40 +221,39 @@ def grazing(
         if not square.constant > 0:
             raise UndecidedError("there may be no point of the rim")
         x = (gravity - square.sqrt()) / inertia
-        flight = _launch(inertia, x, v, w, speed)
+        flight = launch(inertia, gravity, x, v, w, speed)
         for leg in range(flights):
-            x, v, w = _land(gravity, *flight, gap=gap if leg == 0 else 0)
-            flight = _launch(inertia, x, v, w, v + w)
-        ends.append(v - inertia * w if where == "impact" else _apex(gravity, *flight))
+            x, v, w = _land(flight, gap if leg == 0 else 0)
+            flight = launch(inertia, gravity, x, v, w, v + w)
+        ends.append(v - inertia * w if where == "impact" else _apex(flight))
     return [e.constant for e in ends], [e.coefficients[1:] for e in ends]
 
 
-def _apex(g: arb, x: Jet, b: Jet, c: Jet, s: Jet) -> Jet:
+def _apex(flight: Flight) -> Jet:
     """Return the rate of strain where the centre is highest in a flight."""
-    t = b * (-1 / g)
+    t = flight.b * (-1 / flight.g)
     if not t.constant > 0:
         raise UndecidedError("a flight may have no apex")
-    _check_clear(Gap(x.constant, c.constant, s.constant, g), t.constant.upper())
-    sine, cosine = t.sin_cos()
-    return x * sine + c * cosine
+    _check_clear(flight.constant(), t.constant.upper())
+    return flight.end(t)[2]
 
 
-def _check_clear(gap: Gap, until: arb) -> None:
+def _check_clear(flight: Flight, until: arb) -> None:
     """Prove that a flight does not touch the floor up to a time; a touch may follow at once.
 
     Near 0, f <= -s t + (g + x) t^2/2 - c t^3/6 + A t^4/24. Raises UndecidedError.
     """
-    amplitude = (gap.x * gap.x + gap.c * gap.c).sqrt()
-    bend, jerk = (gap.g + gap.x).upper(), abs(gap.c).upper()
+    amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
+    bend, jerk = (flight.g + flight.x).upper(), abs(flight.c).upper()
     first = until
     for _ in range(_MOST_CUTS):
         rest = jerk * first / 6 + amplitude * first * first / 24
-        if bend / 2 + rest < 0 or -gap.s + first * (abs(bend) / 2 + rest) < 0:
+        if bend / 2 + rest < 0 or -flight.s + first * (abs(bend) / 2 + rest) < 0:
             break
         first = first / 2
     else:
         raise UndecidedError("the impact may be grazing")
-    if not holds_throughout(lambda t: gap.height(t) < 0, first.lower(), until, until / 10**6):
+    if not holds_throughout(lambda t: flight.height(t) < 0, first.lower(), until, until / 10**6):
         raise UndecidedError("an impact may come before the apex")
 
 
@@ -276,7 +269,7 @@ def _end(
     s = (square / inertia).sqrt()
     v, w = (y + inertia * s) / (1 + inertia), (s - y) / (1 + inertia)
     for _ in range(impacts):
-        x, v, w = _land(gravity, *_launch(inertia, x, v, w, v + w))
+        x, v, w = _land(launch(inertia, gravity, x, v, w, v + w))
     return x, v - inertia * w
 
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from ..enclosure.flight import Gap, UndecidedError, fly
+from ..enclosure.flight import Flight, UndecidedError
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import (
@@ -130,7 +130,9 @@ def _flight(surface: Surface, x: arb, xdot: arb) -> Impact:
     start = None
     if xdot < 0:  # f/t^2 <= (g + x)/2 + xdot t/6 + A t^2/24 with g + x <= 0
         start = (_START_FACTOR * -4 * xdot / (x * x + xdot * xdot).sqrt()).lower()
-    x, v, w, tau = fly(x, xdot, -xdot, arb(0), g, start)
+    flight = Flight(x, xdot, -xdot, arb(0), g)
+    tau = flight.first_root(start)
+    x, v, w = flight.end(tau)
     return Impact(x, v - k * w, tau, v + w)
 
 
@@ -148,12 +150,9 @@ def _transversality(surface: Surface, speed: arb) -> float:
 
     The point of S+ is the one from which the flight touches the rim with the given xdot.
     """
-    k, g, _ = surface.constants()
     impact = _flight_from_rim(surface, speed)
-    x, y = Jet.plane(1, *_mirrored(impact))
-    s = surface.speed(x, y)
-    gap = Gap(x, -(y + s) / (1 + k), s, g)
-    height = gap.height(Jet.constant_of(x.algebra, impact.tau))
+    flight = surface.flight(*Jet.plane(1, *_mirrored(impact)))
+    height = flight.height(Jet.constant_of(flight.x.algebra, impact.tau))
     if not height.constant.contains(0):
         raise NotProvedError("the flight does not touch the floor where it should")
     slope = max(lowest(abs(part)) for part in height.coefficients[1:])

@@ -6,7 +6,7 @@ parabolas that lie above f, as docs/proofs.md explains ("The map over a ball").
 """
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from flint import acb, arb, ctx
 
@@ -25,16 +25,16 @@ class UndecidedError(ArithmeticError):
     """A question that cannot be decided for this set of states at this precision."""
 
 
-@dataclass(frozen=True)
-class Gap:
-    """Gap f(t) of a set of flights after an impact, eq. (21) with (26).
+class Flight(NamedTuple):
+    """Flights after an impact, eq. (26), and their gap f(t), eq. (21).
 
-    x and c are the position and the rate of strain after it, s = xdot + udot before it.
+    x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it.
     """
 
-    x: arb | Jet
-    c: arb | Jet
-    s: arb | Jet
+    x: arb | acb | Jet
+    b: arb | acb | Jet
+    c: arb | acb | Jet
+    s: arb | acb | Jet
     g: arb
 
     def derivatives(self, t: arb | Jet) -> tuple:
@@ -44,15 +44,15 @@ class Gap:
         first_two = self._height_and_slope(t, sine, cosine)
         return *first_two, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
-    def height_and_slope(self, t: arb | Jet) -> tuple:
+    def height_and_slope(self, t: arb | acb | Jet) -> tuple:
         """f and f' at t."""
         return self._height_and_slope(t, *t.sin_cos())
 
-    def height(self, t: arb | Jet) -> arb | Jet:
+    def height(self, t: arb | acb | Jet) -> arb | acb | Jet:
         """f at t."""
         return self.height_and_slope(t)[0]
 
-    def slope(self, t: arb | Jet) -> arb | Jet:
+    def slope(self, t: arb | acb | Jet) -> arb | acb | Jet:
         """f' at t."""
         return self.height_and_slope(t)[1]
 
@@ -61,58 +61,65 @@ class Gap:
         height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
         return height, self.g * t - self.s - self.c * versine + self.x * sine
 
-    def rounded(self) -> "Gap":
-        """The same flights in balls of the context's precision."""
-        return Gap(+self.x, +self.c, +self.s, +self.g)
+    def end(self, tau: arb | acb | Jet) -> tuple:
+        """Return x, xdot and udot at the end of flights of this duration, eq. (28)."""
+        sine, cosine = tau.sin_cos()
+        x, c = self.x, self.c
+        return x * cosine - c * sine, self.b + self.g * tau, x * sine + c * cosine
+
+    def rounded(self) -> "Flight":
+        """Return the flights in balls of the context's precision."""
+        return Flight(*(+part for part in self))
+
+    def constant(self) -> "Flight":
+        """Return the flights of the constant terms of jets."""
+        return Flight(*(part.constant for part in self[:-1]), self.g)
+
+    def first_root(self, start: arb | None = None) -> arb | Jet:
+        """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
+
+        The ball contains the first root, which is simple, for every choice of parameters in the
+        balls; for jets it is the Taylor series of that root. `start` is a time up to which f < 0 is
+        known, for impacts that graze. Raises UndecidedError where an earlier touch of the floor
+        cannot be excluded, or s may be zero.
+        """
+        if isinstance(self.x, Jet):
+            return self.expand(self.constant().first_root(start))
+        return _refine(self, *_isolate(self, start))
+
+    def expand(self, root: arb | acb) -> Jet:
+        """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
+        time, order = Jet.constant_of(self.x.algebra, root), 0
+        while order < self.x.algebra.order:
+            height, slope = self.height_and_slope(time)
+            height.coefficients[0] = 0 * root
+            time = time - height / slope
+            order = 2 * order + 1
+        return time
 
 
-def rebound(k: arb, v: arb | Jet, w: arb | Jet) -> tuple:
-    """Velocities b, c just after an impact with velocities v, w, eq. (25), and s = v + w."""
-    s = v + w
-    return v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s
+def launch(k: arb, g: arb, x: arb | Jet, v: arb | Jet, w: arb | Jet, s: arb | Jet) -> Flight:
+    """Return the flight after an impact at x with the velocities v and w, eq. (25).
 
-
-def fly(x: arb | Jet, b: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: arb | None = None):
-    """Return x, xdot, udot just before the next impact, and the duration tau, eq. (28).
-
-    The flight begins with x, xdot = b and udot = c. The other arguments, and the errors, are those
-    of `first_root`.
+    s is v + w, which the sum of two balls would round.
     """
-    tau = first_root(x, c, s, g, start)
-    sine, cosine = tau.sin_cos()
-    return x * cosine - c * sine, b + g * tau, x * sine + c * cosine, tau
+    return Flight(x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s, g)
 
 
-def first_root(
-    x: arb | Jet, c: arb | Jet, s: arb | Jet, g: arb, start: arb | None = None
-) -> arb | Jet:
-    """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0, f as in `Gap`.
-
-    The ball contains the first root, which is simple, for every choice of parameters in the balls;
-    for jets it is the Taylor series of that root. `start` is a time up to which f < 0 is known, for
-    impacts that graze. Raises UndecidedError where an earlier touch of the floor cannot be
-    excluded, or s may be zero.
-    """
-    gap = Gap(x, c, s, g)
-    if isinstance(x, Jet):
-        return expand(gap, first_root(x.constant, c.constant, s.constant, g, start))
-    return _refine(gap, *_isolate(gap, start))
-
-
-def _isolate(gap: Gap, start: arb | None) -> tuple[arb, arb]:
+def _isolate(flight: Flight, start: arb | None) -> tuple[arb, arb]:
     """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0."""
     most, bits = ctx.prec, _MARCH_BITS
     while True:
         with ctx.workprec(bits):
             try:
-                return _march(gap.rounded(), start)
+                return _march(flight.rounded(), start)
             except UndecidedError:
                 if bits >= most:
                     raise
         bits = min(2 * bits, most)
 
 
-def _refine(gap: Gap, low: arb, high: arb) -> arb:
+def _refine(flight: Flight, low: arb, high: arb) -> arb:
     """Narrow a root by interval Newton, T = t - f(t)/f'(T), with twice the bits at each level."""
     root = low.union(high)
     levels = [ctx.prec]
@@ -120,7 +127,7 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
         levels.append(levels[-1] // 2 + 8)
     for bits in reversed(levels):
         with ctx.workprec(bits):
-            at_level = gap.rounded()
+            at_level = flight.rounded()
             while True:
                 slope = at_level.slope(root)
                 if not slope > 0:
@@ -137,32 +144,21 @@ def _refine(gap: Gap, low: arb, high: arb) -> arb:
     return root
 
 
-def expand(gap: Gap, root: arb | acb) -> Jet:
-    """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
-    time, order = Jet.constant_of(gap.x.algebra, root), 0
-    while order < gap.x.algebra.order:
-        height, slope = gap.height_and_slope(time)
-        height.coefficients[0] = 0 * root
-        time = time - height / slope
-        order = 2 * order + 1
-    return time
-
-
-def _march(gap: Gap, start: arb | None) -> tuple[arb, arb]:
+def _march(flight: Flight, start: arb | None) -> tuple[arb, arb]:
     """Isolate the first root at the context's precision."""
-    amplitude = (gap.x * gap.x + gap.c * gap.c).sqrt()
-    curvature_bound, jerk_bound = (gap.g + amplitude).upper(), amplitude.upper()
-    t = _first_step(gap, jerk_bound) if start is None else start
-    negative = _long_flight(gap, amplitude)
+    amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
+    curvature_bound, jerk_bound = (flight.g + amplitude).upper(), amplitude.upper()
+    t = _first_step(flight, jerk_bound) if start is None else start
+    negative = _long_flight(flight, amplitude)
     for count in range(_MOST_STEPS):
         if negative is not None and negative[0] < t < negative[1]:
             t = negative[1]
-        height, slope, curvature, jerk = gap.derivatives(t)
+        height, slope, curvature, jerk = flight.derivatives(t)
         if not height < 0:
             break
         if slope > 0:
             high = (t - 2 * height.lower() / slope.lower()).mid()
-            if gap.slope(t.union(high)) > 0 and gap.height(high) > 0:
+            if flight.slope(t.union(high)) > 0 and flight.height(high) > 0:
                 return t, high
         jerk = None if count < _PLAIN_STEPS else jerk.upper()
         step = _step(height, slope, curvature, curvature_bound, jerk_bound, jerk)
@@ -205,15 +201,15 @@ def _parabola_root(f: float, d: float, m: float) -> float:
     return (root - d) / m if m > 0.0 else math.inf
 
 
-def _first_step(gap: Gap, jerk_bound: arb) -> arb:
+def _first_step(flight: Flight, jerk_bound: arb) -> arb:
     """Return a time up to which f < 0.
 
     f/t <= -s + (g + x) t/2 + A t^2/6; where s = 0 = g + x, f/t^3 <= -c/6 + A t/24.
     """
-    s, curvature = gap.s, gap.g + gap.x
+    s, curvature = flight.s, flight.g + flight.x
     if s == 0 and curvature == 0:
-        t = arb(_STEP_FACTOR) * (4 * gap.c / jerk_bound).lower()
-        if not (gap.c > 0 and t > 0):
+        t = arb(_STEP_FACTOR) * (4 * flight.c / jerk_bound).lower()
+        if not (flight.c > 0 and t > 0):
             raise UndecidedError("the ball may rest on the floor")
         return t.lower()
     if not (s > 0 or (s == 0 and curvature < 0)):
@@ -227,17 +223,17 @@ def _first_step(gap: Gap, jerk_bound: arb) -> arb:
     return t
 
 
-def _long_flight(gap: Gap, amplitude: arb) -> tuple[arb, arb] | None:
+def _long_flight(flight: Flight, amplitude: arb) -> tuple[arb, arb] | None:
     """Return the interval on which f <= x + A + b t + g t^2/2 < 0, or None."""
-    b = -gap.s - gap.c
-    height = gap.x + amplitude
-    square = b * b - 2 * gap.g * height
+    b = -flight.s - flight.c
+    height = flight.x + amplitude
+    square = b * b - 2 * flight.g * height
     if not (b < 0 and square > 0):
         return None
     root = square.sqrt()
-    low = ((root - b).lower() * arb(2) ** -40 + (-b - root)) / gap.g
-    high = (root - b) * arb(_STEP_FACTOR) / gap.g
+    low = ((root - b).lower() * arb(2) ** -40 + (-b - root)) / flight.g
+    high = (root - b) * arb(_STEP_FACTOR) / flight.g
     low, high = low.mid(), high.mid()
-    if not (low < high and all(height + t * (b + gap.g * t / 2) < 0 for t in (low, high))):
+    if not (low < high and all(height + t * (b + flight.g * t / 2) < 0 for t in (low, high))):
         return None
     return low, high

@@ -162,3 +162,37 @@ class Jet:
         for term in reversed(terms[:-1]):
             total = total * rest + term
         return total
+
+
+def square_root(square: arb | acb | Jet) -> arb | acb | Jet:
+    """Return the square root of a ball or a jet; a complex one has a positive real part."""
+    value = square.constant if isinstance(square, Jet) else square
+    if isinstance(value, arb):
+        return square.sqrt()
+    root = _complex_root(value)
+    if square is value:
+        return root
+    total, order = Jet.constant_of(square.algebra, root), 0
+    while order < square.algebra.order:
+        excess = total * total - square
+        excess.coefficients[0] = acb(0)
+        total = total - excess / (total * 2)
+        order = 2 * order + 1
+    return total
+
+
+def _complex_root(square: acb) -> acb:
+    """Enclose the square roots of a set more narrowly than Arb does, from those of its midpoint.
+
+    If s^2 = z and t^2 = m, then s = t + (z - m)/(s + t).
+    """
+    middle = square.mid()
+    centre, root = middle.sqrt(), square.sqrt()
+    for _ in range(3):
+        root = intersection(root, centre + (square - middle) / (root + centre))
+    return root
+
+
+def intersection(a: acb, b: acb) -> acb:
+    """Return the intersection of two sets that are known to meet."""
+    return acb(a.real.intersection(b.real), a.imag.intersection(b.imag))

@@ -6,10 +6,10 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
 
-from flint import arb, ctx, fmpq
+from flint import acb, arb, ctx, fmpq
 
-from .flight import UndecidedError, fly
-from .jets import Jet
+from .flight import Flight, UndecidedError
+from .jets import Jet, square_root
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
@@ -131,16 +131,17 @@ class Surface:
         k, g, energy = self.constants()
         return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
 
-    def speed(self, x: arb | Jet, y: arb | Jet) -> arb | Jet:
+    def speed(self, x: arb | acb | Jet, y: arb | acb | Jet) -> arb | acb | Jet:
         """Return the contact speed s = xdot + udot just before the impact.
 
-        Raises UndecidedError where a point may lie on or off the rim.
+        At complex points it is the square root with positive real part. Raises UndecidedError where
+        a point may lie on or off the rim, or s may not be analytic.
         """
         k, g, energy = self.constants()
         square = ((1 + k) * (2 * energy + x * (2 * g - k * x)) - y * y) / k
-        if not (square.constant if isinstance(square, Jet) else square) > 0:
+        if not (square.constant if isinstance(square, Jet) else square).real > 0:
             raise UndecidedError("a point is not proved to lie inside the section's rim")
-        return square.sqrt()
+        return square_root(square)
 
     def velocities(self, x: arb | Jet, y: arb | Jet) -> tuple[arb | Jet, arb | Jet]:
         """Return xdot and udot just before the impact; raises UndecidedError as `speed` does."""
@@ -148,17 +149,25 @@ class Surface:
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
-    def impact(self, x: arb | Jet, y: arb | Jet) -> Impact:
-        """Enclose the next impact of every point of the balls x and y, eq. (28).
-
-        Raises UndecidedError where a point may lie on the rim, or a flight may touch the floor
-        earlier.
-        """
+    def flight(self, x: arb | acb | Jet, y: arb | acb | Jet) -> Flight:
+        """Return the flight after the impact; raises UndecidedError as `speed` does."""
         k, g, _ = self.constants()
         s = self.speed(x, y)
-        b, c = (y - k * s) / (1 + k), -(y + s) / (1 + k)
-        x, xdot, udot, tau = fly(x, b, c, s, g)
-        return Impact(x, xdot - k * udot, tau, xdot + udot)
+        return Flight(x, (y - k * s) / (1 + k), -(y + s) / (1 + k), s, g)
+
+    def impact(self, x: arb | acb | Jet, y: arb | acb | Jet, root: acb | None = None) -> Impact:
+        """Enclose the next impact of every point of the balls x and y, eq. (28).
+
+        At complex points `root` encloses the flight times, which `complex_flight` continues. Raises
+        UndecidedError where a point may lie on the rim, or a flight may touch the floor earlier.
+        """
+        flight = self.flight(x, y)
+        if root is None:
+            tau = flight.first_root()
+        else:
+            tau = flight.expand(root) if isinstance(x, Jet) else root
+        x, xdot, udot = flight.end(tau)
+        return Impact(x, xdot - self.constants()[0] * udot, tau, xdot + udot)
 
     def jacobian(self, x: arb, y: arb) -> tuple[tuple, Impact]:
         """Enclose the derivative DP over a box, as two rows, and the box's image.
