@@ -8,14 +8,11 @@ from math import inf
 
 from flint import arb
 
+from ..enclosure.flight import NotProvedError
 from ..enclosure.surface import Surface, ball_of, exact
 
 Ball = tuple[Fraction, Fraction]  # k and g
 MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
-
-
-class NotProvedError(Exception):
-    """The reason why a checker does not take a statement as proved."""
 
 
 @dataclass

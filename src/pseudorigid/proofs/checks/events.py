@@ -4,11 +4,11 @@ Each event is a regular zero of equations in the energy and perhaps a position, 
 Newton; docs/proofs.md ("Births and ends") has the equations and what follows from a zero.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import partial
 
-from flint import arb, arb_mat, ctx
+from flint import arb, ctx
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.flight import Flight, UndecidedError, launch
@@ -26,13 +26,12 @@ from .certificate import (
     lowest,
 )
 from .ellipticity import theta_ends
+from .newton import System, enclose_zero, solve
 from .periodic import BITS, CLOSE
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor
 _RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved at a resonance
 
-# Values of the equations, and their derivatives by the unknowns and perhaps by more.
-System = Callable[[Sequence[arb]], tuple[list[arb], list[list[arb]]]]
 Range = tuple[Fraction, Fraction]
 Half = tuple[int, str]  # flights of a half orbit, and where it ends: "impact" or "apex"
 
@@ -134,7 +133,7 @@ def check_grazing(
         system = partial(grazing, k, g, halves=halves)
         values = _proved(certificate, system, len(halves), radius)
         _check_within("energy", values[0], energies)
-        slopes = [_slope(system(values, by=by)) for by in ("speed", "gap")]
+        slopes = [_slope(*system(values, by=by)) for by in ("speed", "gap")]
         for slope, sign, name in zip(slopes, sides, ("longer", "shorter"), strict=True):
             if not sign * slope > 0:
                 where = "above" if sign > 0 else "below"
@@ -150,36 +149,14 @@ def check_grazing(
 def _proved(certificate: Certificate, system: System, unknowns: int, radius: Fraction) -> list[arb]:
     """Prove that a system has one zero in the certificate's box, and enclose it narrowly."""
     centre = certificate.row("event", unknowns)
-    values = box(centre, certificate.radius(radius) + CLOSE)
-    try:
-        image = newton(system, values)
-        if not all(o.contains_interior(i) for i, o in zip(image, values, strict=True)):
-            raise NotProvedError("the Newton image of the box does not lie inside it")
-        while image[0].rad() < values[0].rad() / 2:
-            values = [a.intersection(b) for a, b in zip(image, values, strict=True)]
-            image = newton(system, values)
-    except (UndecidedError, ZeroDivisionError) as error:
-        raise NotProvedError(f"the box around the event: {error}") from None
+    values = enclose_zero(system, box(centre, certificate.radius(radius) + CLOSE))
     check_stated("event", values, centre, CLOSE)
     return values
 
 
-def newton(system: System, values: Sequence[arb]) -> list[arb]:
-    """Return the image of a box under interval Newton."""
-    n = len(values)
-    centre = [value.mid() for value in values]
-    residual, _ = system(centre)
-    _, slopes = system(values)
-    matrix = arb_mat([row[:n] for row in slopes])
-    step = matrix.solve(arb_mat([[value] for value in residual]), algorithm="precond")
-    return [centre[i] - step[i, 0] for i in range(n)]
-
-
-def _slope(result: tuple[list[arb], list[list[arb]]]) -> arb:
+def _slope(values: list[arb], slopes: list[list[arb]]) -> arb:
     """Return the energy's derivative by the last variable, along the zeros of a system."""
-    n = len(result[0])
-    matrix = arb_mat([row[:n] for row in result[1]])
-    return -matrix.solve(arb_mat([[row[n]] for row in result[1]]), algorithm="precond")[0, 0]
+    return -solve(slopes, [row[len(values)] for row in slopes])[0]
 
 
 def _check_within(name: str, value: arb, limits: Range) -> None:

@@ -164,10 +164,7 @@ def prove_hyperbolic(
 
     Raises NotProvedError.
     """
-    try:
-        local = local_map(surface, source, target)
-    except (UndecidedError, ZeroDivisionError) as error:
-        raise NotProvedError(f"{source.name}: {error}") from None
+    local = local_map(surface, source, target)
     return covering(local, source, target), cones(local, source, target), local
 
 
@@ -176,10 +173,7 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
 
     Returns the margins of `covering`. Raises NotProvedError.
     """
-    try:
-        right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
-    except UndecidedError as error:
-        raise NotProvedError(f"{source.name}: {error}") from None
+    right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
     side = 1 if right > 0 else -1  # on which the edge p = 1 lands
     beyond = room = float("inf")
     failure = f"{source.name} does not cover {target.name}"
@@ -190,7 +184,7 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
         cell = cells.pop()
         try:
             local = local_map(surface, cell.of(source), target)
-        except (UndecidedError, ZeroDivisionError) as error:
+        except UndecidedError as error:
             failure = f"{source.name}: {error}"
             cells += cell.halves(source)
             continue

@@ -79,7 +79,7 @@ def over_band(
         fields = _fields(ball_of(k), ball_of(g), band)
         *wide, third = _cosine_and_twist(fields[0], band)
         narrow = _cosine_and_twist(fields[1], middle)
-    except (NotProvedError, ZeroDivisionError) as reason:
+    except NotProvedError as reason:
         raise NotProvedError(f"theta from {float(low):g} to {float(high):g}: {reason}") from None
     pairs = []
     for over, at in zip(wide, narrow, strict=False):

@@ -1,20 +1,16 @@
-"""Periodic orbits, by interval Newton on the shooting map F_i = P(z_i) - z_(i+1).
-
-Theorem (Moore; Neumaier, Interval Methods for Systems of Equations, 1990): let X be a box with
-midpoint c and A a regular interval matrix that contains DF on X. If N = c - A^-1 F(c) lies in the
-interior of X, then F has exactly one zero in X, and it is in N.
-"""
+"""Periodic orbits, by interval Newton on the shooting map F_i = P(z_i) - z_(i+1)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 
 from flint import arb, arb_mat, ctx
 
-from ..enclosure.flight import UndecidedError
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, NotProvedError, box, check_stated, lowest
+from .newton import enclose_zero, newton
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
@@ -108,17 +104,35 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
     """
     if not radius > 0:
         raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
-    boxes = [box(centre, radius) for centre in centres]
-    try:
-        image = newton_image(surface, boxes)
-        for inner, outer in zip(image, boxes, strict=True):
-            if not all(o.contains_interior(i) for i, o in zip(inner, outer, strict=True)):
-                raise NotProvedError("the Newton image of the boxes does not lie inside them")
-        orbit = enclose(surface, _narrow(surface, image), radius)
-    except (UndecidedError, ZeroDivisionError) as error:
-        raise NotProvedError(f"the boxes around the orbit: {error}") from None
+    boxes = [a for centre in centres for a in box(centre, radius)]
+    values = enclose_zero(partial(_shooting, surface), boxes)
+    orbit = enclose(surface, _pairs(values), radius)
     check_distinct(orbit.points)
     return orbit
+
+
+def _pairs(values: Sequence[arb]) -> list[tuple[arb, arb]]:
+    """Return the points whose coordinates are in one list."""
+    return list(zip(values[::2], values[1::2], strict=True))
+
+
+def _shooting(surface: Surface, values: Sequence[arb]) -> tuple[list[arb], list[list[arb]]]:
+    """Return F_i = P(z_i) - z_(i+1), and the rows of DF, over boxes around the z_i."""
+    points, residuals, slopes = _pairs(values), [], []
+    for i, point in enumerate(points):
+        after = (i + 1) % len(points)
+        rows, image = surface.jacobian(*point)
+        for r in range(2):
+            residuals.append(image[r] - points[after][r])
+            slopes.append([arb(0)] * len(values))
+            slopes[-1][2 * i : 2 * i + 2] = rows[r]
+            slopes[-1][2 * after + r] -= 1
+    return residuals, slopes
+
+
+def newton_image(surface: Surface, points: Points) -> list[tuple[arb, arb]]:
+    """Return the image of points (x, y) under one step of Newton's method to a periodic orbit."""
+    return _pairs(newton(partial(_shooting, surface), [a for point in points for a in point]))
 
 
 def check_distinct(points: Points) -> None:
@@ -145,36 +159,6 @@ def prove_saddles(
             raise NotProvedError(f"the orbit at the sets is {orbit.type}, not hyperbolic")
         check_window(surface, orbit, window)
         return orbit
-
-
-def newton_image(surface: Surface, boxes: Points) -> list[list[arb]]:
-    """Return the image N of boxes (x, y) under interval Newton on the shooting map."""
-    n = len(boxes)
-    slopes, residuals = arb_mat(2 * n, 2 * n), arb_mat(2 * n, 1)
-    centres = [[a.mid() for a in box_] for box_ in boxes]
-    for i, centre in enumerate(centres):
-        after = (i + 1) % n
-        rows, _ = surface.jacobian(*boxes[i])
-        image = surface.impact(*centre)
-        for r in range(2):
-            for c in range(2):
-                slopes[2 * i + r, 2 * i + c] += rows[r][c]
-            slopes[2 * i + r, 2 * after + r] -= 1
-            residuals[2 * i + r, 0] = image[r] - centres[after][r]
-    step = slopes.solve(residuals, algorithm="precond")
-    return [[centres[i][r] - step[2 * i + r, 0] for r in range(2)] for i in range(n)]
-
-
-def _narrow(surface: Surface, boxes: list[list[arb]]) -> list[list[arb]]:
-    """Narrow the boxes around the orbit's points as far as the precision allows."""
-    while True:
-        narrow = [
-            [a.intersection(b) for a, b in zip(*pair, strict=True)]
-            for pair in zip(newton_image(surface, boxes), boxes, strict=True)
-        ]
-        if not narrow[0][0].rad() < boxes[0][0].rad() / 2:
-            return narrow
-        boxes = narrow
 
 
 def enclose(surface: Surface, points: Points, radius: Fraction = Fraction(0)) -> Orbit:

@@ -21,7 +21,11 @@ _STEP_FACTOR = 1.0 - 1e-6
 _PLAIN_STEPS, _MOST_STEPS = 400, 800
 
 
-class UndecidedError(ArithmeticError):
+class NotProvedError(Exception):
+    """The reason why a statement is not taken as proved."""
+
+
+class UndecidedError(NotProvedError, ArithmeticError):
     """A question that cannot be decided for this set of states at this precision."""
 
 

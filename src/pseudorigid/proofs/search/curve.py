@@ -17,7 +17,6 @@ from ...dynamics.variables import chart, states_of
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.circle import derivative, noble, real_values, rotated, transform
 from ..checks.curve import Curve
-from ..enclosure.flight import UndecidedError
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface, fraction_of
 from . import approximate_orbits
@@ -33,10 +32,6 @@ _SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
 _STEPS = 6
 _CLOSE = 5e-4  # of a noble number to the wanted rotation number
 _DIGITS_OF_ERROR = 18.5  # that the error has, besides those of the loss to the eighth power
-
-
-class NoCurveError(ValueError):
-    """No curve with the wanted rotation number was found."""
 
 
 class Strips(NamedTuple):
@@ -80,7 +75,7 @@ def search(
     """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
 
     The strips follow from the decay of the coefficients of an orbit in doubles. Raises
-    NoCurveError, or the checker's NotProvedError if the last sizes fail.
+    ValueError, or the checker's NotProvedError if the last sizes fail.
     """
     start = _start(surface, points, quotients)
     xs, ys = start.xs, start.ys
@@ -107,7 +102,7 @@ def search(
 def quotients_near(value: float) -> list[int]:
     """Return partial quotients for which the number of `checks.circle.noble` is close to a value.
 
-    They are the first ones of the value's continued fraction. Raises NoCurveError for a value so
+    They are the first ones of the value's continued fraction. Raises ValueError for a value so
     close to a fraction of small integers that this gives no number close to it.
     """
     rest, quotients = value, []
@@ -118,7 +113,7 @@ def quotients_near(value: float) -> list[int]:
         if abs(float(noble(quotients)[0]) - value) < _CLOSE:
             return quotients
         if rest < _CLOSE:
-            raise NoCurveError(f"{value:.10g} is too close to a fraction of small integers")
+            raise ValueError(f"{value:.10g} is too close to a fraction of small integers")
 
 
 def _start(surface: Surface, points: Sequence, quotients: Sequence[int]) -> _Start:
@@ -126,7 +121,7 @@ def _start(surface: Surface, points: Sequence, quotients: Sequence[int]) -> _Sta
     points = [[float(a) for a in point] for point in points]
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
     if not symmetric:
-        raise NoCurveError("the orbit has no point on y = 0")
+        raise ValueError("the orbit has no point on y = 0")
     first = max(symmetric, key=lambda i: points[i][0])
     points = points[first:] + points[:first]
     with ctx.workprec(BITS):
@@ -138,7 +133,7 @@ def _start(surface: Surface, points: Sequence, quotients: Sequence[int]) -> _Sta
 def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
     """Return the x > that of the first point at which y = 0 meets the curve of a rotation number.
 
-    The curve nearest to the point is taken. Raises NoCurveError if there is none.
+    The curve nearest to the point is taken. Raises ValueError if there is none.
     """
     centre, period = points[0][0], len(points)
     with ctx.workprec(53):
@@ -156,7 +151,7 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
         if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
             return _bisect(excess, previous[0], x)
         previous = x, value
-    raise NoCurveError(f"no curve with the rotation number {omega:.6g} was found on y = 0")
+    raise ValueError(f"no curve with the rotation number {omega:.6g} was found on y = 0")
 
 
 def _nearest(points: Sequence) -> float:
@@ -195,10 +190,7 @@ def _orbit(surface: Surface, x: float, period: int, impacts: int) -> np.ndarray:
     """Return every period-th point (x, y) after the one at (x, 0) of its orbit."""
     ball = approximate_orbits.ball(surface)
     with ctx.workprec(64):
-        try:
-            v, w = (float(a) for a in surface.velocities(arb(x), arb(0)))
-        except UndecidedError as error:
-            raise NoCurveError(str(error)) from None
+        v, w = (float(a) for a in surface.velocities(arb(x), arb(0)))
     data = orbit(ball, (x, v, w), impacts * period)
     return chart(ball.k, *states_of(data))[:, period - 1 :: period]
 

@@ -6,7 +6,8 @@ from functools import partial
 
 from flint import arb, ctx
 
-from ..checks.events import System, doubling, grazing, newton
+from ..checks.events import doubling, grazing
+from ..checks.newton import System, newton
 from ..checks.periodic import BITS
 from ..enclosure.fixed_point import energy_at, trace_at
 from ..enclosure.surface import ball_of
