@@ -16,8 +16,7 @@ class _Theorem(Theorem):
     def text(self) -> str:
         """Read the certificate, which is not in the package.
 
-        It is search.propose(surface, points, [5, 1, 1, 2, 20], search.Strips("0.06", "0.0098", 64,
-        4, 3, 60), radius="1e-6", share="0.0069", error="1e-35").
+        It is search.propose(SMALL, [5, 1, 1, 2, 20], ("0.06", "0.0098", 64, 4, 3, 60), "1e-35").
         """
         return Path(__file__).with_name("small_curve.toml").read_text(encoding="utf-8")
 

@@ -15,7 +15,7 @@ from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
-from pseudorigid.proofs.theorems import curve_scene, graph_scene, scenes
+from pseudorigid.proofs.theorems import scenes
 from pseudorigid.sweep.shares import shares
 
 SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
@@ -60,8 +60,8 @@ def families_along(parameter, span, levels, step, starts, impacts):
 
 def curves():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(curve_scene, "theorems_at", lambda *_: [SMALL])
-        data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
+        patch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
+        data = scenes.scene_curves(BALL, 0.01, [0.17865])
     return data, scene_orbits(BALL, 0.01, [0.1, 0.9], [200, 800])
 
 
@@ -78,7 +78,7 @@ OTHERS = {
     "curves": curves,
     "horseshoe": horseshoe,
     "graph": lambda: [
-        graph_scene.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
+        scenes.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
     ],
     "families": lambda: families_along("energy", FAMILIES["span"], 8, 0.002, 40, 1000),
 }  # fmt: skip

@@ -22,7 +22,6 @@ from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import circle, curve
 from pseudorigid.proofs.checks.certificate import NotProvedError
 from pseudorigid.proofs.enclosure import complex_flight
-from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search import curve as search
 
 TEXT = SMALL.text()
@@ -33,7 +32,7 @@ CURVES = [name for name, theorem in THEOREMS.items() if theorem.checker is curve
 def bounds_and_finding(name):
     """The bounds of a theorem about a curve, and the finding of its checker."""
     theorem = SMALL if name == SMALL.name else THEOREMS[name]
-    return theorem.bounds, theorem.prove(theorem.text())
+    return theorem.bounds, theorem.prove()
 
 
 def start_of(finding):
@@ -87,7 +86,7 @@ def test_the_area_is_that_of_the_cells_inside_an_orbit_on_the_curve(name):
 def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
     """400 orbits all over the disc, each impact compared with a radius in doubles."""
     theorem = THEOREMS["curve-fixed-point-outer"]
-    finding = theorem.prove(theorem.text())
+    finding = theorem.prove()
     centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])[:, None]
     corners = np.array(finding.parts["polygons"][0]).T - centre
     angle, radius = np.arctan2(*corners[::-1]), np.hypot(*corners)
@@ -206,12 +205,8 @@ def test_the_curve_run_through_twice_is_refused():
 def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monkeypatch):
     """With omega/2 itself, which no certificate can state, and a curve of more digits."""
     theorem = THEOREMS["curve-fixed-point"]
-    points = approximate_orbits.points(theorem.bounds["surface"], 1, "elliptic")
-    strips = search.Strips("0.025", "0.004", 256, 6, 6, 430)
-    text = search.propose(
-        theorem.bounds["surface"], points, (5, 1, 3), strips,
-        radius="4e-3", share="0.117", error="1e-42",
-    )  # fmt: skip
+    strips = ("0.025", "0.004", 256, 6, 6, 430)
+    text = search.propose(theorem, (5, 1, 3), strips, "1e-42")
     weaker = with_bounds(theorem, rotation=None)
     assert weaker.check(text).verdict == "proved"
     rows = numbers(text, "coefficients")

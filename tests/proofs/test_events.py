@@ -198,7 +198,7 @@ def test_a_consistent_certificate_of_another_ball_is_refused():
     ball = {"k": Fraction(1, 5), "g": Fraction(1, 20)}
     energy = str(float(Fraction("0.009682501945") * Fraction(25, 16)))
     other = with_bounds(theorem, **ball, energies=(Fraction("0.015"), Fraction("0.0152")))
-    text = event_search.propose_grazing([energy], other.holds_for_any_radius, **other.bounds)
+    text = event_search.propose_grazing(other, [energy])
     assert other.check(text).verdict == "proved"
     assert "the certificate is of g" in refused("six-inverse-birth", text)
 

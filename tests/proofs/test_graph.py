@@ -26,7 +26,7 @@ GRAPHS = [SMALL, *slowly("entropy")]
 @cache
 def proved(name):
     """The finding about a theorem's own certificate."""
-    return THEOREMS[name].prove(THEOREMS[name].text())
+    return THEOREMS[name].prove()
 
 
 def changed(text, field, row, columns, change):
@@ -195,7 +195,7 @@ def test_the_sets_do_not_cover_at_another_ball_or_energy(field, value):
 def test_points_of_the_unstable_manifold_land_on_both_sides_of_the_jump_set():
     """The image of the last set but one, mapped once more, jumps."""
     theorem = THEOREMS["no-circle"]
-    chain = theorem.prove(theorem.text()).parts["chain"]
+    chain = theorem.prove().parts["chain"]
     double_map = DoubleMap(theorem.bounds["surface"])
     last = chain[-1]
     p = np.linspace(-1.0, 1.0, 2001)

@@ -194,14 +194,27 @@ def test_no_jump_is_proved_where_the_map_is_smooth():
         jump.check(text, at, radius=Fraction(1), length=Fraction(0), jump=Fraction(0))
 
 
+def only_fixed_point(k, g, energy):
+    """The certificate of one fixed point up to an energy of a ball."""
+    return propose_only_fixed_point(
+        with_bounds(THEOREMS["one-fixed-point"], k=k, g=g, energy=energy)
+    )
+
+
+def elliptic(k, g, energy, trace):
+    """The certificate of an elliptic fixed point up to an energy of a ball."""
+    theorem = with_bounds(THEOREMS["fixed-point-elliptic"], k=k, g=g, energy=energy, trace=trace)
+    return propose_ellipticity(theorem)
+
+
 def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are_three():
     ball, low = (Fraction(1, 5), Fraction(1, 25)), Fraction(1, 100)
-    text = propose_only_fixed_point(*ball, low)
+    text = only_fixed_point(*ball, low)
     assert periodic.check_only_fixed_point(text, *ball, low)
     assert "up to 1/100" in refused("one-fixed-point", text)
     assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
     k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
-    text = propose_only_fixed_point(k, g, energy)
+    text = only_fixed_point(k, g, energy)
     with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
         periodic.check_only_fixed_point(text, k, g, energy)
 
@@ -209,7 +222,7 @@ def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are
 def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_another_theta():
     ball, trace = (Fraction(1, 5), Fraction(1, 25)), Fraction("-0.46")
     for energy in (Fraction(1, 20), Fraction(61, 1000)):
-        text = propose_ellipticity(*ball, energy, Fraction("-0.5"))
+        text = elliptic(*ball, energy, Fraction("-0.5"))
         assert ellipticity.check(text, *ball, energy, Fraction("-0.5"))
         assert f"up to {energy}" in refused("fixed-point-elliptic", text)
     text = THEOREMS["fixed-point-elliptic"].text()
@@ -219,7 +232,7 @@ def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_a
     ):
         assert reason in refused("fixed-point-elliptic", with_field(text, "theta", theta))
     # At k = 1 and this energy the fixed point has long been inverse hyperbolic.
-    text = propose_ellipticity(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
+    text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
     with pytest.raises(NotProvedError, match="not proved to be above"):
         ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
 
@@ -237,7 +250,7 @@ def test_the_boxes_contain_those_around_the_points_of_the_orbit(monkeypatch):
 
     monkeypatch.setattr(periodic, "prove", watched)
     theorem = THEOREMS["six-elliptic"]
-    orbit = theorem.prove(theorem.text()).parts["orbit"]
+    orbit = theorem.prove().parts["orbit"]
     assert orbit.radius == theorem.bounds["radius"]
     rows = numbers(theorem.text(), "points")
     with ctx.workprec(256):
@@ -298,11 +311,8 @@ def test_every_number_of_a_statement_is_given_to_its_checker(name):
 @pytest.mark.parametrize("checker", CHECKERS)
 def test_a_longer_chain_is_refused_for_its_entropy(checker):
     theorem = THEOREMS["horseshoe-outer"]
-    surface = theorem.bounds["surface"]
     weaker = with_bounds(theorem, entropy=Fraction(0))
-    points = approximate_orbits.points(surface, 6, "hyperbolic")
-    plan = horseshoe_search.Plan(side=1, steps=72, size=3e-5, room=1.06)
-    text = horseshoe_search.propose(surface, points, plan, weaker.prove)
+    text = horseshoe_search.propose(weaker, "outer", (72, 3e-5, 1.06))
     if checker == "second":
         assert check(theorem.name, text, entropy=Fraction(0))
     else:
@@ -336,11 +346,11 @@ def test_the_crossing_angle_is_acute_even_near_a_right_angle(centre):
 def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeypatch):
     theorem = THEOREMS["jump-set"]
     # another point of the curve is as good: the statement is about the one that is printed
-    other = theorem.check(jump_search.propose(theorem.bounds["surface"], "-0.05", "1e-28"))
+    other = theorem.check(jump_search.propose(theorem, "-0.05"))
     assert other.digits["point x"] != theorem.check().digits["point x"]
     assert other.verdict == "proved"
     # near the inner end the jump vanishes
-    inner = jump_search.propose(theorem.bounds["surface"], "-0.117", "1e-28")
+    inner = jump_search.propose(theorem, "-0.117")
     assert "within 0.27" in refused("jump-set", inner)
     whole = jump.curve
     monkeypatch.setattr(jump, "curve", lambda surface, count: whole(surface, count)[:-2])

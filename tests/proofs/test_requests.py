@@ -15,8 +15,7 @@ from pseudorigid.analyses.polygon import Polygon
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
 from pseudorigid.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
-from pseudorigid.proofs.theorems import curve_scene, impacts, scenes
-from pseudorigid.proofs.theorems.graph_scene import scene_graph
+from pseudorigid.proofs.theorems import impacts, scenes
 
 PAPER = Surface("1/5", "1/25", "1/100")
 
@@ -174,8 +173,8 @@ def test_the_twist_of_another_ball_and_its_proved_zero():
 
 
 def test_the_data_of_a_proved_curve(monkeypatch):
-    monkeypatch.setattr(curve_scene, "theorems_at", lambda *_: [SMALL])
-    data = curve_scene.scene_curves(BALL, 0.01, [0.17865])
+    monkeypatch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
+    data = scenes.scene_curves(BALL, 0.01, [0.17865])
     assert data.sizes["curve"] == 1
     assert 0.0069 < data["share"].item() < 0.007
     area = Polygon(np.stack([data["x"].values[:-1], data["y"].values[:-1]])).area()
@@ -183,10 +182,10 @@ def test_the_data_of_a_proved_curve(monkeypatch):
 
 
 def test_the_data_of_a_proved_graph():
-    data = scene_graph(BALL, 0.005)
+    data = scenes.scene_graph(BALL, 0.005)
     assert 0.05 < data["entropy"].item() < 0.051
     ends = data["connection"].values < 0
     assert ends.sum() == 2
     assert ends.size - 2 == (data["impacts"].values - 1).sum()
     with pytest.raises(ValueError, match="no graph is a theorem at k = 1/5"):
-        scene_graph(BALL, 0.006)
+        scenes.scene_graph(BALL, 0.006)

@@ -20,7 +20,7 @@ from pseudorigid.proofs.enclosure.fixed_point import energy_at, slope_at, trace_
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search.periodic import polished
 from pseudorigid.proofs.search.twist import estimate
-from pseudorigid.proofs.theorems.verdict import theorem_verdict
+from pseudorigid.proofs.theorems.statements import theorem_verdict
 
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
@@ -191,7 +191,7 @@ def test_the_length_of_the_jump_set_is_one_lower_bound_everywhere(results):
 
 def test_the_entropy_solves_its_equation(results):
     for name in HORSESHOES:
-        loop = THEOREMS[name].prove(THEOREMS[name].text()).parts["loop"]
+        loop = THEOREMS[name].prove().parts["loop"]
         entropy = float(middle(results[name].digits["entropy"]))
         assert np.exp(-6 * entropy) + np.exp(-loop * entropy) == pytest.approx(1, abs=1e-12)
 
@@ -200,7 +200,7 @@ def test_the_entropy_solves_its_equation(results):
 def test_the_closed_formula_and_the_normal_form_give_one_twist(name):
     theorem = THEOREMS[name]
     surface, period = theorem.bounds["surface"], theorem.bounds["period"]
-    proved = theorem.prove(theorem.text()).digits["twist"]
+    proved = theorem.prove().digits["twist"]
     with ctx.workprec(160):
         points = polished(surface, approximate_orbits.points(surface, period, "elliptic"))
         assert abs(estimate(surface, points) - proved) < arb("1e-25")

@@ -1,6 +1,6 @@
 """Check a theorem."""
 
-from pseudorigid.proofs.theorems.verdict import theorem_verdict
+from pseudorigid.proofs.theorems.statements import theorem_verdict
 
 from ..records import artifacts
 from ..records.build_spec import BuildSpec

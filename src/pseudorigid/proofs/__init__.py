@@ -11,7 +11,7 @@ from typing import Any
 _MODULES = {
     "Surface": "enclosure.surface",
     "THEOREMS": "theorems.statements",
-    "search_certificate": "theorems.statements",
+    "search_certificate": "theorems.searches",
     "prove_orbit": "theorems.requests",
     "prove_curve": "theorems.requests",
     "prove_horseshoe": "theorems.requests",

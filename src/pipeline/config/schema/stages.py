@@ -71,8 +71,8 @@ STAGES = {
         ("periodic",),
     ),
     "twist": Stage(f"{_PROOFS}.theorems.scenes", "scene_twist", ("energies",)),
-    "curves": Stage(f"{_PROOFS}.theorems.curve_scene", "scene_curves", ("rotation_numbers",)),
-    "graph": Stage(f"{_PROOFS}.theorems.graph_scene", "scene_graph", ()),
+    "curves": Stage(f"{_PROOFS}.theorems.scenes", "scene_curves", ("rotation_numbers",)),
+    "graph": Stage(f"{_PROOFS}.theorems.scenes", "scene_graph", ()),
     "lyapunov": Stage(
         f"{_DYNAMICS}.lyapunov", "scene_exponents", ("starts", "impacts", "records"), follows=True
     ),

@@ -13,6 +13,7 @@ from flint import arb, ctx
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.flight import Flight, UndecidedError, launch
 from ..enclosure.jets import Jet, algebra
+from ..enclosure.newton import System, enclose_zero, solve
 from ..enclosure.surface import Surface, ball_of, fraction_of
 from . import periodic
 from .birkhoff import normal_form
@@ -26,7 +27,6 @@ from .certificate import (
     lowest,
 )
 from .ellipticity import theta_ends
-from .newton import System, enclose_zero, solve
 from .periodic import BITS, CLOSE
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor

@@ -8,9 +8,9 @@ from itertools import combinations
 
 from flint import arb, arb_mat, ctx
 
+from ..enclosure.newton import enclose_zero, newton
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, NotProvedError, box, check_stated, lowest
-from .newton import enclose_zero, newton
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's

@@ -11,6 +11,11 @@ def ball(surface: Surface) -> Ball:
     return Ball(k=float(surface.k), g=float(surface.g))
 
 
+def points_of(theorem, kind: str) -> list[list[float]]:
+    """Return the points (x, y) near which a theorem states an orbit of this type."""
+    return points(theorem.bounds["surface"], theorem.bounds["period"], kind)
+
+
 def points(surface: Surface, period: int, kind: str) -> list[list[float]]:
     """Return the points (x, y) of the first symmetric orbit of this period and type."""
     near = ball(surface)

@@ -54,35 +54,30 @@ class _Start(NamedTuple):
     ys: list[float]
 
 
-def propose(
-    surface: Surface, points: Sequence, quotients: Sequence[int], strips: Strips, *,
-    radius: str, share: str, error: str,
-) -> str:  # fmt: skip
+def propose(theorem, quotients: Sequence[int], strips: Sequence, error: str) -> str:
     """Return a certificate for a curve around a point (x, 0) of a symmetric orbit.
 
-    The rotation number is that of `checks.circle.noble`. Of the orbit's points on y = 0 the one
-    with the greatest x is taken.
+    The rotation number is that of `checks.circle.noble`, and `strips` are those of `Strips`. Of the
+    orbit's points on y = 0 the one with the greatest x is taken.
     """
-    return _text(surface, _start(surface, points, quotients), strips, radius, share, error)
+    start = _start(theorem, quotients)
+    share = str(float(theorem.bounds["share"]))
+    return _text(theorem, start, Strips(*strips), share, error)
 
 
-def search(
-    surface: Surface,
-    points: Sequence,
-    quotients: Sequence[int],
-    prove: Callable[[str], Finding],
-) -> tuple[str, Finding]:
+def search(theorem, rotation: float) -> tuple[str, Finding]:
     """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
 
-    The strips follow from the decay of the coefficients of an orbit in doubles. Raises
-    ValueError, or the checker's NotProvedError if the last sizes fail.
+    The rotation number is close to the given one. The strips follow from the decay of the
+    coefficients of an orbit in doubles. Raises ValueError if no curve is found, or the checker's
+    NotProvedError if the last sizes fail.
     """
-    start = _start(surface, points, quotients)
+    start = _start(theorem, quotients_near(rotation))
     xs, ys = start.xs, start.ys
     decay = -math.log(_NOISE / abs(xs[1])) / len(xs)
     area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
-    with ctx.workprec(64):
-        share = f"{0.9999 * area / float(surface.area()):.5g}"  # rounding adds less than 1e-4
+    with ctx.workprec(64):  # rounding adds less than 1e-4
+        share = f"{0.9999 * area / float(theorem.bounds['surface'].area()):.5g}"
     for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
         strip = part * decay / (2.0 * math.pi)
         loss = strip / 6.2
@@ -91,9 +86,9 @@ def search(
         columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
         rows = math.ceil(columns * strip)
         strips = Strips(f"{strip:.4g}", f"{loss:.3g}", columns, rows, math.ceil(0.6 * rows), modes)
-        text = _text(surface, start, strips, "1e-6", share, f"1e-{digits}")
+        text = _text(theorem, start, strips, share, f"1e-{digits}")
         try:
-            return text, prove(text)
+            return text, theorem.prove(text)
         except NotProvedError as error:
             reason = error
     raise reason
@@ -116,9 +111,9 @@ def quotients_near(value: float) -> list[int]:
             raise ValueError(f"{value:.10g} is too close to a fraction of small integers")
 
 
-def _start(surface: Surface, points: Sequence, quotients: Sequence[int]) -> _Start:
+def _start(theorem, quotients: Sequence[int]) -> _Start:
     """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
-    points = [[float(a) for a in point] for point in points]
+    surface, points = theorem.bounds["surface"], approximate_orbits.points_of(theorem, "elliptic")
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
     if not symmetric:
         raise ValueError("the orbit has no point on y = 0")
@@ -212,10 +207,9 @@ def _coefficients_of_orbit(
     return xs[:-3], ys[:-3]
 
 
-def _text(
-    surface: Surface, start: _Start, strips: Strips, radius: str, share: str, error: str
-) -> str:
+def _text(theorem, start: _Start, strips: Strips, share: str, error: str) -> str:
     """Improve a curve by Newton's method until its error settles, and format the certificate."""
+    surface, radius = theorem.bounds["surface"], f"{float(theorem.bounds['radius']):g}"
     with ctx.workprec(CENTRE_BITS):
         centres = polished(surface, start.points)
     with ctx.workprec(BITS):

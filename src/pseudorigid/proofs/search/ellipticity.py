@@ -14,15 +14,16 @@ _DECIMALS = 38  # of theta
 _BANDS = 64  # of theta, on each of which the checker encloses the slope of the trace
 
 
-def propose(k: Fraction, g: Fraction, energy: Fraction, trace: Fraction) -> str:
-    """Return the certificate that the fixed point is elliptic at energies up to this one."""
+def propose(theorem) -> str:
+    """Return the certificate that the fixed point is elliptic at energies up to the theorem's."""
+    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     with ctx.workprec(BITS):
         _, theta = bisected_theta(
             lambda it: energy_at(ball_of(k), ball_of(g), it) < ball_of(energy)
         )
     return (
-        ball_header("elliptic fixed point", k, g) + f'energy_up_to = "{energy}"\n'
-        f"{theta}trace_above = {float(trace):g}\nbands = {_BANDS}\n"
+        ball_header("elliptic fixed point", k, g) + f'energy_up_to = "{energy}"\n{theta}'
+        f"trace_above = {float(theorem.bounds['trace']):g}\nbands = {_BANDS}\n"
     )
 
 

@@ -17,7 +17,6 @@ from ...dynamics.periodic import symmetric_orbits
 from ...dynamics.variables import chart, states_of
 from ..checks import graph, hsets
 from ..checks.certificate import NotProvedError
-from ..enclosure.surface import Surface
 from .certificate_text import header, rows
 from .chains import DoubleMap, Parallelogram, chain
 
@@ -32,14 +31,6 @@ _MARGIN = 0.03  # of the coverings along a chain
 _HIGHEST = 1.0  # entropy above any of this map
 
 
-class Plan(NamedTuple):
-    """The choice of the sets and of the connections."""
-
-    periods: tuple[int, ...]  # of the symmetric saddles at whose points there are sets
-    size: float  # square root of a quarter of a set's area, in (x, y)
-    impacts: int  # of a connection, at most
-
-
 class Crossing(NamedTuple):
     """A connection from the strip low <= p <= high of one set to another."""
 
@@ -50,11 +41,16 @@ class Crossing(NamedTuple):
     high: float
 
 
-def propose(surface: Surface, plan: Plan) -> str:
-    """Return a certificate of a graph with the largest growth that is found."""
+def propose(theorem, periods: Sequence[int], size: float, impacts: int) -> str:
+    """Return a certificate of a graph with the largest growth that is found.
+
+    There are sets at the points of the symmetric saddles of these periods. `size` is the square
+    root of a quarter of a set's area, in (x, y), and `impacts` the most of a connection.
+    """
+    surface = theorem.bounds["surface"]
     double_map = DoubleMap(surface)
-    sets = _sets(double_map, plan)
-    candidates = dict(enumerate(_crossings(double_map, sets, plan.impacts)))
+    sets = _sets(double_map, periods, size)
+    candidates = dict(enumerate(_crossings(double_map, sets, impacts)))
     texts: dict[int, list[str]] = {}
     while True:
         _, _, chosen = _best(candidates, len(sets))
@@ -70,16 +66,16 @@ def propose(surface: Surface, plan: Plan) -> str:
     return _text(surface, sets, [(candidates[i], texts[i]) for i in chosen])
 
 
-def _sets(double_map: DoubleMap, plan: Plan) -> list[Parallelogram]:
+def _sets(double_map: DoubleMap, periods: Sequence[int], size: float) -> list[Parallelogram]:
     """Return parallelograms of one area at the points of the saddles, with rounded numbers."""
     sets = []
-    for period in plan.periods:
+    for period in periods:
         orbits = symmetric_orbits(double_map.ball, double_map.energy, period)
         for i in range(orbits.sizes["orbit"]):
             orbit = orbits.isel(orbit=i)
             if abs(orbit["trace"].item()) > _LEAST_TRACE:
                 points = chart(double_map.ball.k, *states_of(orbit)).T
-                sets += _at_saddles(double_map, points, plan.size)
+                sets += _at_saddles(double_map, points, size)
     return sets
 
 

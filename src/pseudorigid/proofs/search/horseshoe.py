@@ -17,6 +17,7 @@ from flint import arb, ctx
 from ..checks.certificate import Finding, NotProvedError
 from ..checks.periodic import enclose
 from ..enclosure.surface import Surface
+from . import approximate_orbits
 from .certificate_text import header, row, rows
 from .chains import DoubleMap
 from .periodic import polished
@@ -40,9 +41,8 @@ Vector = Sequence[arb]
 
 
 class Plan(NamedTuple):
-    """The choice of a connection, and the shape of the sets."""
+    """The number and the shape of the sets."""
 
-    side: int  # 1 the outer, -1 the inner unstable branches
     steps: int  # sets of the chain on either side of its middle one
     size: float  # of the sets at the saddles, in (x, y)
     room: float  # factor between widths of a set and its image, where chain and saddles meet
@@ -80,25 +80,23 @@ class _Connection(NamedTuple):
         return abs((vector[0] * sy - vector[1] * sx) / (ux * sy - uy * sx))
 
 
-def propose(surface: Surface, points: Sequence, plan: Plan, prove: Callable[[str], Finding]) -> str:
-    """Return a certificate of a horseshoe on the hyperbolic orbit through points (x, y).
+def propose(
+    theorem, side: str = "outer", plan: Plan | None = None, points: Sequence | None = None
+) -> str:
+    """Return a certificate of a horseshoe on a hyperbolic orbit near points (x, y).
 
-    `prove` returns a checker's Finding of a text, with the margins of the coverings among its
-    parts. Raises ValueError if the orbit is not its own mirror image, the branch does not meet
-    y = 0, or the chain does not begin at its saddle.
+    The side, "outer" or "inner", is that of the unstable branches. Without a plan the sets are the
+    largest that the checker accepts. Raises ValueError if the orbit is not its own mirror
+    image, the branch does not meet y = 0, the chain does not begin at its saddle, or no size of
+    sets proves it: with the reason at the smallest.
     """
+    if points is None:
+        points = approximate_orbits.points_of(theorem, "hyperbolic")
     with ctx.workprec(_BITS):
-        return _with_margins(_connect(surface, points, plan.side, plan.steps), plan, prove)
-
-
-def search(surface: Surface, points: Sequence, side: int, prove: Callable[[str], Finding]) -> str:
-    """Return a certificate of a horseshoe with the largest sets that a checker accepts.
-
-    The parameters are those of `propose`, and the side of `Plan`. Raises ValueError as `propose`
-    does, or if no size proves it: with the reason at the smallest.
-    """
-    with ctx.workprec(_BITS):
-        connection = _connect(surface, points, side, _MOST_STEPS)
+        sign, steps = 1 if side == "outer" else -1, _MOST_STEPS if plan is None else plan[0]
+        connection = _connect(theorem.bounds["surface"], points, sign, steps)
+        if plan is not None:
+            return _with_margins(connection, Plan(*plan), theorem.prove)
         rho = connection.rho
         room = float(rho.sqrt())
         most = min(_MOST_STEPS, connection.middle)
@@ -109,7 +107,7 @@ def search(surface: Surface, points: Sequence, side: int, prove: Callable[[str],
             if steps is None:
                 break
             try:
-                return _with_margins(connection, Plan(side, steps, size, room), prove)
+                return _with_margins(connection, Plan(steps, size, room), theorem.prove)
             except (NotProvedError, ArithmeticError) as error:
                 reason = str(error)
     raise ValueError(f"no size of its sets from {_SIZES[0]:g} to {size:.2g} proves it: {reason}")

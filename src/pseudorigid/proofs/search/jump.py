@@ -5,26 +5,25 @@ from fractions import Fraction
 from flint import ctx
 
 from ..checks.jump import BITS, stated_points
-from ..enclosure.surface import Surface, ball_of
+from ..enclosure.surface import ball_of
 from .certificate_text import ball_header, header, row
 
 _DIGITS = 30  # points are to be good to 1e-28
 
 
-def propose(surface: Surface, speed: str, radius: str) -> str:
-    """Return a certificate of the jump set.
-
-    `speed` is xdot on the rim where the flight touches, `radius` the largest error of its points.
-    """
+def propose(theorem, speed: str) -> str:
+    """Return a certificate of the jump set; `speed` is xdot on the rim where the flight touches."""
+    surface, radius = theorem.bounds["surface"], float(theorem.bounds["radius"])
     with ctx.workprec(BITS):
         points = stated_points(surface, ball_of(Fraction(speed)))
         lines = [
             f"{name.replace(' ', '_')} = {row(point, _DIGITS)}\n" for name, point in points.items()
         ]
-    return header("jump set", surface) + f"radius = {radius}\nspeed = {speed}\n" + "".join(lines)
+    return header("jump set", surface) + f"radius = {radius:g}\nspeed = {speed}\n" + "".join(lines)
 
 
-def propose_smooth(k: Fraction, g: Fraction, energy: Fraction) -> str:
+def propose_smooth(theorem) -> str:
     """Return the certificate that no flight touches the floor below an energy."""
+    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     fields = f'energy_below = "{energy}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'
     return ball_header("no touch", k, g) + fields

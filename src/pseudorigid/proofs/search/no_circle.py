@@ -4,18 +4,18 @@ The outer branch at one saddle is mapped forwards until the next impact jumps be
 points. Bisection finds the point of the jump set there, and a chain of sets leads to it.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 from flint import arb, ctx
 
 from ..checks import jump
 from ..enclosure.surface import Surface
+from . import approximate_orbits
 from .certificate_text import header, row, rows
 from .chains import DoubleMap, Parallelogram, chain
 from .horseshoe import directions, mirrors
 from .periodic import polished
 
+_SIZE, _LAST = 6.5e-5, 1e-3  # scales of the sets at the saddles and on the jump set
 _BITS, _ROUNDS = 160, 8  # of Newton's method for the saddles
 _DIGITS = 12
 _SADDLE_DIGITS = 30
@@ -27,19 +27,19 @@ _TOUCHES = 4001  # points of the jump set among which the nearest is sought
 _REACH = 1.2  # of the jump set beyond the edges of the last set, in its half heights
 
 
-def propose(surface: Surface, points: Sequence, size: float, last: float) -> str:
-    """Return a certificate for the hyperbolic orbit through points (x, y).
+def propose(theorem) -> str:
+    """Return a certificate for the theorem's hyperbolic orbit.
 
-    `size` is the scale of the sets at the saddles, and `last` that of the set on the jump set.
     Raises ValueError if the branch does not meet the jump set, or no chain leads to it.
     """
+    surface = theorem.bounds["surface"]
     double_map = DoubleMap(surface)
     with ctx.workprec(_BITS):
-        saddles = polished(surface, points, _ROUNDS)
+        saddles = polished(surface, approximate_orbits.points_of(theorem, "hyperbolic"), _ROUNDS)
         mirror = mirrors(saddles)
         _, expanding = directions(surface, saddles, 1)
         contracting = [[expanding[i][0], -expanding[i][1]] for i in mirror]
-        sides = [[size * a for a in u + s] for u, s in zip(expanding, contracting, strict=True)]
+        sides = [[_SIZE * a for a in u + s] for u, s in zip(expanding, contracting, strict=True)]
         saddle_rows = [
             f"{row(z, _SADDLE_DIGITS)[:-1]}, {row(side, _DIGITS)[1:]}"
             for z, side in zip(saddles, sides, strict=True)
@@ -49,9 +49,9 @@ def propose(surface: Surface, points: Sequence, size: float, last: float) -> str
         )
     p, impacts, stretched = _crossing(double_map, source)
     point = _image(double_map, source, p, impacts)
-    middle, half, tangent = _touch(surface, point, last)
-    target = Parallelogram(point, last * stretched / np.linalg.norm(stretched), tangent)
-    width = last / np.linalg.norm(stretched)
+    middle, half, tangent = _touch(surface, point)
+    target = Parallelogram(point, _LAST * stretched / np.linalg.norm(stretched), tangent)
+    width = _LAST / np.linalg.norm(stretched)
     found = chain(double_map, source, target, impacts, (p - width, p + width), _MARGIN)
     if found is None:
         raise ValueError("no chain of sets leads from the saddle to the jump set")
@@ -97,7 +97,7 @@ def _image(double_map: DoubleMap, source: Parallelogram, p: float, impacts: int)
     return double_map.step(source.points(np.array([p]), np.zeros(1)), impacts)[:, 0]
 
 
-def _touch(surface: Surface, point: np.ndarray, last: float) -> tuple[float, float, np.ndarray]:
+def _touch(surface: Surface, point: np.ndarray) -> tuple[float, float, np.ndarray]:
     """Return xdot of the touch at a point of S+, a half width of it, and S+'s tangent there."""
     with ctx.workprec(_BITS):
         near = jump.curve(surface, _TOUCHES)[1:-1]
@@ -109,4 +109,4 @@ def _touch(surface: Surface, point: np.ndarray, last: float) -> tuple[float, flo
     speed = fastest * (2.0 * (i + 1) - _TOUCHES) / _TOUCHES
     speed += slope @ (point - curve[i]) / (slope @ slope)
     length = np.linalg.norm(slope)
-    return float(speed), float(_REACH * last / length), last * slope / length
+    return float(speed), float(_REACH * _LAST / length), _LAST * slope / length

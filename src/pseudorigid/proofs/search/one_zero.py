@@ -15,12 +15,13 @@ _LAST = Fraction("2.4")  # theta beyond which no band is tried
 _DECIMALS = 22  # of theta at a zero
 
 
-def propose(k: Fraction, g: Fraction, *, energy: Fraction, **_: object) -> str:
-    """Return a certificate of the bands of theta up to an energy.
+def propose(theorem) -> str:
+    """Return a certificate of the bands of theta up to the theorem's energy.
 
     Each band is the widest of a list over which the signs are decided. Raises ValueError where
     there is none.
     """
+    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     with ctx.workprec(BITS):
         edges = [Fraction(0)]
         while not energy_at(ball_of(k), ball_of(g), ball_of(edges[-1])) > ball_of(energy):

@@ -1,14 +1,14 @@
 """Certificates of periodic orbits: centres from Newton's method, and the largest square box."""
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
-from fractions import Fraction
+from collections.abc import Sequence
 from math import ceil, sqrt
 
 from flint import arb, ctx
 
 from ..checks.periodic import newton_image
 from ..enclosure.surface import Surface
+from . import approximate_orbits
 from .certificate_text import ball_header, header, row, rows
 
 BITS = 160
@@ -26,14 +26,17 @@ def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[ar
     return points
 
 
-def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) -> str:
-    """Return a certificate for an orbit near points (x, y).
+def propose(theorem, points: Sequence | None = None) -> str:
+    """Return a certificate of an orbit near points (x, y), by default those of a symmetric orbit.
 
-    Its radius is the largest for which the checker `holds` accepts the text.
+    Its radius is the largest for which the checker accepts it.
     """
+    surface = theorem.bounds["surface"]
+    if points is None:
+        points = approximate_orbits.points_of(theorem, theorem.bounds["type"])
     with ctx.workprec(BITS):
         centres = centre_rows(polished(surface, points))
-    return with_largest_radius(header("periodic orbit", surface), centres, holds)
+    return with_largest_radius(theorem, header("periodic orbit", surface), centres)
 
 
 def centre_rows(points: Sequence) -> str:
@@ -41,19 +44,21 @@ def centre_rows(points: Sequence) -> str:
     return rows("points", (row(point, DIGITS) for point in points))
 
 
-def with_largest_radius(before: str, after: str, holds: Callable[[str], bool]) -> str:
-    """Return a text with the largest radius of one digit for which it holds, or the smallest.
+def with_largest_radius(theorem, before: str, after: str = "") -> str:
+    """Return a text with the largest radius of one digit that the checker accepts, or the smallest.
 
     The line with the radius stands between `before` and `after`. What holds for a radius must hold
     for smaller ones.
     """
     sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]
     texts = [f"{before}radius = {size}\n{after}" for size in sizes]
+    holds = theorem.holds_for_any_radius
     return texts[bisect_left(texts, True, hi=len(texts) - 1, key=holds)]
 
 
-def propose_only_fixed_point(k: Fraction, g: Fraction, energy: Fraction) -> str:
-    """Return the certificate that there is one fixed point at each energy up to this one."""
+def propose_only_fixed_point(theorem) -> str:
+    """Return the certificate that there is one fixed point at each energy up to the theorem's."""
+    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
     fields = f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
     return ball_header("only fixed point", k, g) + fields

@@ -3,7 +3,7 @@
 The twist is proposed by the closed formula for Birkhoff's first coefficient.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 from flint import arb, ctx
@@ -11,6 +11,7 @@ from flint import arb, ctx
 from ..checks.birkhoff import complex_map
 from ..checks.periodic import enclose
 from ..enclosure.surface import Surface
+from . import approximate_orbits
 from .certificate_text import bisected, decimal, header
 from .periodic import BITS, centre_rows, polished, with_largest_radius
 
@@ -18,32 +19,26 @@ _TWIST_DIGITS = 13  # the checker compares nine of them with the twist
 _ENERGY_DECIMALS = 13
 
 
-def propose(surface: Surface, points: Sequence, holds: Callable[[str], bool]) -> str:
-    """Return a certificate of the twist of an elliptic orbit near points (x, y).
-
-    Its radius is the largest for which the checker `holds` accepts the text.
-    """
+def propose(theorem) -> str:
+    """Return a certificate of the twist of an elliptic orbit, with the largest radius."""
+    surface = theorem.bounds["surface"]
     with ctx.workprec(BITS):
-        points = polished(surface, points)
+        points = polished(surface, approximate_orbits.points_of(theorem, "elliptic"))
         value = decimal(estimate(surface, points), _TWIST_DIGITS)
         before = header("twist", surface) + f"twist = {value}\n" + centre_rows(points)
-    return with_largest_radius(before, "", holds)
+    return with_largest_radius(theorem, before)
 
 
-def propose_zero(
-    k: Fraction, g: Fraction, low: Fraction, high: Fraction, start: Sequence, holds: Callable
-) -> str:
-    """Return a certificate of a zero of the fixed point's twist, between two energies.
-
-    `start` has (x, y) of the fixed point at one of them. The radius is the largest for which the
-    checker `holds` accepts the text.
-    """
+def propose_zero(theorem, energies: tuple[Fraction, Fraction]) -> str:
+    """Return a certificate of a zero of the fixed point's twist between two energies."""
+    k, g = theorem.bounds["k"], theorem.bounds["g"]
+    start = approximate_orbits.points(Surface(k, g, energies[0]), 1, "elliptic")
     with ctx.workprec(BITS):
-        band, point = bisect_zero(k, g, low, high, start)
+        band, point = bisect_zero(k, g, *energies, start)
         width = f"width = {float(band.width):.0e}\n"
         below = Surface(k, g, band.energy)
         before = header("zero of the twist", below) + width + centre_rows(point)
-    return with_largest_radius(before, "", holds)
+    return with_largest_radius(theorem, before)
 
 
 def bisect_zero(

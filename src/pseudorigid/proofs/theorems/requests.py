@@ -13,7 +13,8 @@ from ...dynamics.ball import Ball
 from ...dynamics.inputs import number
 from ...dynamics.variables import chart, states_of
 from ..checks import curve, horseshoe, periodic
-from ..checks.certificate import Finding, NotProvedError
+from ..checks.certificate import Finding
+from ..enclosure.flight import NotProvedError
 from ..enclosure.surface import Exact, Surface, exact
 from ..search import approximate_orbits
 from ..search import curve as curve_search
@@ -60,8 +61,7 @@ def prove_orbit(
     bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
     theorem = Theorem(name, name, periodic.check, bounds)
     with _reported(name):
-        text = orbit_search.propose(surface, points, theorem.holds_for_any_radius)
-        return theorem.prove(text).parts["orbit"]
+        return theorem.prove(orbit_search.propose(theorem, points)).parts["orbit"]
 
 
 def prove_horseshoe(
@@ -104,8 +104,7 @@ def prove_horseshoe(
     name = f"the horseshoe at {surface}"
     theorem = Theorem(name, name, horseshoe.check, bounds)
     with _reported(name):
-        sign = 1 if side == "outer" else -1
-        text = horseshoe_search.search(surface, points, sign, theorem.prove)
+        text = horseshoe_search.propose(theorem, side, points=points)
         return text, theorem.prove(text)
 
 
@@ -160,12 +159,10 @@ def prove_curve(
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
     surface = Surface(k, g, exact_energy)
     name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
-    bounds = {"radius": Fraction(0), "share": Fraction(0), "error": Fraction(1)}
+    bounds = {"radius": Fraction("1e-6"), "share": Fraction(0), "error": Fraction(1)}
     theorem = Theorem(name, name, curve.check, bounds | {"surface": surface, "period": 1})
     with _reported(name):
-        quotients = curve_search.quotients_near(rotation)
-        points = approximate_orbits.points(surface, 1, "elliptic")
-        return curve_search.search(surface, points, quotients, theorem.prove)
+        return curve_search.search(theorem, rotation)
 
 
 @contextmanager

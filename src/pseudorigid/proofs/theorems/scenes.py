@@ -1,5 +1,6 @@
 """Stages behind the pictures of the proofs; their data are doubles, rounded from balls."""
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -8,20 +9,21 @@ import xarray as xr
 from flint import arb, ctx
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import ENERGY, LENGTH, SPEED, of_type
-from ..checks import horseshoe
+from ...dynamics.variables import AREA, ENERGY, LENGTH, SPEED, described, of_type
+from ..checks import curve, graph, horseshoe
 from ..checks.birkhoff import normal_form
-from ..checks.certificate import NotProvedError
+from ..checks.certificate import Finding
 from ..checks.hsets import HSet
 from ..checks.periodic import BITS, prove
 from ..checks.twist import falling_twist
+from ..enclosure.flight import NotProvedError
 from ..enclosure.surface import Surface, ball_of
 from ..search import approximate_orbits
 from ..search.twist import bisect_zero
-from .requests import prove_horseshoe
-from .statements import THEOREMS
-from .tables import corners, dataset, doubles, surface_of
+from .requests import prove_curve, prove_horseshoe
+from .statements import THEOREMS, Theorem
 
+_CORNERS = (1, 1), (1, -1), (-1, -1), (-1, 1)  # p and q, around a set
 _EDGE_POINTS = 33  # along each edge of a set whose image is drawn
 _RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved, at every energy
 
@@ -44,19 +46,19 @@ def scene_horseshoe(
     4
     """
     orbit = of_type(periodic, type, period)
-    surface = surface_of(ball, energy)
+    surface = _surface_of(ball, energy)
     theorem = THEOREMS[f"horseshoe-{connection}"]
     if (surface, period) == (theorem.bounds["surface"], theorem.bounds["period"]):
-        finding = theorem.prove(theorem.text())
+        finding = theorem.prove()
     else:
         _, finding = prove_horseshoe(surface, orbit, side=connection)
     saddles, chain = finding.parts["saddles"], finding.parts["chain"]
     sets, steps = [*saddles, *chain], len(chain) // 2
     index = [np.nan] * len(saddles) + [float(n) for n in range(-steps, steps + 1)]
     with ctx.workprec(horseshoe.BITS):
-        corner_x, corner_y = corners(sets)
-        image = doubles(_image_of_edges(surface, *chain[steps - 1 : steps + 1]))
-        x, y = doubles([hset.centre for hset in sets]).T
+        corner_x, corner_y = _corners(sets)
+        image = _doubles(_image_of_edges(surface, *chain[steps - 1 : steps + 1]))
+        x, y = _doubles([hset.centre for hset in sets]).T
     corner, edge = ("set", "corner"), ("edge", "point")
     across = "image of a set, across the next one's"
     table = {
@@ -68,7 +70,7 @@ def scene_horseshoe(
         "image_p": (edge, image[:, :, 0], f"{across} expanding direction"),
         "image_q": (edge, image[:, :, 1], f"{across} contracting direction"),
     }
-    return dataset(table, surface)
+    return _dataset(table, surface)
 
 
 def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list:
@@ -95,7 +97,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     >>> bool(twist[0] > twist[1] > 0)
     True
     """
-    surfaces = [surface_of(ball, energy) for energy in energies]
+    surfaces = [_surface_of(ball, energy) for energy in energies]
     twists, points = [], []
     for surface in surfaces:
         try:
@@ -119,7 +121,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
         "twist": ("energy", np.array(twists), "twist of the elliptic fixed point", "1/(omega R^2)"),
         "zero": ((), zero, "energy at which the twist vanishes", ENERGY),
     }
-    return dataset(table, surfaces[0])
+    return _dataset(table, surfaces[0])
 
 
 def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None:
@@ -132,3 +134,120 @@ def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None
         except (NotProvedError, ArithmeticError):
             return None
         return float(band.constants()[2])
+
+
+def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr.Dataset:
+    """Prove invariant curves around the fixed point, and tabulate polygons inside them.
+
+    A curve around the fixed point that is a theorem at this ball and energy is proved from its
+    certificate, if its rotation number is stated to be close to one of the list; others are
+    searched. Theorems about curves around longer orbits at this ball and energy are added. The
+    rotation numbers are clockwise turns per impact, between 0 and 1. ValueError is raised for a
+    curve that cannot be proved.
+
+    >>> from pseudorigid import Ball
+    >>> scene_curves(Ball(k=0.2, g=0.04), 0.01, [0.17295]).sizes["curve"]  # doctest: +SKIP
+    2
+    """
+    surface = _surface_of(ball, energy)
+    here = theorems_at(surface, curve.check)
+    findings = [_near(surface, value, here) for value in rotation_numbers]
+    findings += [it.prove() for it in here if it.bounds["period"] > 1]
+    corners = [
+        (x, y, place)
+        for place, finding in enumerate(findings)
+        for polygon in finding.parts["polygons"]
+        for x, y in [*polygon, polygon[0], (np.nan, np.nan)]
+    ]
+    x, y, place = np.array(corners).T
+    rotation, share, area = (
+        [float(finding.digits[name]) for finding in findings]
+        for name in ("rotation number", "share", "area")
+    )
+    table = {
+        "x": ("corner", x, "corners of the polygons, x; NaN after each", LENGTH),
+        "y": ("corner", y, "corners of the polygons, y; NaN after each", SPEED),
+        "place": ("corner", place.astype(np.int64), "place of the corner's curve"),
+        "rotation": ("curve", rotation, "clockwise turns per period"),
+        "share": ("curve", share, "area inside one curve, as a share of the section"),
+        "area": ("curve", area, "area inside one curve", AREA),
+        "period": ("curve", [len(it.parts["polygons"]) for it in findings], "period of the orbit"),
+        "radius": ((), float(surface.radius()), "half of the section's width on y = 0", LENGTH),
+    }
+    return _dataset(table, surface)
+
+
+def _near(surface: Surface, value: float, theorems: list) -> Finding:
+    """Prove a curve with about this rotation number, from a theorem's certificate if there is."""
+    for theorem in theorems:
+        low, high = theorem.bounds["rotation"]
+        if theorem.bounds["period"] == 1 and low <= value <= high:
+            return theorem.prove()
+    return prove_curve(surface, surface.energy, value)[1]
+
+
+def scene_graph(ball: Ball, energy: float) -> xr.Dataset:
+    """Prove the graph of coverings that is a theorem at a ball and energy, and tabulate its sets.
+
+    The sets that connections join come first, then those of the connections' chains. ValueError is
+    raised if no theorem states a graph at this ball and energy.
+
+    >>> from pseudorigid import Ball
+    >>> scene_graph(Ball(k=0.2, g=0.04), 0.005).sizes["connection"]
+    4
+    """
+    surface = _surface_of(ball, energy)
+    here = theorems_at(surface, graph.check)
+    if not here:
+        raise ValueError(f"no graph is a theorem at {surface}")
+    proved = here[0].prove()
+    sets, connections = proved.parts["graph"].sets, proved.parts["graph"].connections
+    chains = [(n, hset) for n, it in enumerate(connections) for hset in it.chain]
+    owner = [-1] * len(sets) + [n for n, _ in chains]
+    with ctx.workprec(graph.BITS):
+        corner_x, corner_y = _corners([*sets, *(hset for _, hset in chains)])
+        entropy = float(proved.digits["entropy"].lower())
+        radius = float(surface.radius())
+    source, target, impacts = np.array([(it.source, it.target, it.impacts) for it in connections]).T
+    corner = ("set", "corner")
+    table = {
+        "corner_x": (corner, corner_x, "corners of the set, x", LENGTH),
+        "corner_y": (corner, corner_y, "corners of the set, y = xdot - k udot", SPEED),
+        "connection": ("set", np.array(owner), "connection of the set's chain; -1 at the ends"),
+        "source": ("connection", source, "set that the connection leaves"),
+        "target": ("connection", target, "set to which the connection leads"),
+        "impacts": ("connection", impacts, "number of impacts of the connection"),
+        "entropy": ((), entropy, "proved lower bound of the entropy, in nats per impact"),
+        "radius": ((), radius, "half of the section's width on y = 0", LENGTH),
+    }
+    return _dataset(table, surface)
+
+
+def _surface_of(ball: Ball, energy: float) -> Surface:
+    """Return the Surface whose k, g and energy are the decimals that the numbers print as."""
+    return Surface(*(str(value) for value in (ball.k, ball.g, energy)))
+
+
+def theorems_at(surface: Surface, checker: Callable) -> list[Theorem]:
+    """Return the theorems on a surface that a checker proves."""
+    return [
+        theorem
+        for theorem in THEOREMS.values()
+        if theorem.checker is checker and theorem.bounds["surface"] == surface
+    ]
+
+
+def _doubles(balls: Sequence) -> np.ndarray:
+    """Round nested lists of balls to an array of doubles."""
+    return np.array(balls, dtype=object).astype(float)
+
+
+def _corners(sets: list[HSet]) -> tuple[np.ndarray, np.ndarray]:
+    """Return x and y of the corners around each set, (set, corner)."""
+    x, y = _doubles([[hset.box(arb(p), arb(q)) for p, q in _CORNERS] for hset in sets]).T
+    return x.T, y.T
+
+
+def _dataset(table: dict, surface: Surface) -> xr.Dataset:
+    """Return the dataset of a table, as for `described`, with k and g as attributes."""
+    return xr.Dataset(described(table), attrs={"k": float(surface.k), "g": float(surface.g)})

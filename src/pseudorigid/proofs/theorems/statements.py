@@ -6,9 +6,11 @@ result.verdict, result.reason, result.digits      # "proved", "", {"entropy": "[
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from importlib import resources
+
+import xarray as xr
 
 import pseudorigid
 
@@ -25,8 +27,9 @@ from ..checks import (
     periodic,
     twist,
 )
-from ..checks.certificate import Finding, NotProvedError
+from ..checks.certificate import Finding
 from ..checks.periodic import Window
+from ..enclosure.flight import NotProvedError
 from ..enclosure.surface import Surface
 
 BALL = {name: Fraction(str(paper.BALL[name])) for name in "kg"}
@@ -70,6 +73,7 @@ class Theorem:
     statement: str
     checker: Callable[..., Finding]  # takes a certificate's text and the bounds
     bounds: dict
+    hints: dict = field(default_factory=dict)  # arguments of the search for a certificate
 
     @property
     def certificate(self) -> str:
@@ -83,15 +87,18 @@ class Theorem:
         pseudorigid.note_loaded(folder / self.certificate, data)
         return data.decode("utf-8")
 
-    def prove(self, text: str) -> Finding:
-        """Run the checker on a certificate; raises NotProvedError."""
-        return self.checker(text, **self.bounds)
+    def prove(self, text: str | None = None) -> Finding:
+        """Run the checker on a certificate, by default the package's own.
+
+        Raises NotProvedError.
+        """
+        return self.checker(self.text() if text is None else text, **self.bounds)
 
     def check(self, text: str | None = None) -> Result:
         """Return the verdict on a certificate, by default the package's own."""
         begin, finding, reason = time.perf_counter(), Finding(), ""
         try:
-            finding = self.prove(self.text() if text is None else text)
+            finding = self.prove(text)
         except FileNotFoundError:
             reason = "there is no such certificate"
         except NotProvedError as error:
@@ -107,30 +114,6 @@ class Theorem:
         except NotProvedError:
             return False
         return True
-
-
-def search_certificate(name: str) -> str:
-    """Search a new certificate of a theorem, which its checker has yet to prove.
-
-    Parameters
-    ----------
-    name : str
-        A key of THEOREMS.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> text = search_certificate("one-fixed-point")
-    >>> THEOREMS["one-fixed-point"].check(text).verdict
-    'proved'
-    """
-    from .searches import SEARCHES
-
-    checker = THEOREMS[name].checker
-    return SEARCHES[f"{checker.__module__.rpartition('.')[2]}.{checker.__name__}"](THEOREMS[name])
 
 
 Range = tuple[Fraction, Fraction]
@@ -201,7 +184,7 @@ def _elliptic(name: str) -> tuple[dict, str, str]:
     return bounds, power, f"a point in {_region(bounds['window'])}"
 
 
-def _curve(name: str, orbit: str, low: str, high: str, share: str) -> Theorem:
+def _curve(name: str, orbit: str, low: str, high: str, share: str, **hints) -> Theorem:
     """State that an invariant curve encloses a share of the section."""
     bounds, power, point = _elliptic(orbit)
     around, discs = "the elliptic fixed point", "the disc inside"
@@ -215,10 +198,12 @@ def _curve(name: str, orbit: str, low: str, high: str, share: str) -> Theorem:
         f"orbit ever enters or leaves {discs}"
     )
     bounds |= {"rotation": _between(low, high), "share": Fraction(share)}
-    return Theorem(name, statement, curve.check, bounds | {"error": Fraction("1e-36")})
+    return Theorem(name, statement, curve.check, bounds | {"error": Fraction("1e-36")}, hints)
 
 
-def _horseshoe(orbit: dict, name: str, side: str, low: str, high: str, entropy: str) -> Theorem:
+def _horseshoe(
+    orbit: dict, name: str, side: str, low: str, high: str, entropy: str, **hints
+) -> Theorem:
     """State that there is a horseshoe whose connection passes y = 0 between two x."""
     statement = (
         f"at E = {orbit['surface'].energy} the hyperbolic orbit of period {orbit['period']} with a "
@@ -227,21 +212,23 @@ def _horseshoe(orbit: dict, name: str, side: str, low: str, high: str, entropy: 
         f"contains both, conjugate to a mixing subshift of entropy above {entropy}"
     )
     bounds = {"crossing": _between(low, high), "entropy": Fraction(entropy)}
-    return Theorem(f"horseshoe-{name}", statement, horseshoe.check, orbit | bounds)
+    hints |= {"side": side}
+    return Theorem(f"horseshoe-{name}", statement, horseshoe.check, orbit | bounds, hints)
 
 
-def _entropy(name: str, surface: Surface, entropy: str) -> Theorem:
+def _entropy(name: str, surface: Surface, entropy: str, **hints) -> Theorem:
     """State that the topological entropy is above a number, in nats per impact."""
     statement = (
         f"at E = {surface.energy} P has a compact invariant set, on a neighbourhood of which it is "
         f"analytic, with topological entropy above {entropy}"
     )
-    return Theorem(name, statement, graph.check, dict(surface=surface, entropy=Fraction(entropy)))
+    bounds = {"surface": surface, "entropy": Fraction(entropy)}
+    return Theorem(name, statement, graph.check, bounds, hints)
 
 
 def _grazing(
     name: str, text: str, halves: tuple, periods: tuple[int, int], sides: tuple[int, int],
-    radius: str, low: str, high: str,
+    radius: str, low: str, high: str, near: tuple[str, ...],
 ) -> Theorem:  # fmt: skip
     """State that an orbit with a grazing impact exists at one energy, and what meets there."""
     longer, shorter = (
@@ -255,7 +242,7 @@ def _grazing(
     )
     bounds = dict(halves=halves, periods=periods, sides=sides, radius=Fraction(radius))
     bounds |= {"energies": _between(low, high)}
-    return Theorem(name, statement, events.check_grazing, BALL | bounds)
+    return Theorem(name, statement, events.check_grazing, BALL | bounds, {"near": near})
 
 
 _EVENTS = (
@@ -279,22 +266,26 @@ _EVENTS = (
             period=6, trace=-2, radius=Fraction("2e-10"),
             energies=_between("0.010825", "0.010826"), positions=_between("0.305", "0.306"),
         ),
+        {"near": ("0.010825252768", "0.305443359319")},
     ),
     _grazing(
         "six-elliptic-end",
         "an orbit touches the floor once per period, while the ball is at rest, and meets y = 0",
         ((3, "impact"),), (6, 5), (-1, 1), "3e-5", "0.01252", "0.012521",
+        near=("0.012520264234",),
     ),
     _grazing(
         "six-hyperbolic-end",
         "an orbit touches the floor twice per period, in a flight that is symmetric in time",
         ((2, "apex"), (0, "apex")), (6, 4), (-1, -1), "1e-4", "0.042726", "0.042727",
+        near=("0.042726525978", "0.167175430477"),
     ),
     _grazing(
         "six-inverse-birth",
         "an orbit touches the floor once per period, while the ball is at rest, and does not meet "
         "y = 0",
         ((3, "apex"),), (7, 6), (-1, 1), "1e-5", "0.009682", "0.009683",
+        near=("0.009682501945",),
     ),
 )  # fmt: skip
 _SADDLES = {"surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6}
@@ -326,11 +317,14 @@ _THEOREMS = (
         BALL | {"energy": LIMIT, "trace": _TRACE},
     ),
     *_EVENTS,
-    _horseshoe(_SADDLES, "outer", "outer", "0.326", "0.327", "0.0185"),
-    _horseshoe(_SADDLES, "inner", "inner", "0.187", "0.188", "0.0083"),
+    _horseshoe(_SADDLES, "outer", "outer", "0.326", "0.327", "0.0185",
+               plan=(59, 6.5e-5, 1.14)),
+    _horseshoe(_SADDLES, "inner", "inner", "0.187", "0.188", "0.0083",
+               plan=(177, 1e-10, 1.12)),
     _horseshoe(_SMOOTH_SADDLES, "smooth", "outer", "0.3895", "0.3896", "0.0128"),
-    _entropy("entropy", HIGH, "0.136"),
-    _entropy("entropy-lower", Surface(**BALL, energy="1/200"), "0.05"),
+    _entropy("entropy", HIGH, "0.136", periods=(6, 7, 8, 9), size=6e-3, impacts=12),
+    _entropy("entropy-lower", Surface(**BALL, energy="1/200"), "0.05",
+             periods=(9, 10), size=2.5e-3, impacts=20),
     Theorem(
         "no-circle",
         f"at E = {HIGH.energy} the unstable manifold of the hyperbolic orbit of period 6 with a "
@@ -344,10 +338,14 @@ _THEOREMS = (
     _invariant_curves("twist-six", "six-elliptic"),
     _invariant_curves("twist-ten", "ten-elliptic"),
     _invariant_curves("twist-twelve", "twelve-elliptic"),
-    _curve("curve-fixed-point", "fixed-point", "0.1729", "0.173", "0.117"),
-    _curve("curve-fixed-point-outer", "fixed-point", "0.1703", "0.1704", "0.15"),
-    _curve("curve-six", "six-elliptic", "0.827", "0.8271", "0.0011"),
-    _curve("curve-fixed-point-low", "fixed-point-low", "0.1039", "0.104", "0.327"),
+    _curve("curve-fixed-point", "fixed-point", "0.1729", "0.173", "0.117", quotients=(5, 1, 3),
+           error="1e-37", strips=("0.025", "0.004", 256, 6, 6, 380)),
+    _curve("curve-fixed-point-outer", "fixed-point", "0.1703", "0.1704", "0.15",
+           quotients=(5, 1, 6), error="1e-38", strips=("0.0125", "0.002", 512, 6, 4, 1020)),
+    _curve("curve-six", "six-elliptic", "0.827", "0.8271", "0.0011", quotients=(1, 4, 1, 3),
+           error="5e-45", strips=("0.02", "0.0033", 128, 5, 5, 540)),
+    _curve("curve-fixed-point-low", "fixed-point-low", "0.1039", "0.104", "0.327", quotients=(9,),
+           error="1e-37", strips=("0.025", "0.004", 512, 10, 6, 440)),
     Theorem(
         "twist-zero",
         "as E rises through the band below, the fixed point's twist changes from positive to "
@@ -356,6 +354,7 @@ _THEOREMS = (
         "point",
         twist.check_zero,
         BALL | {"radius": Fraction("2e-3"), "width": Fraction("1e-13")},
+        {"energies": _between("0.029", "0.03")},
     ),
     Theorem(
         "twist-one-zero",
@@ -381,6 +380,7 @@ _THEOREMS = (
         "in (x, y), from the rim to an inner end",
         jump.check,
         _JUMPS,
+        {"speed": "0.02"},
     ),
     Theorem(
         "diffeomorphism",
@@ -389,5 +389,16 @@ _THEOREMS = (
         jump.check_smooth,
         BALL | {"energy": _THRESHOLD},
     ),
-)
+)  # fmt: skip
 THEOREMS = {theorem.name: theorem for theorem in _THEOREMS}
+
+
+def theorem_verdict(name: str) -> xr.Dataset:
+    """Check a theorem from its certificate.
+
+    The dataset has no variable. Its attributes are verdict, "proved" or "not proved", reason, which
+    is empty if it is proved, and statement.
+    """
+    result = THEOREMS[name].check()
+    attributes = {"verdict": result.verdict, "reason": result.reason}
+    return xr.Dataset(attrs=attributes | {"statement": result.statement})
