@@ -14,7 +14,7 @@ from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.proofs import Surface, true_orbit
 from pseudorigid.proofs.true_orbits import enclosed_run
 from pseudorigid.proofs.true_orbits import orbit as orbit_module
-from pseudorigid.proofs.true_orbits.scene import true_scene_orbits
+from pseudorigid.proofs.true_orbits.orbit import true_scene_orbits
 from pseudorigid.proofs.true_orbits.start import Start
 
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}

@@ -32,7 +32,7 @@ STAGES = {
         "scene_orbits",
         ("starts", "impacts"),
         follows=True,
-        exact=(f"{_PROOFS}.true_orbits.scene", "true_scene_orbits"),
+        exact=(f"{_PROOFS}.true_orbits.orbit", "true_scene_orbits"),
     ),
     "periodic": Stage(f"{_DYNAMICS}.periodic", "symmetric_orbits", ("period",)),
     "motion": Stage(

@@ -84,8 +84,8 @@ def check(
     The orbit's bounds are those of `periodic.prove_stated`. The rotation number, in clockwise turns
     of P^n, must lie between the two given, the disc inside the curve have more than a share of the
     section, and the error of the certificate's curve be no larger than the given one. The parts are
-    orbit, polygons (of points (x, y), inside the curve around each of the orbit's points), curve
-    (Fourier coefficients of x and y), omega and area.
+    orbit, polygons (of points (x, y), inside the curve around each of the orbit's points) and curve
+    (Fourier coefficients of x and y).
     """
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "invariant curve", surface)
@@ -135,8 +135,7 @@ def check(
         for boxes, centre in zip(all_boxes, centres, strict=True):
             _check_disc(surface, boxes, centre)
     digits = {"rotation number": omega, "area": area, "share": part, "distance": distance.upper()}
-    parts = dict(orbit=orbit, polygons=polygons, curve=first, omega=omega, area=area)
-    return Finding(digits, margins, parts)
+    return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": first})
 
 
 def _plan(certificate: Certificate) -> Plan:

@@ -22,8 +22,8 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     """Prove that the unstable manifold of a certificate's hyperbolic orbit meets the jump set.
 
     The orbit must have this prime period, be the only one within the radius of the centres of the
-    S, and have a point in the window. The margins are the least over all relations. The parts are
-    saddles, chain (lists of HSet; N comes last) and leaves, the index of S_a.
+    S, and have a point in the window. The margins are the least over all relations. The part is the
+    chain, a list of HSet; N comes last.
     """
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
@@ -46,5 +46,5 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     return Finding(
         {"jump set at x": chain[-1].box()[0]},
         {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
-        {"saddles": saddles, "chain": chain, "leaves": leaves},
+        {"chain": chain},
     )

@@ -33,7 +33,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
         if not abs(twist) > 0:
             raise NotProvedError("the twist may be zero")
         margins = {"twist": lowest(abs(twist)), "nonresonance": lowest(form.nonresonance)}
-        return Finding({"twist": twist, "trace": orbit.trace}, margins, {"orbit": orbit})
+        return Finding({"twist": twist, "trace": orbit.trace}, margins)
 
 
 def check_zero(

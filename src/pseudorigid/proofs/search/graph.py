@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 from flint import ctx
+from scipy.sparse.csgraph import connected_components
 
 from ...dynamics.periodic import symmetric_orbits
 from ...dynamics.variables import chart, states_of
@@ -231,12 +232,10 @@ def _connection(source, target, strip, chain_rows):
 
 def _text(surface, sets, chosen) -> str:
     """Return the certificate of the component that grows most, with weights that prove it."""
-    reach = np.eye(len(sets), dtype=bool)
+    joined = np.zeros((len(sets), len(sets)))
     for crossing, _ in chosen:
-        reach[crossing.source, crossing.target] = True
-    for _ in range(len(sets).bit_length()):
-        reach = reach @ reach
-    component = np.argmax(reach & reach.T, axis=1)  # the first set of each set's component
+        joined[crossing.source, crossing.target] = 1.0
+    _, component = connected_components(joined, connection="strong")
     inner = [it for it in chosen if component[it[0].source] == component[it[0].target]]
     parts = {
         label: [it for it in inner if component[it[0].source] == label]
