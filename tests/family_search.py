@@ -2,11 +2,12 @@
 
 import math
 from functools import cache
+from itertools import pairwise
 
 from pseudorigid import Ball
-from pseudorigid.analyses.continuation import search
-from pseudorigid.analyses.continuation.broken_symmetry import break_symmetry
+from pseudorigid.analyses.continuation.curve import at_parameter
 from pseudorigid.analyses.continuation.half_orbit import ENERGY
+from pseudorigid.analyses.continuation.search import Search
 from pseudorigid.analyses.continuation.symmetric import Parameter
 
 PAPER = Ball(0.2, 0.04)
@@ -19,13 +20,11 @@ def rho(ball, energy):
 def searched(ball, low, high, longest, levels):
     """A whole search over a range of energies."""
     ends = rho(ball, low), rho(ball, high)
-    found = search.Search(Parameter(ENERGY, ball.k, *ends), longest)
+    found = Search(Parameter(ENERGY, ball.k, *ends), longest)
     step = (ends[1] - ends[0]) / levels
     for _ in found.sweep([ends[0] + (i + 0.5) * step for i in range(levels)]):
         pass
-    found.switch()
-    break_symmetry(found)
-    found.link()
+    found.complete()
     return found
 
 
@@ -33,6 +32,12 @@ def searched(ball, low, high, longest, levels):
 def up_to_period_six():
     """Periods up to 6 over the paper's whole range of energies."""
     return searched(PAPER, -0.00399, 0.0599, 6, 40)
+
+
+def crossings(family, p):
+    """The points of a family at a parameter."""
+    cut = ((a, b) for a, b in pairwise(family.points) if (a.p < p) != (b.p < p))
+    return [point for a, b in cut if (point := at_parameter(family.system, a, b, p)) is not None]
 
 
 def energy_of(found, p):

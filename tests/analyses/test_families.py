@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from content import content_hash
-from family_search import PAPER, energy_of, rho, searched, up_to_period_six
+from family_search import PAPER, crossings, energy_of, rho, searched, up_to_period_six
 
 from pseudorigid import symmetric_orbits
 from pseudorigid.analyses.continuation import search
@@ -37,8 +37,7 @@ def test_families_go_on_where_an_impact_grazes():
     for _ in found.sweep([rho(PAPER, 0.0120)]):
         pass
     assert 5 not in {family.period for family in found.families}
-    found.switch()
-    found.link()
+    found.complete()
     (five,) = (family for family in found.families if family.period == 5)
     (end,) = (end for end in five.ends if end.kind == "touch")
     assert energy_of(found, end.p) == pytest.approx(0.012520264234, abs=1e-12)
@@ -128,7 +127,7 @@ def test_families_against_k_cross_those_against_the_energy():
         by_k.families[i].system.time(z)
         for i, family in enumerate(by_k.families)
         if family.period == 6
-        for z in by_k.crossings(family, 0.2)
+        for z in crossings(family, 0.2)
     )
     times = symmetric_orbits(PAPER, 0.01, 6)["total_time"].values
     assert held == pytest.approx(sorted(times.tolist()), abs=1e-9)

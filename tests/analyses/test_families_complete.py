@@ -6,11 +6,10 @@ from time import process_time
 
 import independent_solver as judge
 import pytest
-from family_search import PAPER, energy_of, rho, searched, six_born_at, up_to_period_six
+from family_search import PAPER, crossings, energy_of, rho, searched, six_born_at, up_to_period_six
 from mpmath import mp, mpf
 
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.analyses.continuation import search
 from pseudorigid.analyses.continuation.half_orbit import FIX_R
 
 
@@ -24,7 +23,7 @@ def is_orbit_in_60_digits(ball, energy, family, point):
 
     Newton's method solves for half of the orbit, which is less sensitive than all of it.
     """
-    (x, y), (centre, radius) = search.first_point(family.system, point), ball.section(energy)
+    (x, y, _), (centre, radius) = family.system.first_place(point), ball.section(energy)
     guess = centre + radius * x, radius * math.sqrt(ball.k * (1.0 + ball.k)) * y
     k, g, half = mpf(ball.k), mpf(ball.g), (family.period + 1) // 2
 
@@ -71,7 +70,7 @@ def unmatched(found, ball, energy):
     held = {n: [] for n in range(1, found.longest + 1)}
     for family in found.families:
         if family.line >= 0:
-            held[family.period] += [(family, z) for z in found.crossings(family, p)]
+            held[family.period] += [(family, z) for z in crossings(family, p)]
     for period, orbits in held.items():
         data = symmetric_orbits(ball, energy, period)
         rows = list(zip(data["total_time"].values, data["trace"].values, strict=True))

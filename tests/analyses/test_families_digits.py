@@ -140,7 +140,7 @@ def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits(six
         event = min(events, key=lambda e: e.point.p)
         energy = energy_of(six, event.point.p)
         a = (1.0 + event.point.p * 2.0 * event.point.q / (1.0 + event.point.q**2)) * unit
-        (guess, *_) = family.system.times(event.point)
+        (guess, *_) = family.system.times(event.point.data)
 
         def on_fix_rp(energy, a):
             def end(a, eta):

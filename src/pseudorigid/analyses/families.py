@@ -12,12 +12,10 @@ import xarray as xr
 from ..dynamics.ball import Ball
 from ..dynamics.fixed_point import rotation
 from ..dynamics.variables import ENERGY, LENGTH, SPEED, TIME, described
-from .continuation.asymmetric import AsymmetricOrbits
-from .continuation.broken_symmetry import break_symmetry
 from .continuation.curve import Point
 from .continuation.families import Family
 from .continuation.half_orbit import ENERGY as BY_ENERGY
-from .continuation.half_orbit import FIX_R, INERTIA, TIMES, XI, landing
+from .continuation.half_orbit import FIX_RP, INERTIA
 from .continuation.search import Search
 from .continuation.symmetric import CELLS, Parameter
 
@@ -101,14 +99,12 @@ def families(
             progress(done / levels, f"{len(search.families)} families")
         if checkpoint is not None and done % _CHECKPOINT == 0:
             _keep(search, checkpoint, key, done)
-    search.switch()
-    break_symmetry(search)
-    search.link()
+    search.complete()
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
         if checkpoint.parent.is_dir():
             checkpoint.parent.rmdir()
-    data = xr.Dataset(_Table(ball, along, search.families).variables())
+    data = xr.Dataset(_variables(ball, along, search.families))
     unresolved = sum(end.kind == "unresolved" for f in search.families for end in f.ends)
     data.attrs |= {"parameter": parameter, "period": period, "levels": levels, "cells": CELLS}
     data.attrs |= {"low": float(span[0]), "high": float(span[1]), "unresolved": unresolved}
@@ -136,105 +132,92 @@ def _keep(search: Search, checkpoint: Path, key: list, done: int) -> None:
     part.replace(checkpoint)
 
 
-class _Table:
-    """Variables of the dataset of some families, in the paper's units."""
+def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
+    """Return the variables of the dataset of some families, in the paper's units."""
+    g = ball.g
+    points = [(family, point) for family in families for point in family.points]
+    events = [(family, event) for family in families for event in family.events]
+    marks = [(family, event.point) for family, event in events]
+    ends = [end for family in families for end in family.ends]
+    traces = np.array([family.system.trace(point) for family, point in points])
 
-    def __init__(self, ball: Ball, along: Parameter, families: list[Family]):
-        self.ball, self.along = ball, along
-        self.families = families
+    def of_points(dim: str, pairs: list[tuple[Family, Point]], before: str = "") -> dict:
+        """Return the variables that points of curves and events share."""
+        x, y = np.array([_first_impact(*pair) for pair in pairs]).reshape(-1, 2).T * g
+        levels = [point.p for _, point in pairs]
+        times = [family.system.time(point) for family, point in pairs]
+        return {
+            f"{before}energy": (dim, [along.energy(p) * (g * g) for p in levels], "energy", ENERGY),
+            f"{before}k": (dim, [along.k_and_rho(p)[0] for p in levels], "Euler inertia, eq. (5)"),
+            f"{before}x": (dim, x, "position of the orbit's first impact", LENGTH),
+            f"{before}y": (dim, y, "xdot - k udot just before it", SPEED),
+            f"{before}time" if before else "total_time": (dim, times, "total time", TIME),
+        }
 
-    def variables(self) -> dict:
-        """Return Dataset variables."""
-        g = self.ball.g
-        families = self.families
-        points = [(family, point) for family in families for point in family.points]
-        events = [(family, event) for family in families for event in family.events]
-        ends = [[(family, end) for end in family.ends] for family in families]
-        traces = np.array([family.system.trace(point) for family, point in points])
-        states = np.array([self._first(*pair) for pair in points]).reshape(-1, 2)
-        marks = np.array([self._first(f, event.point) for f, event in events]).reshape(-1, 2)
-        table = {
-            "period": ("family", [f.period for f in families], "number of impacts"),
-            "line": (
-                "family",
-                [_LINES[f.line] for f in families],
-                "symmetry line of the points, none for orbits without symmetry",
-            ),
-            "row_size": ("family", [len(f.points) for f in families], "points of each family"),
-            "energy": ("point", self._energies(points), "energy", ENERGY),
-            "k": ("point", self._inertias(points), "Euler inertia, eq. (5)"),
-            "x": ("point", states[:, 0] * g, "position of the orbit's first impact", LENGTH),
-            "y": ("point", states[:, 1] * g, "xdot - k udot just before it", SPEED),
-            "place": ("point", [z.q for _, z in points], "position q on the symmetry line"),
-            "total_time": ("point", [f.system.time(z) for f, z in points], "total time", TIME),
-            "trace": ("point", traces, "trace of the Jacobian of P^n on the energy surface"),
-            "rotation_number": (
-                "point",
-                [rotation(trace) for trace in traces.tolist()],
-                "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
-            ),
-            "type": ("point", _types(traces), "type of stability"),
-            "event_family": ("event", [f.number for f, _ in events], "family of the event"),
-            "event_kind": ("event", [event.kind for _, event in events], _EVENT),
-            "event_turns": ("event", [e.turns for _, e in events], "p of a resonance p/q, else 1"),
-            "event_order": (
-                "event",
-                [event.order for _, event in events],
-                "period of the branches over that of the family",
-            ),
-            "event_energy": ("event", self._energies([(f, e.point) for f, e in events]), "energy",
-                             ENERGY),
-            "event_k": ("event", self._inertias([(f, e.point) for f, e in events]),
-                        "Euler inertia, eq. (5)"),
-            "event_x": ("event", marks[:, 0] * g, "position of the orbit's first impact", LENGTH),
-            "event_y": ("event", marks[:, 1] * g, "xdot - k udot just before it", SPEED),
-            "event_point": ("event", [e.at for _, e in events], "place on the family's curve, an "
-                            "index of its points"),
-            "event_time": ("event", [f.system.time(e.point) for f, e in events], "total time",
-                           TIME),
-            "end_kind": (("family", "side"), [[e.kind for _, e in pair] for pair in ends], _END),
-            "end_energy": (("family", "side"), [[self._energy(e.p) for _, e in pair]
-                                                for pair in ends], "energy", ENERGY),
-            "end_k": (("family", "side"), [[self._inertia(e.p) for _, e in pair]
-                                           for pair in ends], "Euler inertia, eq. (5)"),
-            "end_family": (("family", "side"), [[e.family for _, e in pair] for pair in ends],
-                           "the parent, or the family on the other side of a grazing; -1 if none"),
-            "end_turns": (("family", "side"), [[e.turns for _, e in pair] for pair in ends],
-                          "p of the parent's rotation number p/q there"),
-            "end_order": (("family", "side"), [[e.order for _, e in pair] for pair in ends],
-                          "q of the parent's rotation number p/q there, 2 at a doubling"),
-            "end_impact": (("family", "side"), [[e.impact for _, e in pair] for pair in ends],
-                           "flight of the half orbit that touches the floor; -1 if none"),
-        }  # fmt: skip
-        data = described(table)
-        data["row_size"][2]["sample_dimension"] = "point"
-        return data
+    def of_ends(values: list) -> tuple:
+        """Return dims and values of a variable of the ends."""
+        return ("family", "side"), np.array(values).reshape(-1, 2)
 
-    def _energy(self, p: float) -> float:
-        return self.along.energy(p) * (self.ball.g * self.ball.g)
+    table = {
+        "period": ("family", [f.period for f in families], "number of impacts"),
+        "line": (
+            "family",
+            [_LINES[f.line] for f in families],
+            "symmetry line of the points, none for orbits without symmetry",
+        ),
+        "row_size": ("family", [len(f.points) for f in families], "points of each family"),
+        **of_points("point", points),
+        "place": ("point", [z.q for _, z in points], "position q on the symmetry line"),
+        "trace": ("point", traces, "trace of the Jacobian of P^n on the energy surface"),
+        "rotation_number": (
+            "point",
+            [rotation(trace) for trace in traces.tolist()],
+            "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
+        ),
+        "type": ("point", _types(traces), "type of stability"),
+        **of_points("event", marks, "event_"),
+        "event_family": ("event", [f.number for f, _ in events], "family of the event"),
+        "event_kind": ("event", [event.kind for _, event in events], _EVENT),
+        "event_turns": ("event", [e.turns for _, e in events], "p of a resonance p/q, else 1"),
+        "event_order": (
+            "event",
+            [event.order for _, event in events],
+            "period of the branches over that of the family",
+        ),
+        "event_point": (
+            "event",
+            [event.at for _, event in events],
+            "place on the family's curve, an index of its points",
+        ),
+        "end_kind": (*of_ends([end.kind for end in ends]), _END),
+        "end_energy": (*of_ends([along.energy(end.p) * (g * g) for end in ends]), "energy", ENERGY),
+        "end_k": (*of_ends([along.k_and_rho(end.p)[0] for end in ends]), "Euler inertia, eq. (5)"),
+        "end_family": (
+            *of_ends([end.family for end in ends]),
+            "the parent, or the family on the other side of a grazing; -1 if none",
+        ),
+        "end_turns": (
+            *of_ends([end.turns for end in ends]),
+            "p of the parent's rotation number p/q there",
+        ),
+        "end_order": (
+            *of_ends([end.order for end in ends]),
+            "q of the parent's rotation number p/q there, 2 at a doubling",
+        ),
+        "end_impact": (
+            *of_ends([end.impact for end in ends]),
+            "flight of the half orbit that touches the floor; -1 if none",
+        ),
+    }
+    data = described(table)
+    data["row_size"][2]["sample_dimension"] = "point"
+    return data
 
-    def _inertia(self, p: float) -> float:
-        return self.along.k_and_rho(p)[0]
 
-    def _energies(self, points: list[tuple[Family, Point]]) -> list[float]:
-        return [self._energy(point.p) for _, point in points]
-
-    def _inertias(self, points: list[tuple[Family, Point]]) -> list[float]:
-        return [self._inertia(point.p) for _, point in points]
-
-    def _first(self, family: Family, point: Point) -> tuple[float, float]:
-        """Return x and y of the orbit's first impact, in units where g = 1.
-
-        On Fix RP it is the impact before the symmetric flight.
-        """
-        k, rho = self.along.k_and_rho(point.p)
-        if isinstance(family.system, AsymmetricOrbits):
-            x, y, _ = point.place
-            return (1.0 + rho * x) / k, rho * math.sqrt((1.0 + k) / k) * y
-        if family.line == FIX_R:
-            return float(point.data[XI]), 0.0
-        x, v, w = landing(float(point.data[XI]), float(point.data[TIMES]))
-        return x, -(v - k * w)
+def _first_impact(family: Family, point: Point) -> tuple[float, float]:
+    """Return x and y of the orbit's first impact; on Fix RP, of the one before the flight."""
+    x, y = family.system.first_impact(point)
+    return x, -y if family.line == FIX_RP else y
 
 
 def _types(traces: np.ndarray) -> list[str]:

@@ -6,22 +6,22 @@ reversor is (X, Y) -> (X, -Y), so that such orbits come in pairs, of which one i
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from ...kernel.arithmetic import quadrant
 from ...kernel.compiled import jit
-from ...kernel.flight import first_impact, gap
-from ...kernel.impact import flight_derivatives, impact_coefficients, rebound
+from ...kernel.impact import impact_coefficients
 from .curve import Place, Point
-from .half_orbit import ENERGY, LONGEST_PERIOD, maximum, nearby_root
+from .half_orbit import ENERGY, LONGEST_PERIOD, flight_heights, fly
+from .symmetric import NO_GUESS, SAME, Parameter, PeriodicOrbits
 
 # Entries of the result of `evaluate_orbit`: the derivatives of (X, Y) after the period by X, Y and
 # the parameter; from POINTS on the points (X, Y), from FLIGHTS on the times of flight.
 DX, DY, DP, TOTAL, SLOWEST, POINTS = 0, 2, 4, 6, 7, 8
 FLIGHTS = POINTS + 2 * (LONGEST_PERIOD + 1)
 ROOM = FLIGHTS + LONGEST_PERIOD
-NO_GUESS = np.empty(0)
+NO_LINE = -1  # in place of the symmetry line of an orbit without symmetry
 _MIRROR = np.array([1.0, -1.0])
 
 # Contact speed, in units where g = 1, below which an orbit is not followed: derivatives grow like
@@ -50,40 +50,19 @@ def evaluate_orbit(period, parameter, k, rho, at_x, at_y, guess, out):
     v, w = (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
     # three tangent vectors: by X, by Y, by the parameter
     t = np.zeros((3, 3))
-    for j in range(3):
-        dx = unit_x if j == 0 else 0.0
-        dy = unit_y if j == 1 else 0.0
-        ds = -unit_s * (at_x if j == 0 else at_y) / rest
-        dk = 0.0
-        if j == 2:
-            dx, dy, ds = (rho_p * at_x - x * k_p) / k, y * grow_y, s * grow_s
-            dk = k_p
+    by_p = (rho_p * at_x - x * k_p) / k, y * grow_y, s * grow_s, k_p
+    by_x, by_y = -unit_s * at_x / rest, -unit_s * at_y / rest
+    for j, (dx, dy, ds, dk) in enumerate(
+        ((unit_x, 0.0, by_x, 0.0), (0.0, unit_y, by_y, 0.0), by_p)
+    ):
         t[j, 0] = dx
         t[j, 1] = (dy + k * ds + s * dk - v * dk) / (1.0 + k)
         t[j, 2] = (ds - dy - w * dk) / (1.0 + k)
     slowest, total = s, 0.0
     out[POINTS], out[POINTS + 1] = at_x, at_y
     for i in range(period):
-        b, c, s = rebound(v, w, k, coefficients)
-        if guess.size > 0:
-            tau = nearby_root(guess[i], x, b, c, s, 0.0)
-            _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
-        else:
-            tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
-        sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
-        more = 2.0 * s / ((1.0 + k) * (1.0 + k))
-        x, v = p, b + tau
-        w = max(rate, -v)
-        for j in range(3):
-            db, dc, ds = rebound(t[j, 1], t[j, 2], k, coefficients)
-            if j == 2:
-                db, dc = db - k_p * more, dc + k_p * more
-            dt = tau_x * t[j, 0] + tau_s * ds + tau_c * dc
-            t[j, 0], t[j, 1], t[j, 2] = (
-                cosine * t[j, 0] - sine * dc - w * dt,
-                db + dt,
-                sine * t[j, 0] + cosine * dc + x * dt,
-            )
+        near = guess[i] if guess.size > 0 else 0.0
+        x, v, w, tau = fly(x, v, w, k, k_p, coefficients, near, t)
         total += tau
         slowest = min(slowest, v + w)
         out[FLIGHTS + i] = tau
@@ -98,54 +77,24 @@ def evaluate_orbit(period, parameter, k, rho, at_x, at_y, guess, out):
     out[TOTAL], out[SLOWEST] = total, slowest
 
 
-@jit
-def flight_heights(k, rho, at_x, at_y, times, near, out):
-    """Write the time and value of the gap's largest maximum in each flight to out (flights, 2).
-
-    `times` are the flights' times. Where near[i] is not NaN the maximum next to that time is taken;
-    rows without a maximum are NaN. The gap is negative where the flight misses the floor.
-    """
-    coefficients = impact_coefficients(k)
+def state_at(k: float, rho: float, at_x: float, at_y: float) -> tuple[float, float, float]:
+    """Return the state (x, v, w) of a point (X, Y) of the section."""
     x, y = (1.0 + rho * at_x) / k, rho * math.sqrt((1.0 + k) / k) * at_y
     s = rho * math.sqrt(1.0 + k) / k * math.sqrt(1.0 - at_x * at_x - at_y * at_y)
-    v, w = (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
-    for i in range(times.size):
-        b, c, s = rebound(v, w, k, coefficients)
-        tau = times[i]
-        out[i, 0], out[i, 1] = math.nan, math.nan
-        if near[i] > 0.0:
-            t = maximum(near[i], x, b, c, s)
-            out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0]
-        else:
-            steps = int(tau / 0.02) + 8
-            before = 0.0
-            for j in range(1, steps + 1):
-                t = tau * j / steps
-                _, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
-                if before > 0.0 and df <= 0.0:
-                    peak = maximum(t - 0.5 * tau / steps, x, b, c, s)
-                    height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0]
-                    if 0.0 < peak < tau and not height <= out[i, 1]:
-                        out[i, 0], out[i, 1] = peak, height
-                before = df
-        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
-        x, v, w = p, b + tau, max(rate, -(b + tau))
+    return x, (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
 
 
-class AsymmetricOrbits:
-    """Orbits of one period without symmetry, as a `System` of `curve`.
+class AsymmetricOrbits(PeriodicOrbits):
+    """Orbits of one period without symmetry. A place is (X, Y, parameter).
 
     The equations are that half of the impacts ahead and half of them back in time lead to the same
     point. So their errors grow like the square root of the orbit's multiplier.
     """
 
-    line = -1
+    total_time = TOTAL
 
-    def __init__(self, period, parameter):
-        self.period, self.parameter = period, parameter
-        self.limits = parameter.low, parameter.high
-        self.scale = parameter.high - parameter.low
-        self._divisors = [d for d in range(1, period) if period % d == 0]
+    def __init__(self, period: int, parameter: Parameter):
+        super().__init__(NO_LINE, period, parameter)
 
     def point(self, place: Place) -> Point | None:
         """Return the orbit from a place (X, Y, parameter), or None beyond the section."""
@@ -154,7 +103,7 @@ class AsymmetricOrbits:
             return None
         middle = (self.period + 1) // 2
         out, ahead, back = self._halves(place, middle)
-        radii = np.sum(self._orbit_in(out) ** 2, axis=1)
+        radii = np.sum(self.orbit(out) ** 2, axis=1)
         if self.period > 1 and np.argmax(radii) == middle % self.period:
             # Both ways to an impact that all but grazes have unbounded derivatives.
             out, ahead, back = self._halves(place, middle - 1)
@@ -164,10 +113,10 @@ class AsymmetricOrbits:
         defect = tuple((ahead - back)[:, 3].tolist())
         matrix = out[:4] / math.sqrt(np.sum(out[:4] * out[:4]))
         guard = np.concatenate((matrix, out[FLIGHTS : FLIGHTS + self.period]))
-        orbit = self._orbit_in(out)
+        orbit = self.orbit(out)
         mirrored = orbit * _MIRROR
         index = np.arange(self.period)
-        apart = [np.roll(orbit, -d, axis=0) - orbit for d in self._divisors]
+        apart = [np.roll(orbit, -d, axis=0) - orbit for d in self.divisors]
         apart += [orbit[(shift - index) % self.period] - mirrored for shift in index]
         return Point(place, defect, gradients, guard, tuple(v.ravel() for v in apart), out)
 
@@ -201,51 +150,74 @@ class AsymmetricOrbits:
         out[SLOWEST] = min(out[SLOWEST], mirrored[SLOWEST])
         return out, ahead, back
 
-    def orbit(self, point: Point) -> np.ndarray:
-        """Return the points (period, 2) of an orbit, in section radii."""
-        return self._orbit_in(point.data)
+    def tracked(self, place: Place, times: np.ndarray) -> tuple[np.ndarray, Place]:
+        """Return data and defect of the orbit whose times of flight are next to given ones."""
+        at_x, at_y, p = place
+        k, rho = self.parameter.k_and_rho(p)
+        out = np.empty(ROOM)
+        evaluate_orbit(self.period, self.parameter.kind, k, rho, at_x, at_y, times, out)
+        x, y = out[POINTS + 2 * self.period : POINTS + 2 * self.period + 2].tolist()
+        return out, (x - at_x, y - at_y)
 
-    def _orbit_in(self, out: np.ndarray) -> np.ndarray:
-        """Return the points (period, 2) in a result of `evaluate_orbit`."""
-        return out[POINTS : POINTS + 2 * self.period].reshape(-1, 2)
+    def heights(self, place: Place, times: np.ndarray, near: np.ndarray) -> np.ndarray:
+        """Return the result of `flight_heights`."""
+        *at, p = place
+        k, rho = self.parameter.k_and_rho(p)
+        out = np.empty((times.size, 2))
+        flight_heights(*state_at(k, rho, *at), k, 0.0, False, times, near, out)
+        return out
+
+    def times(self, data: np.ndarray) -> np.ndarray:
+        """Return the times of flight in a point's data."""
+        return data[FLIGHTS : FLIGHTS + self.period].copy()
+
+    def lowest_speed(self, point: Point) -> float:
+        """Return the lowest contact speed, in units where g = 1."""
+        return float(point.data[SLOWEST])
+
+    def orbit(self, data: np.ndarray) -> np.ndarray:
+        """Return the points (period, 2) of an orbit, in section radii, in a point's data."""
+        return data[POINTS : POINTS + 2 * self.period].reshape(-1, 2)
+
+    def positions(self, point: Point) -> list[float]:
+        """Return X of an orbit's points, which its mirror image shares."""
+        return self.orbit(point.data)[:, 0].tolist()
+
+    def same(self, first: Point, second: Point) -> bool:
+        """Return whether two solutions are points of one orbit, or of it and its mirror image."""
+        place = np.array(second.place[:2])
+        points = self.orbit(first.data)
+        return any(
+            np.any(np.max(np.abs(points - at), axis=1) < SAME) for at in (place, place * _MIRROR)
+        )
 
     def innermost(self, point: Point) -> tuple[float, float]:
         """Return the orbit's point that is farthest from the rim."""
-        points = self.orbit(point)
+        points = self.orbit(point.data)
         return tuple(points[np.argmin(np.sum(points * points, axis=1))].tolist())
 
-    def shorter(self, point: Point, near: float) -> int:
-        """Return the period of the shorter orbit that an orbit is near, or its own period."""
-        for divisor, vectors in zip(self._divisors, point.apart, strict=False):
-            if float(np.max(np.abs(vectors))) < near:
-                return divisor
-        return self.period
+    def first_impact(self, point: Point) -> tuple[float, float]:
+        """Return x and y of the point, in units where g = 1."""
+        at_x, at_y, p = point.place
+        k, rho = self.parameter.k_and_rho(p)
+        return (1.0 + rho * at_x) / k, rho * math.sqrt((1.0 + k) / k) * at_y
 
-    def separation(self, point: Point) -> float:
-        """Return how far the orbit is from a symmetric or a shorter one, in section radii."""
-        return min(float(np.max(np.abs(a))) for a in point.apart)
+    def first_place(self, point: Point) -> Place:
+        """Return (X, Y, parameter), X and Y in section radii."""
+        return point.place
 
-    @staticmethod
-    def trace(point: Point) -> float:
+    def trace(self, point: Point) -> float:
         """Return the trace of the orbit's Jacobian in canonical coordinates."""
         return float(point.data[DX] + point.data[DY + 1])
 
-    @staticmethod
-    def time(point: Point) -> float:
-        """Return the total time of the orbit."""
-        return float(point.data[TOTAL])
+    def residue(self, point: Point) -> float:
+        """Return the size of trace - 2, which vanishes at folds."""
+        return abs(self.trace(point) - 2.0)
 
     @property
-    def tests(self):
-        """Events: kind, function that changes its sign there, and its size against rounding."""
-
-        def fold(point: Point) -> float:
-            return self.trace(point) - 2.0
-
-        def doubling(point: Point) -> float:
-            return self.trace(point) + 2.0
-
+    def monitors(self) -> list[tuple[str, Callable[[Point], float]]]:
+        """Kinds of event, and functions of a point that change their sign there."""
         return [
-            ("fold", fold, lambda point: abs(fold(point))),
-            ("doubling", doubling, lambda point: 1.0),
+            ("fold", lambda point: self.trace(point) - 2.0),
+            ("doubling", lambda point: self.trace(point) + 2.0),
         ]

@@ -7,7 +7,7 @@ of an equation the gradient points the other way, which shows if a step has gone
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -101,20 +101,20 @@ def distance(system: System, first: Place, last: Place) -> float:
     return max(*ends, parameter / system.scale)
 
 
-def _newton_step(rows: list[Place], defect: Place, along: Place) -> Place | None:
-    """Return the step, normal to `along`, at which the linearized equations vanish."""
-    if len(rows) == 1:
-        ((a, b),) = rows
-        slope = b * along[0] - a * along[1]
-        vectors: list[Place] = [(-along[1], along[0])]
+def cramer(rows: Sequence[Place], values: Place) -> Place | None:
+    """Return the step at which linear functions with these gradients and values vanish, or None."""
+    if len(rows) == 2:
+        (a, b), (c, d) = rows
+        vectors: list[Place] = [(d, -c), (-b, a)]
     else:
-        vectors = [cross(rows[1], along), cross(along, rows[0])]
-        slope = dot(rows[0], vectors[0])
-    if not 0.0 < abs(slope) < math.inf:
+        first, second, third = rows
+        vectors = [cross(second, third), cross(third, first), cross(first, second)]
+    determinant = dot(rows[0], vectors[0])
+    if not 0.0 < abs(determinant) < math.inf:
         return None
     return tuple(
-        -sum(h * vector[i] for h, vector in zip(defect, vectors, strict=True)) / slope
-        for i in range(len(along))
+        -sum(h * vector[i] for h, vector in zip(values, vectors, strict=True)) / determinant
+        for i in range(len(rows))
     )
 
 
@@ -129,7 +129,7 @@ def correct(system: System, place: Place, along: Place, reach: float) -> Point |
         point = system.point(place)
         if point is None:
             return None
-        step = _newton_step(_rows(system, point), point.defect, along)
+        step = cramer([*_rows(system, point), along], (*point.defect, 0.0))
         if step is None:
             return None
         size, defect = max(map(abs, step)), max(map(abs, point.defect))
@@ -205,6 +205,17 @@ def trace(system: System, start: Point, sign: float, collapsed: Callable[[Point]
             return Curve(points, "closed")
         step = min(1.5 * step, LARGEST_STEP)
     return Curve(points, "blocked")
+
+
+def trace_both_ways(
+    system: System, start: Point, collapsed: Callable[[Point], bool]
+) -> tuple[list[Point], list[str]]:
+    """Return the points of a curve through a point on it, and why it stops at its two ends."""
+    ahead = trace(system, start, 1.0, collapsed)
+    if ahead.reason == "closed":
+        return [*ahead.points[:-1], start], ["closed", "closed"]
+    back = trace(system, start, -1.0, collapsed)
+    return [*reversed(back.points), *ahead.points[1:]], [back.reason, ahead.reason]
 
 
 def _chord(system: System, first: Point, last: Point) -> tuple[Place, float]:

@@ -1,22 +1,22 @@
 """Families of periodic orbits: curves, their events and their ends."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
 from ...kernel.arithmetic import sincos
 from .asymmetric import AsymmetricOrbits
-from .curve import Curve, Point, locate, part_of_chord, trace
-from .symmetric import Orbits
+from .curve import Point, System, locate, part_of_chord, trace_both_ways
+from .grazing import End, grazing
+from .symmetric import COLLAPSED, Orbits
 
-# Separation from a shorter or symmetric orbit, in section radii, where a curve has arrived there.
-COLLAPSED = 3e-4
-# Largest |trace - 2| there. Where an impact grazes, rounds of an orbit come near each other too.
+# Largest |trace - 2| at a collapse. Where an impact grazes, rounds of an orbit come near each other
+# too.
 _RESTS = 0.1
 _STRONG = 4  # largest order of the resonances at which islands vanish
-# Products B C below this are rounding: their signs are no events.
+# Residues below this are rounding: the signs of what vanishes with them are no events.
 _NOISE = 1e-8
 
 
@@ -31,22 +31,8 @@ class Event(NamedTuple):
 
 
 @dataclass
-class End:
-    """How a family ends."""
-
-    kind: str  # range, resonance, doubling, pitchfork, touch, rim, closed, unresolved
-    p: float
-    q: float
-    family: int = -1  # the parent, or the family on the other side of the grazing
-    turns: int = 0
-    order: int = 0
-    impact: int = -1  # the flight that touches, or the impact that grazes, along the half orbit
-    point: Point | None = None
-
-
-@dataclass
 class Family:
-    """A curve of symmetric periodic orbits."""
+    """A curve of periodic orbits."""
 
     system: Orbits | AsymmetricOrbits
     points: list[Point]
@@ -65,74 +51,67 @@ class Family:
         return self.system.line
 
 
-def follow(system: Orbits | AsymmetricOrbits, start: Point, grazing: Callable[..., End]) -> Family:
-    """Follow the family of a solution in both directions.
+def follow(system: Orbits | AsymmetricOrbits, start: Point, longest: int) -> Family:
+    """Follow the family of a solution to both its ends, and find its events.
 
-    `grazing(system, point)` returns the end of a curve that cannot be followed beyond a point.
+    Resonances are those whose children have periods up to `longest`, and those of orders 3 and 4,
+    at which islands vanish.
     """
 
     def collapsed(point: Point) -> bool:
         near = system.separation(point) < COLLAPSED
         return near and abs(system.trace(point) - 2.0) < _RESTS
 
-    curves: list[Curve] = [trace(system, start, 1.0, collapsed)]
-    if curves[0].reason == "closed":
-        points = [*curves[0].points[:-1], start]
-        return Family(system, points, [End("closed", start.p, start.q) for _ in range(2)])
-    curves.append(trace(system, start, -1.0, collapsed))
-    points = [*reversed(curves[1].points), *curves[0].points[1:]]
-    ends = []
-    for curve in reversed(curves):
-        last = curve.points[-1]
-        end = End(curve.reason, last.p, last.q, point=last)
-        ends.append(grazing(system, last) if curve.reason == "blocked" else end)
-    return Family(system, points, ends)
-
-
-def find_events(family: Family, longest: int) -> None:
-    """Find folds, pitchforks, doublings and resonances of a family, and put them on its curve.
-
-    Resonances are those whose children have periods up to `longest`, and those of orders 3 and 4,
-    at which islands vanish.
-    """
-    system = family.system
-    points: list[Point] = [family.points[0]]
-    marks: list[tuple[int, str]] = []
-    tests = system.tests
-    last: list[Point | None] = [
-        family.points[0] if size(family.points[0]) >= _NOISE else None for _, _, size in tests
+    points, reasons = trace_both_ways(system, start, collapsed)
+    ends = [
+        grazing(system, last) if reason == "blocked" else End(reason, last.p, last.q, point=last)
+        for reason, last in zip(reasons, (points[0], points[-1]), strict=True)
     ]
-    for new in family.points[1:]:
-        inside = []
-        for i, (kind, value, size) in enumerate(tests):
-            if size(new) < _NOISE:
-                continue
-            old, last[i] = last[i], new
-            if old is not None and value(old) * value(new) < 0.0:
-                event = locate(system, old, new, value)
-                if event is not None:
-                    inside.append((part_of_chord(system, points[-1], new, event), kind, event))
-        for _, kind, event in sorted(inside, key=lambda item: item[0]):
-            points.append(event)
-            marks.append((len(points) - 1, kind))
-        points.append(new)
-    family.points = points
-    family.events = [
-        Event(kind, 1, 2 if kind == "doubling" else 1, points[i], float(i)) for i, kind in marks
-    ]
+    family = Family(system, points, ends)
+    _find_events(family, longest)
+    return family
+
+
+def _find_events(family: Family, longest: int) -> None:
+    """Find folds, pitchforks, doublings and resonances of a family, and put them on its curve."""
+    system, points = family.system, family.points
+    marks = []
+    for kind, monitor in system.monitors:
+        sure = [
+            i
+            for i, point in enumerate(points)
+            if kind == "doubling" or system.residue(point) >= _NOISE
+        ]
+        for i, part, event in _zeros(system, points, sure, monitor):
+            marks.append((i, part, kind, event))
+    for before, (i, _, kind, event) in enumerate(sorted(marks, key=lambda mark: mark[:2])):
+        points.insert(i + before, event)
+        order = 2 if kind == "doubling" else 1
+        family.events.append(Event(kind, 1, order, event, float(i + before)))
     for turns, order in fractions(max(_STRONG, longest // family.period)):
         wanted = 2.0 * sincos(2.0 * math.pi * turns / order)[1]
 
         def above(point: Point, wanted: float = wanted) -> float:
             return system.trace(point) - wanted
 
-        for i, (old, new) in enumerate(pairwise(points)):
-            if above(old) * above(new) < 0.0 or above(new) == 0.0:
-                event = locate(system, old, new, above)
-                if event is not None:
-                    at = i + part_of_chord(system, old, new, event)
-                    family.events.append(Event("resonance", turns, order, event, at))
+        for i, part, event in _zeros(system, points, range(len(points)), above):
+            family.events.append(Event("resonance", turns, order, event, i - 1 + part))
     family.events.sort(key=lambda event: event.at)
+
+
+def _zeros(
+    system: System, points: list[Point], numbers: Sequence[int], value: Callable[[Point], float]
+) -> Iterator[tuple[int, float, Point]]:
+    """Yield the zeros of a function between points of a curve that are given by their numbers.
+
+    With each are the number of the point after it, and where it lies along the last step to there.
+    """
+    for i, j in pairwise(numbers):
+        before, after = value(points[i]), value(points[j])
+        if before * after < 0.0 or after == 0.0:
+            zero = locate(system, points[i], points[j], value)
+            if zero is not None:
+                yield j, part_of_chord(system, points[j - 1], points[j], zero), zero
 
 
 def fractions(order: int) -> list[tuple[int, int]]:

@@ -19,6 +19,8 @@ have A D - B C = 1, and the trace of the whole orbit is 2 (A D + B C). Hence
 
 import math
 
+import numpy as np
+
 from ...kernel.arithmetic import quadrant
 from ...kernel.compiled import jit
 from ...kernel.flight import (
@@ -48,6 +50,26 @@ def place(k, rho, q):
     r = (1.0 - q) * (1.0 + q) / square
     u = 2.0 * q / square
     return (1.0 + rho * u) / k, u, r, 2.0 * r / square, -4.0 * q / (square * square)
+
+
+@jit
+def line_state(line, k, rho, q):
+    """Return the state (x, v, w) at q on Fix R, or at rest at the apex on Fix RP, and its depth.
+
+    The depth, which is minus the gap there, is 0 on Fix R.
+    """
+    a, _, r, _, _ = place(k, rho, q)
+    if line == FIX_R:
+        w = rho * r / (k * math.sqrt(1.0 + k))
+        return a, k * w, w, 0.0
+    return a, 0.0, 0.0, 0.5 * (rho * r) * (rho * r) / k
+
+
+@jit
+def landing(a, theta):
+    """Return the state (x, v, w) at the end of a fall of length theta from an apex on Fix RP."""
+    _, _, _, x, w = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
+    return x, theta, max(w, -theta)
 
 
 @jit
@@ -94,6 +116,36 @@ def nearby_root(t, x, b, c, s, depth):
 
 
 @jit
+def fly(x, v, w, k, k_p, coefficients, guess, tangents):
+    """Return the state after an impact and a flight, and the flight's time.
+
+    The rows of `tangents` (3, 3) are tangent vectors, which are carried along in place; the last
+    one is the derivative by the parameter, by which k has the derivative k_p. If `guess` is above
+    0, the flight ends at the root of the gap next to it, otherwise at the first impact.
+    """
+    b, c, s = rebound(v, w, k, coefficients)
+    if guess > 0.0:
+        tau = nearby_root(guess, x, b, c, s, 0.0)
+        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+    else:
+        tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
+    sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
+    x, v = p, b + tau
+    w = max(rate, -v)
+    more = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))  # the impact law's derivative by k
+    for j in range(3):
+        db, dc, ds = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
+        if j == 2:
+            db, dc = db - more, dc + more
+        dx = tangents[j, 0]
+        dt = tau_x * dx + tau_s * ds + tau_c * dc
+        tangents[j, 0] = cosine * dx - sine * dc - w * dt
+        tangents[j, 1] = db + dt
+        tangents[j, 2] = sine * dx + cosine * dc + x * dt
+    return x, v, w, tau
+
+
+@jit
 def half_length(line, period):
     """Return the number of times that the map is applied along a half orbit."""
     return period // 2 if line == FIX_R else period // 2 - 1
@@ -107,19 +159,12 @@ def scan(line, k, rho, q, longest, out):
     from Fix RP, and where an impact ends the last flight before its apex.
     """
     coefficients = impact_coefficients(k)
-    root = math.sqrt(1.0 + k)
     for i in range(q.size):
         for n in range(longest + 1):
             out[i, n] = math.nan
-        a, _, r, _, _ = place(k, rho, q[i])
-        if line == FIX_R:
-            x, w = a, rho * r / (k * root)
-            v = k * w
-        else:
-            theta = _fall(a, 0.5 * (rho * r) * (rho * r) / k)
-            _, v, _, x, w = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
-            v = theta
-            w = max(w, -v)
+        x, v, w, depth = line_state(line, k, rho, q[i])
+        if line == FIX_RP:
+            x, v, w = landing(x, _fall(x, depth))
         period = 1 if line == FIX_R else 2
         while period <= longest:
             b, c, s = rebound(v, w, k, coefficients)
@@ -147,9 +192,11 @@ def evaluate(line, period, parameter, k, rho, q, guess, out):
     tracked = guess.size > 0
     a, u, r, u_q, r_q = place(k, rho, q)
     energy = 0.5 * (rho - 1.0) * (rho + 1.0) / k
-    rho_p = 1.0 if parameter == ENERGY else energy / rho
-    a_q = rho * u_q / k
-    a_p = u * rho_p / k - (a / k if parameter == INERTIA else 0.0)
+    rho_p, k_p = (1.0, 0.0) if parameter == ENERGY else (energy / rho, 1.0)
+    a_q, a_p = rho * u_q / k, u * rho_p / k - k_p * a / k
+    # Derivatives of x, v and w by the start's place along its line and across it, and by the
+    # parameter.
+    tangents = np.empty((3, 3))
     total = 0.0
     n_times = 0
     if line == FIX_R:
@@ -157,94 +204,81 @@ def evaluate(line, period, parameter, k, rho, q, guess, out):
         x, w = a, rho * r / (k * root)
         v = k * w
         w_q = rho * r_q / (k * root)
-        w_p = w * (rho_p / rho)
-        if parameter == INERTIA:
-            w_p -= w * (1.0 / k + 0.5 / (1.0 + k))
-        xq, vq, wq = a_q, k * w_q, w_q
-        xn, vn, wn = 0.0, 1.0 / (1.0 + k), -1.0 / (1.0 + k)
-        xp, vp, wp = a_p, k * w_p + (w if parameter == INERTIA else 0.0), w_p
+        w_p = w * (rho_p / rho) - k_p * (w * (1.0 / k + 0.5 / (1.0 + k)))
+        tangents[0, 0], tangents[0, 1], tangents[0, 2] = a_q, k * w_q, w_q
+        tangents[1, 0], tangents[1, 1], tangents[1, 2] = 0.0, 1.0 / (1.0 + k), -1.0 / (1.0 + k)
+        tangents[2, 0], tangents[2, 1], tangents[2, 2] = a_p, k * w_p + k_p * w, w_p
     else:
         depth = 0.5 * (rho * r) * (rho * r) / k
         theta = nearby_root(guess[0], a, 0.0, 0.0, 0.0, depth) if tracked else _fall(a, depth)
         out[TIMES] = theta
         n_times = 1
         total = theta
-        _, slope, _, x, w = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
-        v = theta
-        w = max(w, -v)
-        _, _, _, cosine_of, sine_of = gap(theta, 1.0, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
+        slope = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))[1]
+        x, v, w = landing(a, theta)
+        _, _, _, cosine, sine = gap(theta, 1.0, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
         depth_q = rho * r * rho * r_q / k
-        depth_p = rho * r * r * rho_p / k - (depth / k if parameter == INERTIA else 0.0)
+        depth_p = rho * r * r * rho_p / k - k_p * depth / k
         # f = -depth + t^2/2 + a (1 - cos t)
-        t_q = (depth_q - a_q * (1.0 - cosine_of)) / slope
-        t_n = sine_of / (k * slope)
-        t_p = (depth_p - a_p * (1.0 - cosine_of)) / slope
-        xq, vq, wq = a_q * cosine_of - w * t_q, t_q, a_q * sine_of + x * t_q
-        xn, vn, wn = sine_of / k - w * t_n, t_n, x * t_n - cosine_of / k
-        xp, vp, wp = a_p * cosine_of - w * t_p, t_p, a_p * sine_of + x * t_p
+        t_q = (depth_q - a_q * (1.0 - cosine)) / slope
+        t_n = sine / (k * slope)
+        t_p = (depth_p - a_p * (1.0 - cosine)) / slope
+        for j, (dx, dw, dt) in enumerate(
+            (
+                (a_q * cosine, a_q * sine, t_q),
+                (sine / k, -cosine / k, t_n),
+                (a_p * cosine, a_p * sine, t_p),
+            )
+        ):
+            tangents[j, 0], tangents[j, 1], tangents[j, 2] = dx - w * dt, dt, dw + x * dt
     lowest = v + w
     out[PLACES], out[PLACES + 1] = a, 0.0
     n_places = 1
-    kick = 1.0 if parameter == INERTIA else 0.0
     for _ in range(half_length(line, period)):
-        b, c, s = rebound(v, w, k, coefficients)
-        if tracked:
-            tau = nearby_root(guess[n_times], x, b, c, s, 0.0)
-            _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
-        else:
-            tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
-        sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
-        more = kick * 2.0 * s / ((1.0 + k) * (1.0 + k))  # the impact law's derivative by k
         if line == FIX_RP:
+            b, c, s = rebound(v, w, k, coefficients)
             _, _, _, apex, apex_rate = gap(-b, x, b, c, s, 1.0, quadrant(-b))
             out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = apex, -k * apex_rate
-        x, v = p, b + tau
-        w = max(rate, -v)
+        near = guess[n_times] if tracked else 0.0
+        x, v, w, tau = fly(x, v, w, k, k_p, coefficients, near, tangents)
         if line == FIX_R:
             out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = x, v - k * w
         n_places += 1
-        db, dc, ds = rebound(vq, wq, k, coefficients)
-        dt = tau_x * xq + tau_s * ds + tau_c * dc
-        xq, vq, wq = cosine * xq - sine * dc - w * dt, db + dt, sine * xq + cosine * dc + x * dt
-        db, dc, ds = rebound(vn, wn, k, coefficients)
-        dt = tau_x * xn + tau_s * ds + tau_c * dc
-        xn, vn, wn = cosine * xn - sine * dc - w * dt, db + dt, sine * xn + cosine * dc + x * dt
-        db, dc, ds = rebound(vp, wp, k, coefficients)
-        db, dc = db - more, dc + more
-        dt = tau_x * xp + tau_s * ds + tau_c * dc
-        xp, vp, wp = cosine * xp - sine * dc - w * dt, db + dt, sine * xp + cosine * dc + x * dt
         total += tau
         out[TIMES + n_times] = tau
         n_times += 1
         lowest = min(lowest, v + w)
     exists = True
+    ends = np.empty((3, 2))  # derivatives of the end along its line and across it
     if line == FIX_R and period % 2 == 0:
         h, along = v - k * w, x
-        h_q, h_n, h_p = vq - k * wq, vn - k * wn, vp - k * wp - kick * w
-        x_q, x_n = xq, xn
+        for j in range(3):
+            ends[j, 0], ends[j, 1] = tangents[j, 0], tangents[j, 1] - k * tangents[j, 2]
+        ends[2, 1] -= k_p * w
     else:
         b, c, s = rebound(v, w, k, coefficients)
         t = -b
         tau = first_impact(x, b, c, s, 1.0)[0]
         exists = t > 0.0 and (t < tau or tracked)
-        _, _, _, p, rate = gap(t, x, b, c, s, 1.0, quadrant(t))
+        _, _, _, along, rate = gap(t, x, b, c, s, 1.0, quadrant(t))
         _, _, _, cosine, sine = gap(t, 1.0, 0.0, 0.0, 0.0, 1.0, quadrant(t))
-        more = kick * 2.0 * s / ((1.0 + k) * (1.0 + k))
-        h, along = -k * rate, p
-        db, dc, _ = rebound(vq, wq, k, coefficients)
-        x_q, h_q = cosine * xq - sine * dc + rate * db, -k * (sine * xq + cosine * dc - p * db)
-        db, dc, _ = rebound(vn, wn, k, coefficients)
-        x_n, h_n = cosine * xn - sine * dc + rate * db, -k * (sine * xn + cosine * dc - p * db)
-        db, dc, _ = rebound(vp, wp, k, coefficients)
-        db, dc = db - more, dc + more
-        h_p = -k * (sine * xp + cosine * dc - p * db) - kick * rate
+        more = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))
+        h = -k * rate
+        for j in range(3):
+            db, dc, _ = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
+            if j == 2:
+                db, dc = db - more, dc + more
+            dx = tangents[j, 0]
+            ends[j, 0] = cosine * dx - sine * dc + rate * db
+            ends[j, 1] = -k * (sine * dx + cosine * dc - along * db)
+        ends[2, 1] -= k_p * rate
         total += t
         out[TIMES + n_times] = t
         n_times += 1
         if line == FIX_RP:
-            out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = p, h
-    out[H], out[H_Q], out[H_P] = h, h_q, h_p
-    out[A], out[B], out[C], out[D] = x_q / a_q, x_n, h_q / a_q, h_n
+            out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = along, h
+    out[H], out[H_Q], out[H_P] = h, ends[0, 1], ends[2, 1]
+    out[A], out[B], out[C], out[D] = ends[0, 0] / a_q, ends[1, 0], ends[0, 1] / a_q, ends[1, 1]
     out[XI], out[X_END], out[TIME], out[LOWEST_SPEED] = a, along, 2.0 * total, lowest
     return exists
 
@@ -262,60 +296,43 @@ def maximum(t, x, b, c, s):
 
 
 @jit
-def touches(line, period, k, rho, q, times, near, out):
+def flight_heights(x, v, w, k, depth, to_apex, times, near, out):
     """Write the time and height of each flight's highest touch of the floor to out (flights, 2).
 
-    The height is the largest local maximum of the gap before the flight's end, and negative where
-    the flight misses the floor. `times` are the flights' times. Where near[i] is not NaN the
-    maximum next to that time is taken; rows without a maximum are NaN.
+    The flights begin with the impact of the state (x, v, w), or at rest at a depth below which the
+    floor lies, and have these `times`; if `to_apex`, the last one ends at its apex. The height is
+    the largest local maximum of the gap before a flight's end, and negative where the flight misses
+    the floor. Where near[i] is above 0 the maximum next to that time is taken; rows without a
+    maximum are NaN.
     """
     coefficients = impact_coefficients(k)
-    a, _, r, _, _ = place(k, rho, q)
-    depth = 0.5 * (rho * r) * (rho * r) / k
-    if line == FIX_R:
-        x, w = a, rho * r / (k * math.sqrt(1.0 + k))
-        v = k * w
-    else:
-        x, v, w = a, 0.0, 0.0
     for i in range(times.size):
-        b, c, s, low = 0.0, 0.0, 0.0, depth
-        if i > 0 or line == FIX_R:
-            b, c, s = rebound(v, w, k, coefficients)
-            low = 0.0
+        b, c, s = rebound(v, w, k, coefficients)
         tau = times[i]
         out[i, 0], out[i, 1] = math.nan, math.nan
-        if near[i] >= 0.0 or near[i] < 0.0:
-            t = near[i]
-            if t > 0.0:
-                t = maximum(t, x, b, c, s)
-            out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0] - low
+        if near[i] > 0.0:
+            t = maximum(near[i], x, b, c, s)
+            out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0] - depth
         else:
+            if depth > 0.0 and 1.0 + x < 0.0:
+                out[i, 0], out[i, 1] = 0.0, -depth
             steps = int(tau / 0.02) + 8
-            if line == FIX_RP and i == 0 and 1.0 + a < 0.0:
-                out[i, 0], out[i, 1] = 0.0, -low
-            _, before, _, _, _ = gap(tau / steps, x, b, c, s, 1.0, quadrant(tau / steps))
-            for j in range(2, steps + 1):
+            before = 0.0
+            for j in range(1, steps + 1):
                 t = tau * j / steps
                 _, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
                 if before > 0.0 and df <= 0.0:
                     peak = maximum(t - 0.5 * tau / steps, x, b, c, s)
                     if not 0.0 < peak < tau * (1.0 + 1e-9):
                         peak = t
-                    height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0] - low
+                    height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0] - depth
                     if not height <= out[i, 1]:
                         out[i, 0], out[i, 1] = peak, height
                 before = df
-            if i == times.size - 1 and (period % 2 == 1 or line == FIX_RP):
-                # the flight's apex
-                f, _, ddf, _, _ = gap(tau, x, b, c, s, 1.0, quadrant(tau))
-                if ddf < 0.0 and not f - low <= out[i, 1]:
-                    out[i, 0], out[i, 1] = tau, f - low
-        f, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+            f, _, ddf, _, _ = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+            at_apex = to_apex and i == times.size - 1
+            if at_apex and ddf < 0.0 and not f - depth <= out[i, 1]:
+                out[i, 0], out[i, 1] = tau, f - depth
+        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
         x, v, w = p, b + tau, max(rate, -(b + tau))
-
-
-@jit
-def landing(a, theta):
-    """Return the state (x, v, w) at the end of a fall of length theta from an apex on Fix RP."""
-    _, _, _, x, w = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
-    return x, theta, max(w, -theta)
+        depth = 0.0

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ...dynamics import fixed_point
-from .curve import Place, Point, correct, trace
-from .families import COLLAPSED, Event, Family
+from .curve import Place, Point, correct, solve_at, trace_both_ways
+from .families import Event, Family
 from .half_orbit import ENERGY, FIX_R, LOWEST_SPEED, A, C, D, scan
 from .search import Search
-from .symmetric import Orbits, Parameter, solve_at
+from .symmetric import COLLAPSED, Orbits, Parameter, PeriodicOrbits
 
 # Steps of the differences from which Newton's method takes the gradients.
 _STEP = 1e-6
@@ -41,47 +41,43 @@ class Start(NamedTuple):
     place: Place
 
 
-class Locus:
+class Locus(PeriodicOrbits):
     """Orbits of one period at which an entry of their derivatives vanishes, as a `System`."""
 
     def __init__(self, line: int, period: int, entry: int, limits: Limits):
-        self.line, self.period, self.entry = line, period, entry
-        self.limits = limits.k
-        self.scale = limits.k[1] - limits.k[0]
+        super().__init__(line, period, Parameter(ENERGY, math.nan, *limits.k))
+        self.entry = entry
         self._energies = limits.energy
 
-    def orbit(self, place: Place) -> Point | None:
-        """Return the half orbit at a place, or None where there is none."""
+    def _orbit(self, place: Place) -> Point | None:
+        """Return the half orbit at a place with the values of both equations, or None."""
         q, rho, k = place
         if not (k > 0.0 and rho > 0.0):
             return None
-        return Orbits(self.line, self.period, Parameter(ENERGY, k, 0.0, math.inf)).point((q, rho))
+        orbits = Orbits(self.line, self.period, Parameter(ENERGY, k, 0.0, math.inf))
+        point = orbits.point((q, rho))
+        if point is None:
+            return None
+        defect = point.defect[0], float(point.data[self.entry])
+        return point._replace(place=place, defect=defect)
 
     def point(self, place: Place) -> Point | None:
         """Return the two equations at a place, or None outside the plane or without an orbit."""
         low, high = self._energies
         if not (place[2] > 0.0 and low <= energy_at(place) <= high):
             return None
-        centre = self.orbit(place)
-        if centre is None:
-            return None
+        centre = self._orbit(place)
         columns = []
         for i in range(3):
-            ends = []
-            for sign in (1.0, -1.0):
-                shifted = list(place)
-                shifted[i] += sign * _STEP
-                beside = self.orbit(tuple(shifted))
-                if beside is None:
-                    return None
-                ends.append(self._values(beside))
-            columns.append([(a - b) / (2.0 * _STEP) for a, b in zip(*ends, strict=True)])
-        rows = tuple(tuple(column[i] for column in columns) for i in (0, 1))
-        return centre._replace(place=place, defect=self._values(centre), gradients=rows)
-
-    def _values(self, point: Point) -> Place:
-        """Return the half orbit's defect, and the entry of its derivatives."""
-        return point.defect[0], float(point.data[self.entry])
+            ahead, behind = (
+                self._orbit(tuple(z + step * (i == j) for j, z in enumerate(place)))
+                for step in (_STEP, -_STEP)
+            )
+            if centre is None or ahead is None or behind is None:
+                return None
+            ends = zip(ahead.defect, behind.defect, strict=True)
+            columns.append([(a - b) / (2.0 * _STEP) for a, b in ends])
+        return centre._replace(gradients=tuple(zip(*columns, strict=True)))
 
 
 def energy_at(place: Place) -> float:
@@ -98,11 +94,9 @@ def follow(period: int, start: Start, limits: Limits) -> list[Point]:
         return []
 
     def collapsed(point: Point) -> bool:
-        sizes = (float(np.max(np.abs(vector))) for vector in point.apart)
-        return min(sizes, default=math.inf) < COLLAPSED or point.data[LOWEST_SPEED] < _SLOW
+        return system.separation(point) < COLLAPSED or point.data[LOWEST_SPEED] < _SLOW
 
-    ahead, back = (trace(system, first, sign, collapsed).points for sign in (1.0, -1.0))
-    return [*reversed(back), *ahead[1:]]
+    return trace_both_ways(system, first, collapsed)[0]
 
 
 def lost_impact(k: float, period: int, rho: float) -> float:
@@ -148,8 +142,8 @@ def chain_events(k: float, order: int) -> dict[str, Start]:
     fixed = search.families[0]
     for event in list(fixed.events):
         if (event.kind, event.turns, event.order) == ("resonance", 1, order):
-            for child in search.children(fixed, event):
-                search.add(*child)
+            for start in search.branches(fixed, event):
+                search.add(*start)
     chains = []
     for family in search.families[1:]:
         events = _from_birth(family)
