@@ -118,17 +118,16 @@ def _resume(search: Search, checkpoint: Path | None, key: list) -> int:
     kept = json.loads(checkpoint.read_text(encoding="utf-8"))
     if kept["key"] != key:
         return 0
-    starts = [(n, line, float.fromhex(q), float.fromhex(p)) for n, line, q, p in kept["starts"]]
-    search.resume(starts)
+    search.resume(kept["starts"])
     return kept["done"]
 
 
 def _keep(search: Search, checkpoint: Path, key: list, done: int) -> None:
     """Write a checkpoint; the file appears whole."""
-    starts = [(n, line, float(q).hex(), float(p).hex()) for n, line, q, p in search.starts]
     checkpoint.parent.mkdir(parents=True, exist_ok=True)
     part = checkpoint.with_suffix(".new")
-    part.write_text(json.dumps({"key": key, "done": done, "starts": starts}), encoding="utf-8")
+    content = {"key": key, "done": done, "starts": search.starts}
+    part.write_text(json.dumps(content), encoding="utf-8")
     part.replace(checkpoint)
 
 

@@ -6,6 +6,7 @@ A method for determining a stochastic transition, J. Math. Phys. 20, 1979). The 
 (2 - trace)/4 of the orbit's Jacobian on the energy surface.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -183,11 +184,12 @@ class OrbitSearch:
     def find(self, turns: int, period: int) -> tuple[float, float, float] | None:
         """Return start, residue and closure of an orbit, or None if none is found."""
         excess_turns = self._excess_turns(turns, period)
-        for bracket in self._brackets(excess_turns):
-            found = self._solve(excess_turns, period, bracket)
-            if found is not None:
-                return found
-        return None
+        first, last = self.between
+        brackets = self._brackets(excess_turns, _CELLS)
+        if excess_turns(first) > 0.0 > excess_turns(last):
+            brackets = itertools.chain([self.between], brackets)
+        solved = (self._solve(excess_turns, period, bracket) for bracket in brackets)
+        return next((orbit for orbit in solved if orbit is not None), None)
 
     def innermost(self, turns: int, period: int, cells: int) -> tuple[float, float, float] | None:
         """Return `find`'s values of the orbit nearest to the fixed point, or None.
@@ -196,15 +198,8 @@ class OrbitSearch:
         and too few turns, or the other way round.
         """
         excess_turns = self._excess_turns(turns, period)
-        first, last = self.between
-        low, sign = first, excess_turns(first) > 0.0
-        for i in range(1, cells + 1):
-            high = first + (last - first) * i / cells
-            if (excess_turns(high) > 0.0) != sign:
-                bracket = (low, high) if sign else (high, low)
-                return self._solve(excess_turns, period, bracket)
-            low = high
-        return None
+        bracket = next(self._brackets(excess_turns, cells), None)
+        return None if bracket is None else self._solve(excess_turns, period, bracket)
 
     def _excess_turns(self, turns: int, period: int) -> Callable:
         """Return the function of a start that is zero on an orbit with these turns."""
@@ -232,16 +227,16 @@ class OrbitSearch:
         trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
         return start, 0.25 * (2.0 - trace), closure
 
-    def _brackets(self, excess_turns: Callable) -> Iterator[tuple[float, float]]:
-        """Yield starts with too many and with too few turns, for `between` and for its cells."""
+    def _brackets(self, excess_turns: Callable, cells: int) -> Iterator[tuple[float, float]]:
+        """Yield the ends of cells, that with too many turns first, which have an orbit between."""
         first, last = self.between
-        if excess_turns(first) > 0.0 > excess_turns(last):
-            yield first, last
-        starts = first + (last - first) * np.arange(_CELLS + 1) / _CELLS
-        signs = np.sign([excess_turns(start) for start in starts])
-        for i in np.flatnonzero(signs[1:] * signs[:-1] < 0.0):
-            low, high = starts[i : i + 2].tolist()
-            yield (low, high) if signs[i] > 0.0 else (high, low)
+        low, above = first, excess_turns(first) > 0.0
+        for i in range(1, cells + 1):
+            high = first + (last - first) * i / cells
+            if (excess_turns(high) > 0.0) != above:
+                yield (low, high) if above else (high, low)
+                above = not above
+            low = high
 
     def _half_orbit(self, start: float, half: int) -> tuple[float, float, float]:
         """Return `_turns` of the orbit from a start on y = 0."""

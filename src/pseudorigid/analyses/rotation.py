@@ -75,13 +75,21 @@ def winding(
     e = energy / (ball.g * ball.g)
     centre, radius = unit_ball.section(e)
     fixed_place, fixed_rotation = symmetric_fixed_point(ball, energy)
-    states = unit_ball.start(place, e)
-    orbits = begin(ball.k, states, centre + radius * fixed_place, fixed_rotation)
+    fixed_x = centre + radius * fixed_place
+    return turns_and_growth(ball.k, unit_ball.start(place, e), fixed_x, fixed_rotation, impacts)
+
+
+def turns_and_growth(k, states, centre, expected, impacts) -> tuple[np.ndarray, np.ndarray]:
+    """Return rotation numbers and exponents, as `winding` does, of states with lengths in g R.
+
+    The other arguments are those of `tangent_orbits.begin`.
+    """
     quarter = impacts // 4
     turning = np.array([(0, impacts)])
     growing = np.array([(quarter, quarter), (impacts - quarter, quarter)])
-    turned, growth = np.zeros((1, place.size)), np.zeros((2, place.size))
-    propagate_with_tangent(orbits, ball.k, 0, impacts, turning, growing, turned, growth)
+    orbits = begin(k, states, centre, expected)
+    turned, growth = np.zeros((1, orbits.shape[1])), np.zeros((2, orbits.shape[1]))
+    propagate_with_tangent(orbits, k, 0, impacts, turning, growing, turned, growth)
     exponent = (growth[1] - growth[0]) / (quarter * (impacts - 2.0 * quarter))
     return turned[0] / weight(impacts), exponent
 

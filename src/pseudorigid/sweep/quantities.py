@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 
 from ..analyses.flux import SIDES, flux
+from ..analyses.rotation import turns_and_growth
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.inputs import not_allowed, number, one_of, state_of, whole_number
-from ..dynamics.tangent_orbits import begin, propagate_with_tangent, weight
 from ..dynamics.variables import attributes_of, orbit_dims, variables
 from .verdict import classify_orbits as follow_until_decided
 
@@ -58,12 +58,8 @@ def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
     0.176039
     """
     states, finite, centre, expected, impacts = _read(ball, state, impacts)
-    windows = np.array([(0, impacts)])
-    turned, growth = np.zeros((2, 1, centre.size))
-    orbits = begin(ball.k, states, centre, expected)
-    propagate_with_tangent(orbits, ball.k, 0, impacts, windows, windows, turned, growth)
     turns = np.full(finite.shape, math.nan)
-    turns[finite] = turned[0] / weight(impacts)
+    turns[finite], _ = turns_and_growth(ball.k, states, centre, expected, impacts)
     return turns if turns.shape else float(turns)
 
 

@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analyses.continuation.curve import cramer
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.tangent_orbits import angle
-from ..dynamics.variables import ENERGY, described
+from ..dynamics.variables import ENERGY, described, variables
 from ..kernel.compiled import jit
 from .breakup import breakup
 from .cell import sunflower_points, wilson
@@ -34,6 +35,44 @@ _CLOSED = 1e-9  # |P^n z - z|, in section radii, of a point that Newton's method
 _HALF = 0.5  # share of a change for which a chain must account
 _LARGEST = 3  # chains named for each slope
 _SEEN = 0.002  # share of the section; smaller ones may be a few orbits that stick to islands
+
+# Name -> meaning of variables on `value`, `breakup`, `extremum`, (extremum, side), `slope` and
+# (slope, largest).
+_OF_VALUES = {
+    "energy": ("energy", ENERGY),
+    "k": "Euler inertia, eq. (5)",
+    "regular": "share of the section's area with regular orbits",
+    "regular_low": "lower end of its 95 % interval, starts and threshold together",
+    "regular_high": "upper end of its 95 % interval, starts and threshold together",
+    "outside": "share of regular orbits that go around no orbit of the families",
+}
+_OF_BREAKUPS = {
+    "breakup_event": "last curve beyond p/q that breaks, or first one that forms",
+    "breakup_at": "energy, or k, of it by Greene's criterion, NaN if none is found",
+}
+_OF_EXTREMA = {
+    "extremum_at": "energy, or k, of an extremum of the regular share",
+    "extremum_kind": "minimum or maximum",
+    "cause_family": "family whose event is the cause, -1 for a curve or if there is none",
+    "cause_event": "that event, or the curve beyond p/q that breaks or forms, or unexplained",
+    "cause_at": "energy, or k, of that event",
+}
+_OF_SIDES = {
+    "side_at": "nearest value on that side at which the regular share differs",
+    "side_family": "family whose chain changes most from the extremum to there",
+    "side_part": "its change over the change of the regular share",
+    "side_event": "event or end of that family nearest to the extremum",
+    "side_event_at": "energy, or k, of that event",
+}
+_OF_SLOPES = {
+    "slope_from": "energy, or k, at which the line between neighbouring extrema begins",
+    "slope_to": "energy, or k, at which it ends",
+    "slope_change": "change of the regular share along it",
+}
+_OF_LARGEST = {
+    "slope_family": "families whose chains change most along it",
+    "slope_part": "their changes over the change of the regular share",
+}
 
 
 @jit
@@ -92,11 +131,10 @@ def _closed(ball: Ball, energy: float, x: float, y: float, period: int) -> Any:
         gap_x, gap_y = points[:, -1] - points[:, 0]
         if abs(gap_x) + abs(gap_y) < _CLOSED * radius:
             return points[:, :-1] if abs(a + d) < 2.0 else None
-        det = (a - 1.0) * (d - 1.0) - b * c
-        if det == 0.0:
+        step = cramer([(a - 1.0, b), (c, d - 1.0)], (gap_x, gap_y))
+        if step is None:
             return None
-        x += (b * gap_y - (d - 1.0) * gap_x) / det
-        y += (c * gap_x - (a - 1.0) * gap_y) / det
+        x, y = x + step[0], y + step[1]
     return None
 
 
@@ -179,22 +217,10 @@ def shares(
         rows.append((float(level), this.k, *shares_here))
     columns = np.array(rows).T
     share = np.array(counts) / starts
-    names = {
-        "energy": ("energy", ENERGY),
-        "k": ("Euler inertia, eq. (5)",),
-        "regular": ("share of the section's area with regular orbits",),
-        "regular_low": ("lower end of its 95 % interval, starts and threshold together",),
-        "regular_high": ("upper end of its 95 % interval, starts and threshold together",),
-        "outside": ("share of regular orbits that go around no orbit of the families",),
-    }
-    table = {
-        name: ("value", column, *text)
-        for (name, text), column in zip(names.items(), columns, strict=True)
-    }
-    table["share"] = ("value", "family"), share, "share in the chain of a family"
     values = columns[0] if parameter == "energy" else columns[1]
     parts = np.array(beyond).reshape(len(rows), len(resonances)) / starts
-    table |= {
+    table = {
+        "share": (("value", "family"), share, "share in the chain of a family"),
         "resonance_turns": ("resonance", [turns for turns, _ in resonances], "p of p/q"),
         "resonance_order": ("resonance", [order for _, order in resonances], "q of p/q"),
         "beyond": (("value", "resonance"), parts, "share in the main island beyond p/q"),
@@ -204,14 +230,15 @@ def shares(
         return (ball, value) if parameter == "energy" else (Ball(value, ball.g), float(energy))
 
     curves = _breakups(at, values, np.array(rotations), resonances, parts)
-    names = {
-        "breakup_event": "last curve beyond p/q that breaks, or first one that forms",
-        "breakup_at": "energy, or k, of it by Greene's criterion, NaN if none is found",
-    }
-    for index, (name, text) in enumerate(names.items()):
-        table[name] = "breakup", [curve[index] for curve in curves], text
-    table |= causes(families, parameter, values, columns[2:5], share, curves, step)
-    return xr.Dataset(described(table), attrs={"starts": starts, "impacts": impacts})
+    data = described(table) | variables("value", columns, _OF_VALUES)
+    data |= variables("breakup", _columns(curves, 3)[:2], _OF_BREAKUPS)
+    data |= causes(families, parameter, values, columns[2:5], share, curves, step)
+    return xr.Dataset(data, attrs={"starts": starts, "impacts": impacts})
+
+
+def _columns(rows: list, count: int) -> list:
+    """Return the columns of a table, which may have no rows."""
+    return [[row[i] for row in rows] for i in range(count)]
 
 
 def _owners(
@@ -340,45 +367,20 @@ def causes(families, parameter, values, regular, share, curves, step) -> dict:
         changed = parts(i, j, share)
         most = np.argsort(-np.abs(changed), kind="stable")[:_LARGEST].tolist()
         slopes.append((values[i], values[j], regular[0][j] - regular[0][i], most, changed[most]))
-    names = {
-        "extremum_at": "energy, or k, of an extremum of the regular share",
-        "extremum_kind": "minimum or maximum",
-        "cause_family": "family whose event is the cause, -1 for a curve or if there is none",
-        "cause_event": "that event, or the curve beyond p/q that breaks or forms, or unexplained",
-        "cause_at": "energy, or k, of that event",
-    }
-    columns = list(zip(*rows, strict=True)) if rows else [()] * len(names)
-    table: dict = {
-        name: ("extremum", list(column), text)
-        for (name, text), column in zip(names.items(), columns, strict=True)
-    }
-    names = {
-        "side_at": "nearest value on that side at which the regular share differs",
-        "side_family": "family whose chain changes most from the extremum to there",
-        "side_part": "its change over the change of the regular share",
-        "side_event": "event or end of that family nearest to the extremum",
-        "side_event_at": "energy, or k, of that event",
-    }
-    for index, (name, text) in enumerate(names.items()):
-        table[name] = ("extremum", "side"), [[r[index] for r in pair] for pair in sides_of], text
-        if not sides_of:
-            table[name] = ("extremum", "side"), np.empty((0, 2)), text
-    names = {
-        "slope_from": "energy, or k, at which the line between neighbouring extrema begins",
-        "slope_to": "energy, or k, at which it ends",
-        "slope_change": "change of the regular share along it",
-    }
-    for index, (name, text) in enumerate(names.items()):
-        table[name] = "slope", [row[index] for row in slopes], text
-    size = len(slopes), min(_LARGEST, share.shape[1])
-    names = {
-        "slope_family": "families whose chains change most along it",
-        "slope_part": "their changes over the change of the regular share",
-    }
-    for index, (name, text) in enumerate(names.items(), 3):
-        column = np.array([row[index] for row in slopes]).reshape(size)
-        table[name] = ("slope", "largest"), column, text
-    return table
+    sides = [
+        [[row[i] for row in pair] for pair in sides_of] or np.empty((0, 2))
+        for i in range(len(_OF_SIDES))
+    ]
+    largest = min(_LARGEST, share.shape[1])
+    families_of, parts_of = (
+        np.array([row[i] for row in slopes]).reshape(len(slopes), largest) for i in (3, 4)
+    )
+    return (
+        variables("extremum", _columns(rows, len(_OF_EXTREMA)), _OF_EXTREMA)
+        | variables(("extremum", "side"), sides, _OF_SIDES)
+        | variables("slope", _columns(slopes, len(_OF_SLOPES)), _OF_SLOPES)
+        | variables(("slope", "largest"), (families_of, parts_of), _OF_LARGEST)
+    )
 
 
 def _events_of(families: xr.Dataset, parameter: str, number: int) -> list[tuple[str, float]]:
