@@ -6,6 +6,7 @@ from time import process_time
 
 import independent_solver as judge
 import pytest
+from exact_orbits import state_at
 from family_search import PAPER, crossings, energy_of, rho, searched, six_born_at, up_to_period_six
 from mpmath import mp, mpf
 
@@ -29,8 +30,7 @@ def is_orbit_in_60_digits(ball, energy, family, point):
 
     def points(x, y, impacts):
         """(x, y) of a point of the section and of those after it, with the times of flight."""
-        s = mp.sqrt(((1 + k) * (2 * mpf(energy) + 2 * g * x - k * x * x) - y * y) / k)
-        state, rows = (x, (y + k * s) / (1 + k), (s - y) / (1 + k)), [(x, y, 0)]
+        state, rows = state_at(k, g, mpf(energy), x, y), [(x, y, 0)]
         for _ in range(impacts):
             *state, tau = judge.exact_map(k, g, *state)
             rows.append((state[0], state[1] - k * state[2], tau))

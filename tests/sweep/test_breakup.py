@@ -32,17 +32,6 @@ def test_neighbours_have_smaller_denominators_and_lie_next_to_the_fraction(fract
         assert abs(Fraction(r, s) - Fraction(p, q)) == Fraction(1, s * q)
 
 
-def test_residues_of_longer_convergents_fall_before_the_breakup_and_grow_after_it():
-    """The residues are those of a noble number next to the last curve's, beyond 1/7."""
-    for energy, falls in ((SEVENTH - 10 * STEP, True), (SEVENTH + 10 * STEP, False)):
-        place, _ = symmetric_fixed_point(BALL, energy)
-        search = OrbitSearch(BALL, energy, (place - 1e-3, -0.999))
-        convergents = [(4, 29), (5, 36), (9, 65), (14, 101), (23, 166), (37, 267)]
-        sizes = [abs(search.innermost(*pair, 256)[1]) for pair in convergents]
-        ratios = np.divide(sizes[3:], sizes[2:-1])
-        assert np.all(ratios < 1.0) if falls else np.all(ratios > 1.0)
-
-
 def test_the_last_curve_breaks_between_energies_with_and_without_one():
     found = breakup(at, 1, 7, 0.0055, 0.0058)
     assert found == pytest.approx(SEVENTH, abs=STEP)

@@ -54,14 +54,6 @@ def test_growth_is_that_of_a_product_of_jacobians():
         assert verdicts.exponent[i] == pytest.approx((logs[399] - logs[99]) / 300, abs=1e-4)
 
 
-def test_the_winding_number_near_the_fixed_point_is_its_rotation_number():
-    x, _, rotation = fixed_point.numbers(K, E)
-    states = np.array(Ball(k=K, g=1.0).state_xy(x + 1e-4, 0.0, E))[:, None]
-    verdicts = classify(states, 2000)
-    assert verdicts.regular[0]
-    assert verdicts.winding[0] == pytest.approx(rotation, abs=1e-7)
-
-
 def test_undecided_orbits_keep_their_order_in_memory(monkeypatch):
     """In another order all kernels that follow them would be compiled again."""
     lengths, propagate = [], verdict.propagate_with_tangent

@@ -68,7 +68,8 @@ MAPS = {
 def change(name: str, strength: float) -> np.ndarray:
     """Return the row of a change: kind, two parameters, and its strength.
 
-    `name` is "", "twist", "Moebius" or "squeeze", or "mirrored " and one of these for R T^-1 R.
+    `name` is "", "twist", "Moebius" or "squeeze", or "mirrored twist" or "mirrored Moebius" for
+    R T^-1 R.
     """
     side = -1.0 if name.startswith("mirrored ") else 1.0
     match name.removeprefix("mirrored "):
@@ -76,12 +77,10 @@ def change(name: str, strength: float) -> np.ndarray:
             row = _TWIST, _CENTRE[0], side * _CENTRE[1], strength
         case "Moebius":
             row = _MOEBIUS, side * _DIRECTION[0] * strength, _DIRECTION[1] * strength, strength
-        case "squeeze" if side > 0.0:
+        case "squeeze":
             row = _SQUEEZE, 0.0, 0.0, strength
-        case "":
-            row = _IDENTITY, 0.0, 0.0, 0.0
         case _:
-            raise ValueError(f"no change {name!r}")
+            row = _IDENTITY, 0.0, 0.0, 0.0
     return np.array(row, dtype=float)
 
 
