@@ -6,7 +6,7 @@ import xarray as xr
 
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures import atlas
-from pseudorigid.figures.axes import raster
+from pseudorigid.figures.axes import limits, raster
 from pseudorigid.figures.axes.panel import Axis
 from pseudorigid.figures.canvas import render, style
 from pseudorigid.sweep import cell
@@ -140,15 +140,15 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     ],
 )
 def test_ticks_are_round(low, high, count, wanted):
-    assert raster.ticks(low, high, count) == wanted
+    assert limits.ticks(low, high, count) == wanted
 
 
 def test_minor_ticks_and_edges_lie_between():
-    assert raster.minor_ticks(Axis((0.0, 1.2), [0.0, 0.5, 1.0])) == [0.25, 0.75]
+    assert Axis((0.0, 1.2), [0.0, 0.5, 1.0]).minor_ticks().tolist() == [0.25, 0.75]
     narrow = (0.02, 0.28)
-    assert raster.minor_ticks(Axis(narrow, [0.1, 0.2])) == pytest.approx([0.05, 0.15, 0.25])
-    assert raster.minor_ticks(Axis(narrow, [0.1])) == []
-    exponents = np.array(raster.minor_ticks(Axis((-1.1, 0.4), (), decades=True)))
+    assert Axis(narrow, [0.1, 0.2]).minor_ticks() == pytest.approx([0.05, 0.15, 0.25])
+    assert Axis(narrow, [0.1]).minor_ticks() == []
+    exponents = Axis((-1.1, 0.4), (), decades=True).minor_ticks()
     assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
     assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
     assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]

@@ -1,13 +1,14 @@
 """The atlas: the regular share of the section and the exponent of the rest, over k and E/g^2."""
 
-import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from ..dynamics import fixed_point
 from .axes import raster
-from .axes.panel import Axis, Panel, Window, corner, log10, title, upright
+from .axes.limits import decades, linear
+from .axes.panel import Panel, Window, corner, log10, title, upright
 from .canvas import style
 from .canvas.ragged_rows import pieces
 from .canvas.sheet import POINT, Sheet
@@ -70,9 +71,9 @@ def cells(sheet, bottom, sweep, values, most, table, text):
     """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
-    up = raster.linear(*raster.edges(np.array(sweep["k"]))[[0, -1]], 7, "$k$")
+    up = linear(*raster.edges(sweep["k"])[[0, -1]], 7, "$k$")
     panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
-    raster.minor(panel)
+    panel.minor()
     raster.cells(panel, sweep, values / most, table)
     raster.scale(sheet, frame, most, table)
     corner(sheet, frame, text, rise=13)
@@ -89,7 +90,7 @@ def _plane_key(sheet, top):
         "no chaotic orbit among those of the cell",
     )
     for y, text in zip(rows, texts, strict=True):
-        sheet.text(LEFT + 70, y, text, ha="left", va="center", size=_SIZE)
+        sheet.text(LEFT + 70, y, text, size=_SIZE)
     _stroke(sheet, across, [rows[0]] * 2)
     _stroke(sheet, across, [rows[1]] * 2, dashed=True)
     dot = {"ls": "none", "marker": "o"}
@@ -107,17 +108,17 @@ def line(sweep, data):
     energy = np.array(sweep["energy"]) * unit
     name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
     first, last = min(0.0, energy[0]), max(0.0, energy[-1])
-    across = raster.linear(first, last + (0.02 * (last - first) or 1.0), 8, name)
-    share = raster.linear(0.0, 1.0, 5)
+    across = linear(first, last + (0.02 * (last - first) or 1.0), 8, name)
+    share = linear(0.0, 1.0, 5)
     exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
-    exponent = raster.linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
+    exponent = linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
     below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
     for panel, text, bars, rise in (
         (above, "Regular share of the section", "bars: 95 %", 14),
         (below, "Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles", 4),
     ):
-        raster.minor(panel)
+        panel.minor()
         title(sheet, panel.frame, text, rise)
         corner(sheet, panel.frame, bars, rise, _SIZE)
     _upright_lines((above, below), k, energy[0], unit)
@@ -214,12 +215,11 @@ def _stroke(sheet, x, y, dashed=False):
 
 def _energy_axis(values):
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
-    values, name = np.array(values), r"$E/g^2$"
+    name = r"$E/g^2$"
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        return raster.linear(*raster.edges(values)[[0, -1]], 5, name)
-    low, high = raster.edges(log10(values))[[0, -1]].tolist()
-    ticks = range(math.ceil(low), math.floor(high) + 1)
-    return Axis((low, high), ticks, name, True, [f"{10.0**tick:g}" for tick in ticks])
+        return linear(*raster.edges(values)[[0, -1]], 5, name)
+    axis = decades(raster.edges(log10(values))[[0, -1]].tolist(), name)
+    return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
 
 
 def _is_between(axis, values):

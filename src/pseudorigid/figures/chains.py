@@ -56,12 +56,12 @@ def _key(sheet, hues):
     for i, (order, color) in enumerate(hues.items()):
         x = LEFT + i * 135
         sheet.draw([x, x + 40], [y, y], color=color, lw=1.3)
-        sheet.text(x + 52, y, f"q = {order}", ha="left", va="center", size=_SIZE)
+        sheet.text(x + 52, y, f"q = {order}", size=_SIZE)
     for kind, text in _MEANINGS.items():
         y -= 38
         sheet.draw([LEFT, LEFT + 90], [y, y], color=style.BLACK, **_STYLES[kind])
-        sheet.text(LEFT + 108, y, text, ha="left", va="center", size=_SIZE)
+        sheet.text(LEFT + 108, y, text, size=_SIZE)
     x = LEFT + 660
     sheet.draw([x], [y], ls="none", marker="o", ms=5.0, mfc="white", mec=style.BLACK, mew=0.4)
     sheet.draw([x], [y], ls="none", marker="o", ms=2.5, color=style.BLACK, mew=0)
-    sheet.text(x + 25, y, "Figures 8 and 2", ha="left", va="center", size=_SIZE)
+    sheet.text(x + 25, y, "Figures 8 and 2", size=_SIZE)

@@ -5,12 +5,13 @@ import re
 
 import numpy as np
 
-from .axes.panel import Axis, Panel, corner, decades, key, log10, title
-from .axes.raster import minor
+from .axes.limits import decades
+from .axes.panel import Axis, Panel, corner, key, log10, title
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
 
-# Colour and mark of each family of methods; similar methods have similar colours.
+# Colour and mark of each family of methods, or of a method in charts that draw one family's
+# methods apart; similar methods have similar colours.
 STYLES = {
     "certified march": (style.VERMILION, "o"),
     "scan 0.5 + bisection": (style.SKY, "o"),
@@ -28,13 +29,10 @@ STYLES = {
     "Radau": ("#a0a0a0", "D"),
     "heyoka, any direction": (style.PURPLE, "^"),
     "heyoka, positive direction": (style.GREEN, "^"),
-}
-# Colours of single methods, for charts that draw methods of one family apart.
-_METHOD_COLOURS = {
-    "scan 0.1, 1e-03": "#ecc3da",
-    "scan 0.1, 1e-06": style.PURPLE,
-    "scan 0.1, 1e-09": "#8f4772",
-    "engine 1e-03": "#a86f00",
+    "scan 0.1, 1e-03": ("#ecc3da", "o"),
+    "scan 0.1, 1e-06": (style.PURPLE, "o"),
+    "scan 0.1, 1e-09": ("#8f4772", "o"),
+    "engine 1e-03": ("#a86f00", "o"),
 }
 # Colour and mark of each way to tell regular orbits from chaotic ones.
 _VERDICTS = {
@@ -47,10 +45,7 @@ _VERDICTS = {
 _LEFT, _RIGHT = 150, 1010  # pixels: ends of the frames
 _ZERO = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
 _MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
-_COSTS = {
-    "evaluations": decades((0, 5), "Evaluations a flight"),
-    "seconds": decades((-8, 0), "Seconds a flight"),
-}
+_COSTS = {"evaluations": (0, 5), "seconds": (-8, 0)}  # decades
 
 
 @style.pinned()
@@ -61,7 +56,8 @@ def work(data, which, cost):
     the right roots, if at most one root in a hundred is wrong. Heavy bars are quartiles of the
     seconds. Below is the share of wrong roots. `cost` is "evaluations" or "seconds".
     """
-    entries, notes = _families(data), [("filled: the median", style.FRAME, "o")]
+    families = list(dict.fromkeys(data["family"].values))
+    entries, notes = _entries(families, families), [("filled: the median", style.FRAME, "o")]
     if (data["wrong"].values[which] <= _MAX_WRONG_SHARE).any():
         words = f"hollow: the worst right root, if at most {100 * _MAX_WRONG_SHARE:.0f} % are wrong"
         notes.append((words, style.FRAME, "o", True))
@@ -69,13 +65,12 @@ def work(data, which, cost):
         notes.append(("heavy bars: quartiles of the seconds", style.FRAME, "", False, 1.6))
     lines = math.ceil(len(entries) / 2)
     sheet, top = _sheet(1010 + (lines + len(notes)) * 48)
-    across = _COSTS[cost]
+    across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
     error = _axis_with_zero(_ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (_LEFT, top - 560, _RIGHT, top), across.blank(), error)
     share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
     lower = Panel(sheet, (_LEFT, top - 830, _RIGHT, top - 630), across, share)
-    for family in dict.fromkeys(data["family"].values):
-        color, marker = _style(family)
+    for family, (_, color, marker) in zip(families, entries, strict=True):
         part = data.isel(set=which, method=data["family"].values == family)
         x, wrong = part[cost].values, part["wrong"].values
         median, worst = (_zero_at_end(part[name].values, _ZERO) for name in ("median", "worst"))
@@ -86,8 +81,8 @@ def work(data, which, cost):
         upper.dots(x, median, color, marker=marker)
         if cost == "seconds":
             spans = part["seconds_low"].values, part["seconds_high"].values
-            for low, high, y in zip(*spans, median, strict=True):
-                upper.line([low, high], [y, y], color=color, lw=1.6)
+            for *span, y in zip(*spans, median, strict=True):
+                upper.line(span, [y, y], color=color, lw=1.6)
         lower.line(x, wrong, color=color, lw=0.9)
         lower.dots(x, wrong, color, marker=marker)
     key(sheet, entries, top - 960, 2)
@@ -101,7 +96,7 @@ def edges(data):
 
     A ball that grazes at x > -g comes back at once, at x < -g it leaves.
     """
-    methods = _methods(data)
+    methods = _entries(data["name"].values, data["family"].values)
     sheet, top = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
     gap = 40
     wide = (_RIGHT - _LEFT - gap) / 2
@@ -136,7 +131,7 @@ def energy(data):
     sheet, top = _sheet(1350)
     drift = _axis_with_zero(_ZERO, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (_LEFT, top - 430, _RIGHT, top), decades((0, 6), "Impacts"), drift)
-    across = decades((-13, 1), "Largest relative error of the energy after all impacts", every=2)
+    across = decades((-13, 1), "Largest relative error of the energy after all impacts")
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
     up = Axis((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
     lower = Panel(sheet, (_LEFT, 330, _RIGHT, 670), across, up)
@@ -177,11 +172,11 @@ def figure_errors(data):
     Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
     two cheapest methods that suffice.
     """
-    scenes = data.sizes["scene"]
+    scenes, families = data.sizes["scene"], data["family"].values
     sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
-    names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values.tolist()]
+    names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
     up = Axis((0, scenes), middles, labels=names)
     across = _axis_with_zero(-16, 6, "Error of the picture / what it can hide")
     panel = Panel(sheet, (_LEFT, bottom, 720, top), across, up)
@@ -192,8 +187,8 @@ def figure_errors(data):
         row = data.isel(scene=i)
         errors = _zero_at_end(row["error"].values / float(row["limit"]), -16)
         missed = row["missed"].values > 0
-        for family, error, hollow in zip(data["family"].values, errors, missed, strict=True):
-            panel.dots(error, middle, _style(family)[0], hollow=hollow)
+        for family, error, hollow in zip(families, errors, missed, strict=True):
+            panel.dots(error, middle, STYLES[family][0], hollow=hollow)
         circles = np.where(missed, " \N{WHITE CIRCLE}", "")
         named = list(zip(row["evaluations"].values, row["name"].values, circles, strict=True))
         best = int(row["cheapest"])
@@ -201,8 +196,9 @@ def figure_errors(data):
         second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
-            sheet.text(740, y + shift, _printed_name(text), ha="left", va="center", size=7.0)
-    key(sheet, [*_families(data), ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
+            sheet.text(740, y + shift, _printed_name(text), size=7.0)
+    entries = dict.fromkeys(_entries(families, families))
+    key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
     return sheet.figure
 
 
@@ -218,7 +214,7 @@ def verdicts(data):
     for row, axis in enumerate((across.blank(), across)):
         frame = (_LEFT, top - 420 - row * 500, _RIGHT, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
-        minor(panel, across=False)
+        panel.minor(across=False)
         title(sheet, frame, f"Wrong verdicts, {data['cells'].values[row]}")
         if row == 1:
             corner(sheet, frame, "bars: \N{PLUS-MINUS SIGN} one standard error")
@@ -252,27 +248,23 @@ def _zero_at_end(values, zero):
     return np.maximum(values, float(f"1e{zero}"))
 
 
-def _families(data):
-    """Return an entry of the key for each family of methods."""
-    names = dict.fromkeys(data["family"].values)
-    return [(_printed_name(family), *_style(family)) for family in names]
-
-
-def _methods(data):
-    """Return an entry of the key for each method."""
-    pairs = zip(data["name"].values, data["family"].values, strict=True)
-    return [(_printed_name(name), *_style(family, name)) for name, family in pairs]
+def _entries(names, families):
+    """Return an entry of the key, (text, colour, mark), for each method or family."""
+    pairs = zip(names, families, strict=True)
+    return [(_printed_name(name), *STYLES.get(name, STYLES[family])) for name, family in pairs]
 
 
 def _methods_with_merged_scans(data):
     """Return an entry for each method; scans of one tolerance look alike and share theirs."""
-    entries, names = _methods(data), data["name"].values.tolist()
-    for i, name in enumerate(names):
-        tolerance = name.partition(", ")[2]
-        steps = [_scan_step(n) for n in names if re.fullmatch(rf"scan .*, {tolerance}", n)]
-        if name.startswith("scan ") and len(steps) > 1:
-            text = _printed_name(f"scan {steps[0]} to {steps[-1]}, {tolerance}")
-            entries[i] = (text, style.BLUE, "o")
+    entries, scans = _entries(data["name"].values, data["family"].values), {}
+    for i, name in enumerate(data["name"].values):
+        if name.startswith("scan "):
+            scans.setdefault(name.partition(", ")[2], []).append((i, _scan_step(name)))
+    for tolerance, scan in scans.items():
+        if len(scan) > 1:
+            text = _printed_name(f"scan {scan[0][1]} to {scan[-1][1]}, {tolerance}")
+            for i, _ in scan:
+                entries[i] = (text, style.BLUE, "o")
     return entries
 
 
@@ -284,12 +276,6 @@ def _scan_step(name):
 def _printed_name(name):
     """Return a method's name with typeset powers of ten and relations."""
     return re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", name).replace("<=", "\N{LESS-THAN OR EQUAL TO}")
-
-
-def _style(family, name=""):
-    """Return the colour and mark of a family or a method, or those of an unknown one."""
-    color, marker = STYLES.get(family, (style.FRAME, "o"))
-    return _METHOD_COLOURS.get(name, color), marker
 
 
 _CHARTS = {f.__name__: f for f in (work, edges, energy, separation, figure_errors, verdicts)}

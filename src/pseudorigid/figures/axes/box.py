@@ -90,7 +90,7 @@ class Box:
     def _key(self, text, cells):
         """Write energy and ball into the first two cells of the key, and name the marks after."""
         top, left = self.sheet.high - (4 + _ROW / 2) * POINT, 45
-        self.sheet.text(left - 8, top, text, ha="left", va="center", size=_SIZE)
+        self.sheet.text(left - 8, top, text, size=_SIZE)
         key(self.sheet, cells, top, _COLUMNS, left, _WIDE - left, _SIZE)
 
     def _edge(self, start, along, color, width):

@@ -10,11 +10,14 @@ from functools import partial
 import numpy as np
 
 from ..canvas import style
+from .panel import Axis
 
 # Limits are refused if they are wider than the data by these factors. The abscissa of a line may be
 # wide because a run may be a short trial of a longer one, and its ordinate because it may be flat.
 _WIDEST_DOTS, _WIDEST_ABSCISSA, _WIDEST_ORDINATE = 1e3, 1e4, 1e6
 _NARROWEST = 1e-12  # of the size of the data
+_LONGEST = 7  # characters of a tick label that fit at the left of a chart
+_MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
 def of_window(low, high):
@@ -48,6 +51,48 @@ def of_data(*values, margin=0.0, room=0.03, most=8):
         "limits": [float(low * fine), float(high * fine)],
         "ticks": [float(tick * step) for tick in ticks],
     }
+
+
+def linear(low, high, count, name=""):
+    """Return an axis with round ticks; what long labels have in common is in the name."""
+    low, high = float(low), float(high)
+    values = ticks(low, high, count) if count else ()
+    if all(len(style.number(value)) <= _LONGEST for value in values):
+        return Axis((low, high), values, name)
+    power = int(f"{(high - low) / count:e}".partition("e")[2])
+    unit = Fraction(10) ** power
+    base = 1000 * unit * (_as_written(values[0]) // (1000 * unit))
+    labels = [style.number(float((_as_written(value) - base) / unit)) for value in values]
+    if base:
+        name = f"{name}, less {style.number(float(base))}"
+    return Axis((low, high), values, rf"{name}, / $10^{{{power}}}$", labels=labels)
+
+
+def around(values, room, count, name="", above=None):
+    """Return an axis with round ticks around values that may have NaN.
+
+    It is wider by `room` of their span at either end, or by `above` of it at the upper one.
+    """
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    if not high > low:
+        low, high = low - 0.01, high + 0.01
+    span = high - low
+    return linear(low - room * span, high + (above or room) * span, count, name)
+
+
+def ticks(low, high, count):
+    """Return about `count` round numbers from low to high."""
+    step = _step((high - low) / count * (1.0 + 1e-9))
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return [float(i * step) for i in range(first, last + 1)]
+
+
+def decades(limits, name=""):
+    """Return a logarithmic axis with ticks at every n-th whole power of ten."""
+    low, high = limits
+    every = 1 + int(high - low) // _MOST
+    first = math.ceil(low / every - 1e-9) * every
+    return Axis(limits, range(first, math.floor(high + 1e-9) + 1, every), name, True)
 
 
 def complete(scene, **axes):

@@ -42,6 +42,18 @@ class Axis:
         low, high = self.limits
         return (np.atleast_1d(np.asarray(values, dtype=float)) - low) / (high - low)
 
+    def minor_ticks(self):
+        """Return the middles between equally spaced ticks, or 2, 3, ... 9 times powers of ten."""
+        low, high = self.limits
+        if self.decades:
+            values = np.add.outer(np.arange(np.floor(low), np.ceil(high)), log10(range(2, 10)))
+        elif len(self.ticks) < 2:
+            return []
+        else:
+            middles = np.arange(len(self.ticks) + 1) - 0.5
+            values = self.ticks[0] + middles * (self.ticks[1] - self.ticks[0])
+        return values[(low <= values) & (values <= high)]
+
     def blank(self):
         """Return the axis without name and labels, for a panel that stands above another."""
         return replace(self, name="", labels=[""] * len(self.ticks))
@@ -53,12 +65,6 @@ class Axis:
         if self.decades:
             return [rf"$10^{{{tick}}}$" for tick in self.ticks]
         return [style.number(tick) for tick in self.ticks]
-
-
-def decades(limits, name="", every=1):
-    """Return a logarithmic axis with ticks at the multiples of `every`."""
-    low, high = limits
-    return Axis(limits, range(-(-low // every) * every, high + 1, every), name, True)
 
 
 class Panel:
@@ -96,6 +102,16 @@ class Panel:
             self._text(left, top + 4 * POINT, up.name, "left", "bottom")
         outline = [left, right, right, left, left], [bottom, bottom, top, top, bottom]
         self._frame_line(*outline, solid_capstyle=self.corners, zorder=3)
+
+    def minor(self, across=True):
+        """Draw minor ticks, without labels, at the left and, if `across`, below."""
+        left, bottom, right, top = self.frame
+        line_style, size = {"color": style.FRAME, "lw": 0.5}, 1.5 * POINT
+        if across:
+            for x in left + self.across.between(self.across.minor_ticks()) * (right - left):
+                self.sheet.draw([x, x], [bottom, bottom - size], **line_style)
+        for y in bottom + self.up.between(self.up.minor_ticks()) * (top - bottom):
+            self.sheet.draw([left, left - size], [y, y], **line_style)
 
     def place(self, x, y):
         """Return the pixels of points as arrays."""
@@ -226,7 +242,7 @@ def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SI
         else:
             dashes = "--" if hollow else "-"
             sheet.draw([x - 8, x + 20], [y, y], lw=points or 0.9, color=color, ls=dashes)
-        sheet.text(x + 7 * POINT, y, text, ha="left", va="center", size=size)
+        sheet.text(x + 7 * POINT, y, text, size=size)
 
 
 def _mark(sheet, across, up, color, size, hollow, marker):

@@ -8,8 +8,9 @@ from ...dynamics.variables import chart, states_of
 from ...kernel.arithmetic import sincos_each
 from ..canvas import style
 from ..canvas.ragged_rows import rows
-from .panel import Panel
-from .raster import linear
+from ..canvas.sheet import Sheet
+from .limits import linear
+from .panel import Panel, corner
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
 SEA = "#d4d4d4"  # of dots beside proved or computed curves
@@ -38,14 +39,24 @@ class Section(Panel):
             hue, size = (SEA, 0.7) if index in sea else (style.BACKDROP, 0.9)
             self.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
-    def rim(self, **line_style):
+    def rim(self, zorder=4.5):
         """Draw the rim."""
         sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
         x = self.centre + self.radius * cosine
-        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, **line_style)
+        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
 
 
 def at_top(sheet, ball, radius):
     """Return a large panel of the section at the top of a sheet."""
     top = sheet.high - 75
     return Section(sheet, (LEFT, top - SIDE, LEFT + SIDE, top), ball, radius)
+
+
+def over_orbits(scene, data, orbits, sea, high=1125):
+    """Return a large panel of the section with its rim and orbits at the top of a new sheet."""
+    sheet = Sheet(style.COLUMN, high)
+    panel = at_top(sheet, data.attrs, float(data["radius"].values.flat[0]))
+    panel.orbits(orbits, sea)
+    panel.rim()
+    corner(sheet, panel.frame, style.setting(scene))
+    return panel

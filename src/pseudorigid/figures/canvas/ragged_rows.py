@@ -13,11 +13,14 @@ def rows(dataset):
     return [slice(start, end) for start, end in pairwise(ends)]
 
 
+def runs(gap):
+    """Return a slice for each run of places where `gap` is false."""
+    return np.ma.clump_unmasked(np.ma.array(gap, mask=gap)) if gap.size else []
+
+
 def pieces(*coordinates):
     """Yield the runs of a line without NaN, long ones in pieces that share a vertex, as tuples."""
-    gap = np.isnan(coordinates).any(axis=0)
-    ends = np.flatnonzero(np.diff(np.concatenate(([True], gap, [True])).astype(np.int8)))
-    for start, stop in ends.reshape(-1, 2).tolist():
-        for first in range(start, max(stop - 1, start + 1), _LONGEST):
-            span = slice(first, min(first + _LONGEST + 1, stop))
+    for run in runs(np.isnan(coordinates).any(axis=0)):
+        for first in range(run.start, max(run.stop - 1, run.start + 1), _LONGEST):
+            span = slice(first, min(first + _LONGEST + 1, run.stop))
             yield tuple(coordinate[span] for coordinate in coordinates)

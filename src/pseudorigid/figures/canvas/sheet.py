@@ -46,7 +46,7 @@ class Sheet:
             artist.set_clip_box(TransformedBbox(Bbox([[left, bottom], [right, top]]), inches))
         self.figure.add_artist(artist)
 
-    def text(self, across, up, text, *, ha, va, size):
+    def text(self, across, up, text, *, size, ha="left", va="center"):
         """Write horizontal text; `ha` and `va` say which side of it the coordinates are."""
         across, up = (float(snap_to_pixels(value)) / style.DPI for value in (across, up))
         inches = self.figure.dpi_scale_trans

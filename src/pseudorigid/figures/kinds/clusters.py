@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..axes.limits import linear, ticks
 from ..axes.panel import Axis, Panel, corner, key
-from ..axes.raster import linear, ticks
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 

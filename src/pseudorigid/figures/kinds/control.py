@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ..axes.limits import decades, linear
 from ..axes.panel import Axis, Window, key, log10, title
-from ..axes.raster import linear, minor
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
@@ -37,7 +37,7 @@ def draw(scene, control):
     entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
     key(sheet, entries, 105, 3, _LEFT - 30, 900, 7.0)
     text = "in rates filled: the fixed point, open: the longer orbit; bars: 95 %"
-    sheet.text(_LEFT - 30, 25, text, ha="left", va="center", size=7.0)
+    sheet.text(_LEFT - 30, 25, text, size=7.0)
     return sheet.figure
 
 
@@ -69,8 +69,7 @@ def _charts(sheet, control):
     room = max(0.08 * (high - low), 0.15)
     if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
         low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
-    ticks = range(int(np.ceil(low - 1e-9)), int(np.floor(high + 1e-9)) + 1)
-    across = Axis((low - room, high + room), tuple(ticks), r"Strength $\epsilon$", True)
+    across = decades((low - room, high + room), r"Strength $\epsilon$")
     blank = across.blank()
     left, right = ((at, at + _HALF) for at in (_LEFT, _RIGHT - _HALF))
     frames = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in (left, right)]
@@ -79,9 +78,9 @@ def _charts(sheet, control):
         [last[f"class_{name}"].sel({"class": kind}).values for name in ("share", "low", "high")]
         for kind in ("regular", "spiral")
     )
-    exponent, attraction = (
+    exponent, attraction, rate = (
         [control[f"{name}{end}"].values for end in ("", "_low", "_high")]
-        for name in ("exponent", "attraction")
+        for name in ("exponent", "attraction", "rate")
     )
     attraction = [-values for values in attraction]
     for frame, axis, up, text, estimate in (
@@ -90,15 +89,26 @@ def _charts(sheet, control):
         (frames[2], blank, _axis_to(exponent[2]), "Exponent of chaotic orbits", exponent),
         (frames[3], across, _axis_to(attraction[1]), "Contraction of area on spirals", attraction),
     ):
-        _against(_chart(sheet, frame, axis, up, text), strength, *estimate)
-    _rates(sheet, frames[4], across, control)
+        panel = _chart(sheet, frame, axis, up, text)
+        unchanged = estimate[0][0, 0]
+        if np.isfinite(unchanged):
+            limits = [10.0 ** axis.limits[0], 10.0 ** axis.limits[1]]
+            panel.line(limits, [unchanged] * 2, color=style.BACKDROP, lw=1.2, ls="--")
+        _maps(panel, strength, [part[:, 1:] for part in estimate])
+    rate = [part[:, 1:] / strength[:, None] for part in rate]
+    finite = np.abs(rate[0][np.isfinite(rate[0])])
+    most = 1.15 * float(finite.max()) if finite.size else 1.0
+    up = linear(-most, most, 5)
+    panel = _chart(sheet, frames[4], across, up, r"Rate of the spiral, / $\epsilon$")
+    panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
+    _maps(panel, strength, rate, joined=False)
     _lengths(sheet, frames[5], control)
 
 
 def _chart(sheet, frame, across, up, text, minor_across=True):
     """Return a chart with its title above it."""
     panel = Window(sheet, frame, across, up)
-    minor(panel, minor_across)
+    panel.minor(minor_across)
     title(sheet, frame, text)
     return panel
 
@@ -114,39 +124,21 @@ def _share_axis(values):
     return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
 
 
-def _against(panel, strength, value, low, high):
-    """Draw values (map, strength) with intervals, beside that of the impact map (dashed)."""
-    if np.isfinite(value[0, 0]):
-        limits = [10.0 ** panel.across.limits[0], 10.0 ** panel.across.limits[1]]
-        panel.line(limits, [value[0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
+def _maps(panel, at, estimate, apart=1.06, joined=True):
+    """Draw the changed maps' values with intervals, (map, abscissa[, orbit]), side by side.
+
+    The second orbit's marks are open.
+    """
+    estimate = [np.atleast_3d(part) for part in estimate]
     for i, (_, hue, mark) in enumerate(_MAPS.values()):
-        at = strength * 1.06 ** (i - 2.0)
-        panel.line(at, value[i, 1:], color=style.pale(hue), lw=0.8)
-        _marks(panel, at, value[i, 1:], low[i, 1:], high[i, 1:], hue, mark)
-
-
-def _marks(panel, at, value, low, high, hue, mark, hollow=False):
-    """Draw marks at the values that there are, with their intervals."""
-    panel.bars(at, low, high, color=hue, lw=0.7)
-    shown = np.isfinite(value)
-    panel.dots(at[shown], value[shown], hue, 3.0, hollow, mark)
-
-
-def _rates(sheet, frame, across, control):
-    """Draw the rates at the fixed point and at the other orbit, divided by the strength."""
-    strength = control["strength"].values[1:]
-    value, low, high = (
-        control[f"rate{end}"].values[:, 1:] / strength[:, None] for end in ("", "_low", "_high")
-    )
-    finite = np.abs(value[np.isfinite(value)])
-    most = 1.15 * float(finite.max()) if finite.size else 1.0
-    up = linear(-most, most, 5)
-    panel = _chart(sheet, frame, across, up, r"Rate of the spiral, / $\epsilon$")
-    panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
-    for i, (_, hue, mark) in enumerate(_MAPS.values()):
-        at = strength * 1.06 ** (i - 2.0)
-        for j in (0, 1):  # the fixed point and the other orbit
-            _marks(panel, at, value[i, :, j], low[i, :, j], high[i, :, j], hue, mark, j == 1)
+        beside = at * apart ** (i - 2.0)
+        for orbit in range(estimate[0].shape[2]):
+            value, low, high = (part[i, :, orbit] for part in estimate)
+            if joined:
+                panel.line(beside, value, color=style.pale(hue), lw=0.8)
+            panel.bars(beside, low, high, color=hue, lw=0.7)
+            shown = np.isfinite(value)
+            panel.dots(beside[shown], value[shown], hue, 3.0, orbit == 1, mark)
 
 
 def _lengths(sheet, frame, control):
@@ -160,10 +152,7 @@ def _lengths(sheet, frame, control):
     across = Axis(limits, logs.tolist(), "Number of impacts", True, texts)
     at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
     kind = control.sel({"class": "regular"})
-    value, low, high = (kind[f"class_{n}"].values[:, at] for n in ("share", "low", "high"))
+    estimate = [kind[f"class_{name}"].values[:, at] for name in ("share", "low", "high")]
     text = rf"Regular share, $\epsilon$ = {style.number(control.attrs['shown'])}"
-    panel = _chart(sheet, frame, across, _share_axis(high), text, minor_across=False)
-    for i, (_, hue, mark) in enumerate(_MAPS.values()):
-        beside = lengths * 1.025 ** (i - 2.0)
-        panel.line(beside, value[i], color=style.pale(hue), lw=0.8)
-        _marks(panel, beside, value[i], low[i], high[i], hue, mark)
+    up = _share_axis(estimate[2])
+    _maps(_chart(sheet, frame, across, up, text, minor_across=False), lengths, estimate, 1.025)

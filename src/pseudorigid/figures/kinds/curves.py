@@ -3,9 +3,9 @@
 import numpy as np
 
 from ..axes import section
-from ..axes.panel import corner, key
+from ..axes.panel import key
 from ..canvas import style
-from ..canvas.sheet import Sheet
+from ..canvas.ragged_rows import runs
 
 _HATCH = 400  # lines of the shading across the section
 _SHADE = "#f0c3a6"
@@ -14,16 +14,14 @@ _SHADE = "#f0c3a6"
 @style.pinned()
 def draw(scene, curves, orbits):
     """Draw orbits on the section, the proved curves, and the area inside them, shaded."""
-    sheet = Sheet(style.COLUMN, 1125)
-    panel = section.at_top(sheet, curves.attrs, float(curves["radius"]))
-    polygons = _polygons(curves)
+    panel = section.over_orbits(scene, curves, orbits, scene["sea"])
+    x, y = curves["x"].values, curves["y"].values
+    polygons = [(x[run], y[run]) for run in runs(np.isnan(x))]
     height = panel.high * panel.radius
     for y in np.linspace(-height, height, _HATCH):
         for polygon in polygons:
             for ends in _inside(polygon, y):
                 panel.line(ends, [y, y], color=_SHADE, lw=0.8)
-    panel.orbits(orbits, scene["sea"])
-    panel.rim(zorder=4.5)
     for polygon in polygons:
         panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
     entries = [
@@ -32,17 +30,8 @@ def draw(scene, curves, orbits):
         ("regular orbits", style.BACKDROP, "o"),
         ("chaotic orbit", section.SEA, "o"),
     ]
-    key(sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
-    corner(sheet, panel.frame, style.setting(scene))
-    return sheet.figure
-
-
-def _polygons(curves):
-    """Return the closed polygons as pairs of arrays x, y."""
-    x, y = curves["x"].values, curves["y"].values
-    ends = np.flatnonzero(np.isnan(x))
-    starts = [0, *(ends[:-1] + 1)]
-    return [(x[a:b], y[a:b]) for a, b in zip(starts, ends, strict=True)]
+    key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    return panel.sheet.figure
 
 
 def _inside(polygon, level):

@@ -4,17 +4,17 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..axes import raster
+from ..axes.limits import around, linear
 from ..axes.panel import Window, key, title, upright
 from ..canvas import style
 from ..canvas.ragged_rows import rows
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 125, 1000  # pixels
-_NAME = 50  # pixels: room for the name of a resonance
 # Colours by period; a longer period has that of the period less a multiple of their number.
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
+_NAME = 50  # pixels: room for the name of a resonance
 _RESIDUES = -0.6, 1.6
 
 
@@ -28,20 +28,20 @@ def draw(scene, families, shares):
     sheet = Sheet(style.COLUMN, 2400)
     low, high = scene["span"]
     name = "Energy $E$" if scene["parameter"] == "energy" else "Euler inertia $k$"
-    across = raster.linear(low, high, 7, name)
+    across = linear(low, high, 7, name)
     above = Window(sheet, (_LEFT, 1945, _RIGHT, 2250), across.blank(), _share_axis(shares))
     x = families["x"].values
-    up = raster.linear(*raster.wider(x.min(), x.max(), 0.04, 0.04), 8)
+    up = around(x, 0.04, 8)
     middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
-    below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, raster.linear(*_RESIDUES, 5))
+    below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
     for panel, text, rise in (
         (above, "Regular share of the section", 14),
         (middle, "Position $x$ of the orbit's point on a symmetry line", 4),
         (below, "Residue $(2-$trace$)/4$", 4),
     ):
-        raster.minor(panel)
+        panel.minor()
         title(sheet, panel.frame, text, rise)
-    _resonances(sheet, (above, middle, below), scene, families)
+    _resonances((above, middle, below), scene, families)
     values = (shares[name].values for name in (scene["parameter"], "regular"))
     ends = (shares[f"regular_{end}"].values for end in ("low", "high"))
     above.estimates(*values, *ends, style.BLUE)
@@ -64,7 +64,7 @@ def draw(scene, families, shares):
 def _share_axis(shares):
     """Return an axis to above the largest share in the upper two thirds of the span."""
     values = shares["regular_high"].values
-    return raster.linear(0.0, min(1.0, 1.1 * float(values[values.size // 3 :].max())), 4)
+    return linear(0.0, min(1.0, 1.1 * float(values[values.size // 3 :].max())), 4)
 
 
 def _family(panel, scene, families, index, values):
@@ -116,7 +116,7 @@ def _rim(panel, scene):
         panel.line(value, g / k + sign * radius, color=style.BACKDROP, lw=1.0)
 
 
-def _resonances(sheet, panels, scene, families):
+def _resonances(panels, scene, families):
     """Draw an upright line at each resonance of the fixed point up to order 8, with its name."""
     order = families["event_order"].values
     chosen = (families["event_family"].values == 0) & (order > 2) & (order <= 8)
@@ -127,7 +127,7 @@ def _resonances(sheet, panels, scene, families):
         x = upright(panels, value, color=style.BACKDROP, lw=0.5)
         if x - reach >= _NAME:
             up = panels[0].frame[3] + 3 * POINT
-            sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
+            panels[0].sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
             reach = x
 
 
@@ -147,5 +147,5 @@ def _keys(sheet, families, shown):
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
     periods = sorted({int(families["period"].values[i]) for i in shown})
     entries = [(f"{n}", _hue(n), "", False, 1.7) for n in periods]
-    sheet.text(_LEFT - 30, 65, "period", ha="left", va="center", size=7.0)
+    sheet.text(_LEFT - 30, 65, "period", size=7.0)
     key(sheet, entries, 65, 10, _LEFT + 80, 820, 7.0)

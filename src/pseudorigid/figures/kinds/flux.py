@@ -5,8 +5,8 @@ import numpy as np
 from ...analyses.flux import SIDES
 from ...dynamics.ball import Ball
 from ..axes import section
+from ..axes.limits import around, linear
 from ..axes.panel import Panel, corner, key, title, vacant
-from ..axes.raster import linear, wider
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet, width
 
@@ -47,7 +47,7 @@ def _regions(sheet, flux):
     k, g, energy = (float(flux.attrs[name]) for name in ("k", "g", "energy"))
     radius = Ball(k, g).section(energy)[1]
     panel = section.at_top(sheet, flux.attrs, radius)
-    panel.rim()
+    panel.rim(zorder=2)
     for side, hue in _SIDES:
         if np.isnan(flux["area"].values[side]):
             continue
@@ -79,10 +79,8 @@ def _lobe(sheet, frame, side, x, y):
         _difference(sheet, frame, x, y)
         return "Inner: unstable less stable"
     else:
-        high = np.abs(y).max()
-        across = linear(*wider(x.min(), x.max(), 0.06, 0.06), 3, "$x$")
-        up = linear(*wider(-high, high, 0.06, 0.06), 5, "$y$")
-        panel = Panel(sheet, frame, across, up)
+        up = around([y, -y], 0.06, 5, "$y$")
+        panel = Panel(sheet, frame, around(x, 0.06, 3, "$x$"), up)
         panel.line(x, -y, color=style.STABLE, lw=1.0)
         panel.line(x, y, color=style.UNSTABLE, lw=1.0)
     return f"{SIDES[side].title()} branches at the crossing"

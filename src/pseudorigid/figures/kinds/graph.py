@@ -3,9 +3,8 @@
 import numpy as np
 
 from ..axes import section
-from ..axes.panel import corner, key
+from ..axes.panel import key
 from ..canvas import style
-from ..canvas.sheet import Sheet
 
 _LINK = "#8fb8d8"
 
@@ -13,10 +12,7 @@ _LINK = "#8fb8d8"
 @style.pinned()
 def draw(scene, graph, orbits):
     """Draw an orbit of the sea, the sets, and a line for each connection between two of them."""
-    sheet = Sheet(style.COLUMN, 1125)
-    panel = section.at_top(sheet, graph.attrs, float(graph["radius"]))
-    panel.orbits(orbits, range(orbits.sizes["orbit"]))
-    panel.rim(zorder=4.5)
+    panel = section.over_orbits(scene, graph, orbits, range(orbits.sizes["orbit"]))
     corners = np.stack([graph["corner_x"].values, graph["corner_y"].values], axis=1)
     centres = corners.mean(axis=2)
     for link in zip(graph["source"].values, graph["target"].values, strict=True):
@@ -31,6 +27,5 @@ def draw(scene, graph, orbits):
         ("sets on the way", style.BLUE),
         ("chaotic orbit", section.SEA, "o"),
     ]
-    key(sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
-    corner(sheet, panel.frame, style.setting(scene))
-    return sheet.figure
+    key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    return panel.sheet.figure

@@ -3,9 +3,8 @@
 import numpy as np
 
 from ..axes import section
-from ..axes.panel import corner, key, title, vacant
+from ..axes.panel import key, title, vacant
 from ..canvas import style
-from ..canvas.sheet import Sheet
 
 _SMALL = 270  # pixels: side of the small panels
 MAP, INVERSE = style.VERMILION, style.BLUE
@@ -14,10 +13,7 @@ MAP, INVERSE = style.VERMILION, style.BLUE
 @style.pinned()
 def draw(scene, jumps, orbits):
     """Draw the section with the jumps of the map and its inverse, and further energies below."""
-    sheet = Sheet(style.COLUMN, 1500)
-    panel = section.at_top(sheet, jumps.attrs, float(jumps["radius"].values[0]))
-    panel.orbits(orbits, scene["sea"])
-    panel.rim(zorder=4.5)
+    panel = section.over_orbits(scene, jumps, orbits, scene["sea"], high=1500)
     dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
     panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
     for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
@@ -31,10 +27,9 @@ def draw(scene, jumps, orbits):
         ("symmetry lines", style.PURPLE, "", True),
         ("chaotic orbit", section.SEA, "o"),
     ]
-    key(sheet, entries, panel.frame[1] - 128, 3, section.LEFT - 50, section.SIDE + 60)
-    corner(sheet, panel.frame, style.setting(scene))
-    _births(sheet, jumps)
-    return sheet.figure
+    key(panel.sheet, entries, panel.frame[1] - 128, 3, section.LEFT - 50, section.SIDE + 60)
+    _births(panel.sheet, jumps)
+    return panel.sheet.figure
 
 
 def _curves(panel, jumps, row):
@@ -57,6 +52,6 @@ def _births(sheet, jumps):
         frame = (left, 60, left + _SMALL, 60 + _SMALL)
         radius = float(jumps["radius"].values[row])
         panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 0, ("", ""))
-        panel.rim(zorder=4.5)
+        panel.rim()
         _curves(panel, jumps, row)
         title(sheet, frame, f"$E$ = {style.number(float(energies[row]))}")

@@ -2,15 +2,14 @@
 
 import numpy as np
 
-from ..axes.panel import Axis, Panel, corner, key, log10
-from ..axes.raster import linear, wider
+from ..axes.limits import around, decades
+from ..axes.panel import Panel, corner, key, log10
 from ..axes.section import NAME
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT = 150, 1005  # pixels
 _CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
-_MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
 @style.pinned()
@@ -39,10 +38,9 @@ def _residues(sheet, frame, last_curve):
     periods, residues = last_curve["period"].values, last_curve["residue"].values
     size = np.abs(residues)
     ends = log10([periods.min(), periods.max()]) + np.array([-0.1, 0.1])
-    across = Axis(tuple(ends.tolist()), _whole_numbers(*ends), "Period", True)
-    limits = tuple(np.floor(log10([size.min(), 10.0 * size.max()])).tolist())
-    up = Axis(limits, _whole_numbers(*limits), "Residue, its modulus", True)
-    panel = Panel(sheet, frame, across, up)
+    limits = np.floor(log10([size.min(), 10.0 * size.max()])).tolist()
+    up = decades(limits, "Residue, its modulus")
+    panel = Panel(sheet, frame, decades(ends.tolist(), "Period"), up)
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
     for i in range(len(periods)):
         hue = style.MANY_HUES[i]
@@ -54,18 +52,8 @@ def _residues(sheet, frame, last_curve):
     corner(sheet, frame, "hollow: negative")
 
 
-def _whole_numbers(low, high):
-    """Return ticks at every n-th whole number from low to high."""
-    every = 1 + int(high - low) // _MOST
-    return tuple(range(int(np.ceil(low / every)) * every, int(np.floor(high)) + 1, every))
-
-
 def _orbits(sheet, frame, last_curve):
     x, y = last_curve["x"].values, last_curve["y"].values
-    across, up = (
-        linear(*wider(values.min(), values.max(), 0.04, 0.04), 6, name)
-        for values, name in ((x, "$x$"), (y, NAME))
-    )
-    panel = Panel(sheet, frame, across, up, grid=False)
+    panel = Panel(sheet, frame, around(x, 0.04, 6, "$x$"), around(y, 0.04, 6, NAME), grid=False)
     for i in reversed(range(x.shape[0])):
         panel.dots(x[i], y[i], style.MANY_HUES[i], size=0.9)

@@ -4,8 +4,8 @@ import numpy as np
 
 from ...analyses.regularity import regular
 from ...analyses.rotation import island, plateaus
+from ..axes.limits import around, linear, ticks
 from ..axes.panel import Axis, Panel, corner, key, vacant
-from ..axes.raster import linear, ticks, wider
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
@@ -38,10 +38,10 @@ def _first_energy(sheet, scene, rotation):
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     across = linear(at - 0.03, 1.0, 10, _STARTS)
     regular_turns = turns[good] if good.any() else turns
-    limits = wider(*_span(np.append(regular_turns, fixed)), 0.1, 0.1)
     above = _LEFT, 1565, _RIGHT, 1875
-    panel = Panel(sheet, above, across.blank(), linear(*limits, 5, "Rotation number"))
-    shown = ~good & (turns > limits[0]) & (turns < limits[1])
+    up = around(np.append(regular_turns, fixed), 0.1, 5, "Rotation number")
+    panel = Panel(sheet, above, across.blank(), up)
+    shown = ~good & (turns > up.limits[0]) & (turns < up.limits[1])
     panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
     panel.dots(start[good], turns[good], style.BLUE, size=1.6)
     panel.dots([at], [fixed], style.VERMILION, size=3.4)
@@ -53,12 +53,6 @@ def _first_energy(sheet, scene, rotation):
     panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 
 
-def _span(values):
-    """Return least and largest of values that may have NaN, moved apart if they are equal."""
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    return (low, high) if high > low else (low - 0.01, high + 0.01)
-
-
 def _detail(sheet, frame, rotation):
     """Draw the rotation numbers of regular starts at higher resolution, with their plateaus."""
     start, turns, growth = (
@@ -66,8 +60,9 @@ def _detail(sheet, frame, rotation):
     )
     good = regular(growth, rotation.attrs["detail_impacts"])
     across = linear(start[0], start[-1], 5, _STARTS)
-    limits = wider(*_span(turns[good] if good.any() else turns), 0.05, 0.2)
-    panel = Panel(sheet, frame, across, linear(*limits, 4, "Rotation number, detail"))
+    shown = turns[good] if good.any() else turns
+    up = around(shown, 0.05, 4, "Rotation number, detail", above=0.2)
+    panel = Panel(sheet, frame, across, up)
     if not good.any():
         vacant(sheet, frame, "all these starts are chaotic")
     panel.dots(start[good], turns[good], style.BLUE, size=1.6)

@@ -5,8 +5,8 @@ import numpy as np
 from ...analyses.spread import stretches
 from ...dynamics.paper import BALL, EXPONENT, FIGURES
 from ...dynamics.variables import final_exponents
-from ..axes.limits import of_data
-from ..axes.panel import Axis, Panel, corner, decades, log10
+from ..axes.limits import decades, of_data
+from ..axes.panel import Axis, Panel, corner, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
@@ -32,7 +32,7 @@ def _lengths(sheet, frame, spread, paper):
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
     low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
-    across = Axis((low - 0.1, high + 0.1), tuple(range(low, high + 1)), "Length in impacts", True)
+    across = decades((low - 0.1, high + 0.1), "Length in impacts")
     shortest = stretches(spread, first)
     axis, least = of_data(shortest), float(shortest.min())
     if paper and least >= 0.0 and float(shortest.max()) < 0.27:
@@ -90,13 +90,12 @@ def _regular(sheet, frame, spread):
     """Draw the exponents of regular orbits against their length."""
     keep = spread["length"].values >= 16
     n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
-    high = len(str(int(n[-1])))
-    across = Axis((1.0, high), tuple(range(1, high + 1)), "Length in impacts", True)
+    across = decades((1, len(str(int(n[-1])))), "Length in impacts")
     largest = values.max(axis=-1)
     lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
     lowest = min(-5, int(np.floor(lowest)))
     highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))
-    up = decades((lowest, highest), "Largest exponent in the islands", 1 + (highest - lowest) // 8)
+    up = decades((lowest, highest), "Largest exponent in the islands")
     panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
         positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)

@@ -6,7 +6,7 @@ from ...dynamics.variables import of_type, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box, refuse_empty
 from ..canvas import style
-from ..canvas.ragged_rows import rows
+from ..canvas.ragged_rows import rows, runs
 from ..canvas.sheet import POINT
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
@@ -74,11 +74,8 @@ def _tips(line, all_lines):
     """Return the vertices of a line's sharp folds, in pixels (2, n), that no line continues."""
     reach, tips = _REACH * POINT, []
     all_lines = all_lines[:, ~np.isnan(all_lines[0])]
-    for run in np.split(np.arange(line.shape[1]), np.flatnonzero(np.isnan(line[0]))):
-        vertices = run[~np.isnan(line[0, run])]
-        if vertices.size == 0:
-            continue
-        piece = line[:, vertices]
+    for run in runs(np.isnan(line[0])):
+        piece = line[:, run]
         steps = np.sqrt((np.diff(piece) ** 2).sum(axis=0))
         along = np.concatenate([[0.0], np.cumsum(steps)])
         before, after = (
@@ -93,5 +90,5 @@ def _tips(line, all_lines):
             tip = start + int(np.argmin(apart[start:stop]))
             distance_squared = ((all_lines - beyond[:, [tip]]) ** 2).sum(axis=0)
             if not (distance_squared < _SHARP * reach * reach).any():
-                tips.append(int(vertices[tip]))
+                tips.append(run.start + tip)
     return tips
