@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from legible import assert_text_is_whole_and_apart
 
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures import atlas
@@ -103,6 +104,7 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
     given = {"regular": share, "regular_low": share - 0.05, "regular_high": share + 0.08}
     given |= {"exponent": value, "exponent_low": value - 0.04, "exponent_high": value + 0.05}
     figure = atlas.line(LINE, dataset(LINE, **given, exponent_error=0.01))
+    assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
     energy = np.array(LINE["energy"]) * 0.04**2
     across = 110 + 900 * energy / (1.02 * energy[-1])
 
@@ -152,10 +154,3 @@ def test_minor_ticks_and_edges_lie_between():
     assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
     assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
     assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]
-
-
-def test_names_that_would_touch_are_moved_apart():
-    assert atlas._apart([100.0, 300.0]) == [100.0, 300.0]
-    left, right = atlas._apart([100.0, 110.0])
-    assert right - left == atlas._NAME
-    assert left + right == 210.0

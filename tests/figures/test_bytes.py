@@ -81,8 +81,3 @@ def test_a_drawing_imports_only_what_it_uses():
     )
     result = run(sys.executable, "-c", code, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
     assert result.stdout == "[]\n", result.stderr
-
-
-def test_other_formats_are_refused():
-    with pytest.raises(ValueError, match="png, svg, pdf"):
-        render(draw("motion"), "jpg")

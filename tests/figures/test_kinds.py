@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from samples import (
     ATTRS,
-    DATA,
     FLAT,
     SCENES,
     SPACE,
@@ -24,19 +23,6 @@ from pseudorigid.figures.axes import box, projection
 from pseudorigid.figures.canvas import sheet, style
 from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels
-
-
-@pytest.mark.parametrize(
-    ("kind", "change", "message"),
-    [
-        ("portrait", {"sea": [7]}, r"sea \[7\]"),
-        ("tangle", {"type": "inverse hyperbolic"}, "no inverse hyperbolic orbit"),
-        ("portrait", {"view": {"elevation": 90, "azimuth": 0}}, "elevation 90"),
-    ],
-)
-def test_what_the_data_do_not_have_is_refused(kind, change, message):
-    with pytest.raises(ValueError, match=message):
-        module(kind).draw(SCENES[kind] | change, *DATA[kind]())
 
 
 def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():

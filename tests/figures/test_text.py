@@ -5,7 +5,6 @@ from legible import assert_text_is_whole_and_apart
 from samples import DATA, FLAT, KINDS, SCENES, SPACE, drawn, exponents, module
 from slowly import slowly
 
-from pseudorigid.figures.axes import limits, plane
 from pseudorigid.figures.canvas import style
 
 
@@ -37,12 +36,6 @@ def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
     assert_text_is_whole_and_apart(module(kind).draw(scene, *data))
 
 
-def test_an_axis_that_a_scene_gives_is_kept():
-    own = {"limits": [0, 8], "ticks": [0, 8]}
-    scene = limits.complete({"axes": {"t": own}}, t=lambda: 1 / 0, x=lambda: "made")
-    assert scene == {"axes": {"t": own, "x": "made"}}
-
-
 def test_names_of_exponents_that_coincide_are_moved_apart():
     data = exponents()
     data["exponent"] *= 0.0
@@ -58,16 +51,3 @@ def test_names_of_exponents_that_coincide_are_moved_apart():
 def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
     scene = SCENES["portrait"] | {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}}
     assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
-
-
-@pytest.mark.parametrize(
-    "value, power, text",
-    [(0, 0, "0"), (-0.2, 0, "\N{MINUS SIGN}0.2"), (0.2116, 0, "0.2116"), (160000, 5, "1.6")],
-)
-def test_labels_of_ticks(value, power, text):
-    assert style.number(value, power) == text
-
-
-def test_large_ticks_share_a_power_of_ten():
-    assert plane.thousands([0, 200000]) == 5
-    assert plane.thousands([0, 16]) == 0

@@ -38,11 +38,6 @@ def test_the_kinds_with_a_measure_are_studied():
     assert set(parts.STUDIED) == set(figure_errors.MEASURES)
 
 
-def test_an_unknown_measure_is_an_error():
-    with pytest.raises(ValueError, match=r"^one: no measure 'spirals' .*portrait"):
-        figure_errors.figure_errors({"one": PORTRAIT}, {"one": "spirals"}, {})
-
-
 def test_a_scene_without_axes_is_left_out():
     bare = {key: value for key, value in PORTRAIT.items() if key != "axes"}
     block = parts.block("needs", {"one": PORTRAIT, "two": bare})

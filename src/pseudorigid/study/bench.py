@@ -1,11 +1,14 @@
 """Ratios of speed: medians of interleaved repetitions, in one run on one core.
 
 `run` returns lines of text for `./reproduce benchmark`; no figure depends on them. Seconds are
-those of the processor, so that other work on the machine shows less.
+those of the processor, so that other work on the machine shows less. Calls take turns, so that what
+slows the machine down slows all of them.
 """
 
 import math
 import os
+import statistics
+import time
 from collections.abc import Callable
 from functools import partial
 
@@ -24,10 +27,10 @@ from ..kernel.compiled import jit
 from ..sweep.cell import cells, sunflower_points
 from ..sweep.verdict import windows
 from . import states
+from .failures import certified_orbit
 from .machine import machine
 from .methods import pynamicalsys_lyapunov, scipy_events, taylor
 from .methods.counted_methods import scan_method
-from .timing import interleaved
 from .verdicts import random_cells
 
 REPETITIONS = 9
@@ -78,7 +81,7 @@ def run(repetitions: int = REPETITIONS) -> list[str]:
     """Return the table's lines: label, seconds, ratio and aim; then machine and versions."""
     ball = states.BALL
     chaotic = states.chaotic()
-    states_20, states_500 = _along(chaotic, 20), _along(chaotic, 500)
+    states_20, states_500 = (certified_orbit(ball, chaotic, count)[0] for count in (20, 500))
     ensemble = ball.start(0.52 + 0.1 * (np.arange(LANES) / LANES), states.ENERGY)
     nothing = np.empty((LANES, 0, 4))
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
@@ -98,8 +101,7 @@ def run(repetitions: int = REPETITIONS) -> list[str]:
         "vectors": (partial(_with_tangent, ensemble, 192), 192 * LANES),
         "spectra": (partial(lyapunov_spectrum, ball, ensemble, 192, records=1), 192 * LANES),
     } | _cells_branches_and_searches()
-    seconds = interleaved({name: call for name, (call, _) in calls.items()}, repetitions)
-    each = {name: tuple(s / calls[name][1] for s in seconds[name]) for name in calls}
+    each = _interleaved(calls, repetitions)
     each["one sincos"] = tuple(s / 3.0 for s in each["three sincos"])
     lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
     for text, name, base, aim in ROWS:
@@ -110,6 +112,19 @@ def run(repetitions: int = REPETITIONS) -> list[str]:
     lines.append(f"a million cells: {1e6 * each['cells'][0] / 3600:.1f} core hours")
     lines.append(", ".join(f"{key} {value}" for key, value in machine().items()))
     return lines
+
+
+def _interleaved(calls: dict, repetitions: int) -> dict[str, tuple[float, float, float]]:
+    """Return median, lowest and highest seconds a unit of each call, after one that compiles it."""
+    for call, _ in calls.values():
+        call()
+    seconds = {name: [] for name in calls}
+    for _ in range(repetitions):
+        for name, (call, units) in calls.items():
+            begin = time.process_time()
+            call()
+            seconds[name].append((time.process_time() - begin) / units)
+    return {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
 
 
 def _cells_branches_and_searches() -> dict[str, tuple[Callable, int]]:
@@ -166,11 +181,6 @@ def _with_tangent(start, impacts: int) -> None:
     orbits = begin(ball.k, [a / ball.g for a in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, lanes))
     propagate_with_tangent(orbits, ball.k, 0, impacts, windows, windows, sums, sums)
-
-
-def _along(state, count: int) -> tuple[np.ndarray, ...]:
-    """Return the first `count` states of an orbit, as columns."""
-    return tuple(a.copy() for a in states.BALL.history(state, count)[0].T[:3])
 
 
 if __name__ == "__main__":

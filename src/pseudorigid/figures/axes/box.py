@@ -26,8 +26,6 @@ class Box:
     """
 
     def __init__(self, scene, entries=()):
-        if not 0 < scene["view"]["elevation"] < 90:  # the panes suit a view from above
-            raise ValueError(f"elevation {scene['view']['elevation']} is not between 0 and 90")
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
         self.seen_from = scene["view"]

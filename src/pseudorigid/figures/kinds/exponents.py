@@ -4,7 +4,7 @@ import numpy as np
 
 from ...dynamics.variables import final_exponents
 from ..axes.limits import complete, of_data, refuse_empty
-from ..axes.panel import Axis, Panel
+from ..axes.panel import Axis, Window
 from ..axes.plane import Plane
 from ..canvas import style
 from ..canvas.sheet import POINT
@@ -42,13 +42,12 @@ def draw(scene, lyapunov):
         for index in range(indices):
             picture.line(impact[known], exponent[known, orbit, index], color=hue, lw=0.8)
         if inset:
-            inset.line(impact[known], greatest[known, orbit], color=hue, lw=0.8, clip=inset.frame)
+            inset.line(impact[known], greatest[known, orbit], color=hue, lw=0.8)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
 
 
-class _Inset(Panel):
-    clip_range = (-np.inf, np.inf)
+class _Inset(Window):
     size = 7.0
 
 
