@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from ...dynamics.ball import Ball
 from ...dynamics.variables import chart, states_of
 from ...kernel.arithmetic import sincos_each
 from ..canvas import style
@@ -46,16 +47,18 @@ class Section(Panel):
         self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
 
 
-def at_top(sheet, ball, radius):
-    """Return a large panel of the section at the top of a sheet."""
+def at_top(sheet, attrs):
+    """Return a large panel of the section of a dataset's ball and energy at the top of a sheet."""
+    k, g, energy = (float(attrs[name]) for name in ("k", "g", "energy"))
     top = sheet.high - 75
-    return Section(sheet, (LEFT, top - SIDE, LEFT + SIDE, top), ball, radius)
+    frame = LEFT, top - SIDE, LEFT + SIDE, top
+    return Section(sheet, frame, attrs, Ball(k, g).section(energy)[1])
 
 
 def over_orbits(scene, data, orbits, sea, high=1125):
     """Return a large panel of the section with its rim and orbits at the top of a new sheet."""
     sheet = Sheet(style.COLUMN, high)
-    panel = at_top(sheet, data.attrs, float(data["radius"].values.flat[0]))
+    panel = at_top(sheet, data.attrs)
     panel.orbits(orbits, sea)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ...analyses.flux import SIDES
-from ...dynamics.ball import Ball
 from ..axes import section
 from ..axes.limits import around, linear
 from ..axes.panel import Panel, corner, key, title, vacant
@@ -44,9 +43,7 @@ def _edge_name(flux, side):
 
 def _regions(sheet, flux):
     """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
-    k, g, energy = (float(flux.attrs[name]) for name in ("k", "g", "energy"))
-    radius = Ball(k, g).section(energy)[1]
-    panel = section.at_top(sheet, flux.attrs, radius)
+    panel = section.at_top(sheet, flux.attrs)
     panel.rim(zorder=2)
     for side, hue in _SIDES:
         if np.isnan(flux["area"].values[side]):
@@ -57,8 +54,8 @@ def _regions(sheet, flux):
         text = rf"area ${digits}\times 10^{{{int(power)}}}$"
         crossing = float(flux["crossing_x"].values[side].max())
         panel.dots([crossing], [0.0], hue)
-        left = panel.centre - radius if np.isnan(x[0]) else x.min()
-        ends = [left, panel.centre + radius]
+        left = panel.centre - panel.radius if np.isnan(x[0]) else x.min()
+        ends = [left, panel.centre + panel.radius]
         (end, dot), _ = panel.place([ends[side], crossing], [0.0, 0.0])
         ha, sign = ("left", 1.0) if side else ("right", -1.0)
         if abs(end - dot) > width(text, panel.small) + 8.0 * POINT:

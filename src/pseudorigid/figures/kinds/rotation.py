@@ -4,7 +4,7 @@ import numpy as np
 
 from ...analyses.regularity import regular
 from ...analyses.rotation import island, plateaus
-from ..axes.limits import around, linear, ticks
+from ..axes.limits import around, inside, linear, ticks
 from ..axes.panel import Axis, Panel, corner, key, vacant
 from ..canvas import style
 from ..canvas.sheet import Sheet
@@ -83,27 +83,27 @@ def _energies(sheet, frame, rotation):
         start = rotation["place"].values[row, keep] - float(rotation["fixed_place"].values[row])
         change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), start, change))
-    low, high, up_ticks = _departure_axis([change for _, _, change in curves])
-    within = [(low <= change) & (change <= high) for _, _, change in curves]
-    visible = [start[shown] for (_, start, _), shown in zip(curves, within, strict=True)]
-    far = max((float(start.max()) for start in visible if start.size), default=0.0)
+    up = _departure_axis([change for _, _, change in curves])
+    within = [inside([up.limits], [change]) for _, _, change in curves]
+    far = max(
+        float(start[shown].max(initial=0.0))
+        for (_, start, _), shown in zip(curves, within, strict=True)
+    )
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
-    up = Axis((low, high), up_ticks, "Rotation number, less the fixed point's")
     panel = Panel(sheet, frame, across, up)
     entries = []
-    for number, (energy, start, change) in enumerate(curves):
-        shown = within[number]
-        cut = shown.size if shown.all() else int(np.argmin(shown))
+    for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
         hue, dashed = style.MANY_HUES[number % len(style.MANY_HUES)], number >= len(style.MANY_HUES)
-        panel.line(start[:cut], change[:cut], color=hue, lw=1.0, ls="--" if dashed else "-")
+        last = np.logical_and.accumulate(shown).sum()
+        panel.line(start[:last], change[:last], color=hue, lw=1.0, ls="--" if dashed else "-")
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
     rows = -(-len(entries) // 2)
     key(sheet, entries, frame[1] + 18 + 39 * (rows - 1), 2, _LEFT + 20, 370, 6.5)
 
 
 def _departure_axis(curves):
-    """Return limits (low, high) and ticks for all curves but those far longer than the median."""
+    """Return an axis for all curves but those far longer than the median."""
     sizes = [float(np.abs(curve).max()) for curve in curves if curve.size] or [0.0]
     most = max(sizes) if max(sizes) <= _FAR * np.median(sizes) else float(np.median(sizes))
     step = ticks(0.0, max(most, 1e-9), 2.5)[1]
@@ -111,4 +111,5 @@ def _departure_axis(curves):
     ends = (min(float(end), most) for end in (-values.min(), values.max()))
     low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps, with half a step
     tick_values = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
-    return -(low + 0.5) * step, (high + 0.5) * step, tick_values
+    limits = -(low + 0.5) * step, (high + 0.5) * step
+    return Axis(limits, tick_values, "Rotation number, less the fixed point's")

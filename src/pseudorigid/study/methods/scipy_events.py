@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -12,33 +11,27 @@ from .external_solver import AFTER, ExternalSolver, just_after
 # costs it nothing.
 FIRST_STEP = {"LSODA": 1e-8}
 DEFAULT_FIRST_STEP = 1e-2
-SCAN_BATCH = 64  # steps evaluated at once: more than a flight of 3 time units at a step of 0.1
 
 
 def brentq_method(step: float, tolerance: float) -> ExternalSolver:
-    """Return a vectorised scan that scipy.optimize.brentq refines to a tolerance."""
+    """Return a scan that scipy.optimize.brentq refines to a tolerance."""
 
     def flight(x, b, c, g, latest):
         def gap(t):
             return x + t * (b + 0.5 * g * t) - x * math.cos(t) + c * math.sin(t)
 
-        count, start = 0, 0.0
-        while start < latest:
-            t = start + step * np.arange(1, SCAN_BATCH + 1)
-            above = x + t * (b + 0.5 * g * t) - x * np.cos(t) + c * np.sin(t) > 0.0
-            if above.any():
-                first = int(above.argmax())
-                count += first + 1
-                high = float(t[first])
-                # exclude the root at 0
-                low = high - step if first or start else min(AFTER, 0.5 * high)
-                if gap(low) >= 0.0:
-                    return low, count + 1
-                root, report = brentq(gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True)
-                return root, count + report.function_calls
-            count += t.size
-            start = float(t[-1])
-        return math.nan, count
+        count = 1
+        while not gap(count * step) > 0.0:
+            if count * step >= latest:
+                return math.nan, count
+            count += 1
+        low, high = (count - 1) * step, count * step
+        if count == 1:  # exclude the root at 0
+            low = min(AFTER, 0.5 * high)
+        if gap(low) >= 0.0:
+            return low, count + 1
+        root, report = brentq(gap, low, high, xtol=tolerance, rtol=1e-15, full_output=True)
+        return root, count + report.function_calls
 
     return ExternalSolver(f"brentq {step:g}, {tolerance:.0e}", f"scan {step:g} + brentq", flight)
 
