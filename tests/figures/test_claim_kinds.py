@@ -139,16 +139,6 @@ def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
         assert_text_is_whole_and_apart(figure, margin=1, slack=5)
 
 
-def test_jumps_are_drawn_only_if_there_are_any(data):
-    def count(datasets):
-        color = bytes.fromhex(module("jumps").MAP[1:])
-        return np.sum(np.all(pixels(draw("jumps", datasets)) == [*color], axis=2))
-
-    curves, portrait = data("jumps")
-    none = curves.assign({name: np.nan * curves[name] for name in ("x", "y")})
-    assert 0 < count([none, portrait]) < 0.5 * count(data("jumps"))  # the key's remain
-
-
 def test_eight_energies_have_eight_hues(data):
     many = data("rotation")[0].isel(energy=[0, 1] * 4)
     energies = [0.001, 0.005, 0.01, 0.015, 0.02, 0.026, 0.028, 0.03]

@@ -43,15 +43,6 @@ def test_each_number_is_that_of_an_independent_solver(table, truths, which):
         assert float(row["evaluations"]) == count.mean()
 
 
-def test_the_march_is_right_and_coarse_methods_are_not(table):
-    ours = table.isel(method=METHODS.index(OURS))
-    assert np.all(ours["wrong"] == 0)
-    assert np.all(ours["worst"] < 1e-15)
-    coarse = table.isel(method=METHODS.index(scan_method(0.5, 1e-3)))
-    assert np.all(coarse["median"] > 1e-5)
-    assert float(coarse["wrong"][1]) > 0.1  # flights near grazing are shorter than its step
-
-
 def test_another_root_is_wrong_and_an_inaccurate_one_is_not():
     truth = np.array([4.0, 4.0, 0.5, 0.5, 0.5, 1.0])
     tau = np.array([4.09, 4.11, 0.54, 0.56, np.nan, 1.0])
