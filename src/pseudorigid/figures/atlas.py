@@ -47,8 +47,7 @@ def plane(sweep, data):
     )
     for bottom, text, values, most, table in panels:
         panel = cells(sheet, bottom, sweep, values, most, table, text)
-        _resonances(panel, named=bottom == upper)
-        _onset_of_jumps(panel)
+        _curves(panel, named=bottom == upper)
         for energy in PAPER_ENERGIES.values():
             panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
             panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
@@ -166,15 +165,21 @@ def _apart(centres):
     return moved
 
 
-def _resonances(panel, named):
-    """Draw the curves of the fixed point's resonances, with their names."""
-    ks = _k_values(panel)
+def _curves(panel, named):
+    """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps."""
+    bottom, top = panel.up.limits
+    k = bottom + (top - bottom) * np.arange(1001) / 1000
+    k = k[k > 0.0]
     for turns, impacts in RESONANCES:
-        energy = np.array([fixed_point.resonance(float(k), turns, impacts) for k in ks])
+        energy = np.array([fixed_point.resonance(value, turns, impacts) for value in k.tolist()])
         visible = _is_between(panel.across, energy)
-        _curve(panel, np.where(visible, energy, np.nan), ks)
+        for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
+            _stroke(panel.sheet, *piece)
         if named:
-            name_curve(panel, visible, energy, ks, f"{turns}/{impacts}")
+            name_curve(panel, visible, energy, k, f"{turns}/{impacts}")
+    ends = k[[0, -1]]
+    if _is_between(panel.across, 1.0 + 0.5 * ends).all():
+        _stroke(panel.sheet, *panel.place(1.0 + 0.5 * ends, ends), dashed=True)
 
 
 def name_curve(panel, visible, energy, k, text):
@@ -184,26 +189,6 @@ def name_curve(panel, visible, energy, k, text):
         x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
         x = max(x, panel.frame[0] + 12 * POINT)
         panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
-
-
-def _onset_of_jumps(panel):
-    """Draw E/g^2 = 1 + k/2, above which the map jumps."""
-    ks = _k_values(panel)[[0, -1]]
-    energy = 1.0 + 0.5 * ks
-    if _is_between(panel.across, energy).all():
-        _curve(panel, energy, ks, dashed=True)
-
-
-def _k_values(panel):
-    """Return about 1,000 values of k from bottom to top of a panel, above 0."""
-    bottom, top = panel.up.limits
-    k = bottom + (top - bottom) * np.arange(1001) / 1000
-    return k[k > 0.0]
-
-
-def _curve(panel, x, y, dashed=False):
-    for piece in pieces(*panel.place(x, y)):
-        _stroke(panel.sheet, *piece, dashed)
 
 
 def _stroke(sheet, x, y, dashed=False):

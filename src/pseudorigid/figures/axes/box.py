@@ -5,7 +5,7 @@ import numpy as np
 from ..canvas import style
 from ..canvas.ragged_rows import pieces
 from ..canvas.sheet import POINT, Sheet
-from .limits import inside
+from .limits import inside, refuse_empty
 from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
 from .projection import Projection
@@ -22,15 +22,20 @@ class Box:
 
     What lies behind the surface is not drawn. The scene has `axes` with limits and ticks of x, xdot
     and udot; `view` with elevation (between 0 and 90) and azimuth; `energy` and `ball`, which are
-    written above the box. `entries` are those of `panel.key`.
+    written above the box. `entries` are those of `panel.key`. Raises ValueError, one line, if
+    there are states `shown` (3, n) that the axes or the surface all hide.
     """
 
-    def __init__(self, scene, entries=()):
+    def __init__(self, scene, entries=(), shown=None):
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
-        self.seen_from = scene["view"]
-        self.view = Projection(self.spans, self.seen_from)
+        self.view = Projection(self.spans, scene["view"])
         self.surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
+        if shown is not None:
+            refuse_empty(scene["axes"], dict(zip(style.NAMES, shown, strict=True)))
+            if not self.seen(*shown).any():
+                hides = "the energy surface hides all that is drawn"
+                raise ValueError(f"view {scene['view']}: {hides}")
         cells = [None, None, *entries, ("grazing rim", style.RIM)]
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
         self.figure = self.sheet.figure
@@ -59,11 +64,6 @@ class Box:
         for front in self.surface.before(self.view.eye, x, y, z):
             visible &= ~(inside(self.spans, front) & self.surface.has(*front))
         return visible
-
-    def refuse_hidden(self, x, y, z):
-        """Raise ValueError, one line, if none of the points can be seen."""
-        if not self.seen(x, y, z).any():
-            raise ValueError(f"view {self.seen_from}: the energy surface hides all that is drawn")
 
     def _fit(self, rows):
         """Place the box on a sheet with room for labels and `rows` of the key; return the sheet."""

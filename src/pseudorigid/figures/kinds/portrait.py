@@ -1,7 +1,8 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
+from ...dynamics.variables import states_of
 from ..axes.box import Box
-from ..axes.limits import complete_box, refuse_empty
+from ..axes.limits import complete_box
 from ..canvas import style
 from ..canvas.ragged_rows import rows
 
@@ -14,16 +15,12 @@ def draw(scene, orbits):
 
     Raises ValueError if nothing can be seen.
     """
-    scene = complete_box(scene, orbits)
-    refuse_empty(scene["axes"], {name: orbits[name].values for name in style.NAMES})
-    spans = rows(orbits)
+    scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     sea = sorted(scene["sea"])
-    box = Box(scene, [("chaotic orbit", style.SEA, "o")] if sea else [])
-    box.refuse_hidden(*(orbits[name].values for name in style.NAMES))
+    box = Box(scene, [("chaotic orbit", style.SEA, "o")] if sea else [], states)
     regular = [index for index in range(len(spans)) if index not in sea]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
     for index in sea + regular:
-        state = (orbits[name].values[spans[index]] for name in style.NAMES)
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
-        box.points(*state, hue, size)
+        box.points(*states[:, spans[index]], hue, size)
     return box.figure

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...dynamics.variables import of_type, states_of
 from ..axes.box import Box
-from ..axes.limits import complete_box, refuse_empty
+from ..axes.limits import complete_box
 from ..canvas import style
 from ..canvas.ragged_rows import rows, runs
 from ..canvas.sheet import POINT
@@ -26,7 +26,7 @@ def draw(scene, orbits, manifolds, periodic):
     a sharp fold. Raises ValueError if no branch can be seen or there is no such orbit.
     """
     scene = complete_box(scene, orbits, manifolds)
-    refuse_empty(scene["axes"], {name: manifolds[name].values for name in style.NAMES})
+    branches, jumps = states_of(manifolds), _jumps(manifolds)
     saddles = states_of(of_type(periodic, scene["type"]))
     count = saddles.shape[1]
     entries = [
@@ -37,25 +37,23 @@ def draw(scene, orbits, manifolds, periodic):
         ("not followed on", style.FRAME, "o", True),
         ("sharp fold", style.FRAME, "o", False, _TIP),
     ]
-    if Box(scene).seen(*states_of(manifolds)[:, _jumps(manifolds)]).any():
+    if Box(scene, shown=branches).seen(*branches[:, jumps]).any():
         entries.append(("jump of the map", style.FRAME, "s", True))
     box = Box(scene, entries)
-    box.refuse_hidden(*states_of(manifolds))
     box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
-    _branches(box, manifolds)
+    _branches(box, manifolds, branches, jumps)
     box.points(*saddles, "white", _SADDLE + 1.2)
     box.points(*saddles, style.VERMILION, _SADDLE)
     return box.figure
 
 
-def _branches(box, manifolds):
+def _branches(box, manifolds, states, jumps):
     """Draw the branches, and on top of them the marks of their tips, jumps and ends."""
-    spans, state = rows(manifolds), states_of(manifolds)
-    marks, pixels, jumps = [], np.array(box.view(*state)), _jumps(manifolds)
+    spans, marks, pixels = rows(manifolds), [], np.array(box.view(*states))
     hollow = {"mfc": "white", "mew": 0.6}
     for stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
-            line = state[:, span]
+            line = states[:, span]
             box.line(*line, hue, width)
             marks.append((line[:, _tips(pixels[:, span], pixels)], hue, _TIP, {}))
             marks.append((line[:, jumps[span]], hue, _END, hollow | {"marker": "s"}))
