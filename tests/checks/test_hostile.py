@@ -195,7 +195,7 @@ def test_a_forged_dataset_is_refused_until_it_is_recomputed(moved):
         archive.write(moved.path, checked, moved.path / "a.tar")
     assert moved.run("report").returncode == 0
     page = (moved.path / "results" / "report" / "report.html").read_text()
-    assert f"not current: made from {DATA}, which is not current" in page
+    assert f"No picture: stale: {FORGED}" in page
     (moved.path / DATA).unlink()
     assert moved.run("fig3").returncode == 0
     assert verified(moved)[:4] == (0, {}, [], [])

@@ -15,7 +15,7 @@ from project import ROOT, Tree, fresh_tree, of_scenes
 from runs import VARIANTS
 
 from pipeline import config
-from pipeline.checks import claims
+from pipeline.checks import claims, quantities
 from pipeline.checks.claims.schema import CORRECTED, FALSE
 from pipeline.checks.report import captions, figures_page, page
 from pipeline.config import paths
@@ -24,6 +24,7 @@ from pipeline.config.schema.study import CHARTS
 from pipeline.explorer.data import collect
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
+from pipeline.records.record import record_path, refusal_path
 
 PAGE = "results/report/report.html"
 CHROMIUM = shutil.which("chromium")
@@ -79,8 +80,8 @@ class Outline(HTMLParser):
         return [attributes for name, attributes in self.tags if name == tag]
 
 
-def rendered(tree, absent=()):
-    html = page.render(tree.path, config.load(tree.config), dict(absent))
+def rendered(tree):
+    html = page.render(tree.path, config.load(tree.config))
     Outline(html)
     return html
 
@@ -177,12 +178,18 @@ def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     shutil.rmtree(tree.path / "results" / "low")
     with open(tree.path / "results" / "paper" / "lyapunov_fig7.nc", "r+b") as file:
         file.truncate(1000)
-    text = rendered(tree, {"paper": {"fig6": "no hyperbolic orbit"}}.items())
+    fig6 = "results/paper/figures/fig6.png"
+    (tree.path / fig6).unlink()
+    refusal = json.loads((tree.path / record_path(fig6)).read_text())
+    refusal["output"] = {"sha256": None, "refused": "no hyperbolic orbit"}
+    (tree.path / refusal_path(fig6)).write_text(json.dumps(refusal))
+    text = rendered(tree)
     assert "no readable <code>CLAIMS.json</code>" in text
     assert "did not make: low" in text and '<h2 id="variants"' not in text
-    damaged = r"<p>No picture: not current: made from \S* ?results/paper/lyapunov_fig7.nc"
-    assert re.search(damaged, text) and "<td>approximately 0.235" not in text
-    assert "<p>No picture: no hyperbolic orbit.</p>" in text and 'alt="Figure 6' not in text
+    assert "<p>No picture: stale: changed after it was made; made from another results/" in text
+    assert "<td>approximately 0.235" not in text
+    assert "<p>No picture: cannot exist: no hyperbolic orbit.</p>" in text
+    assert 'alt="Figure 6' not in text
 
 
 def article(text, name):
@@ -262,7 +269,7 @@ def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(scenes
         kind = KINDS[block["picture"]]
         values = kind.numbers(block, **data)
         assert kind.headline in values
-        assert set(page.PAPER_NUMBERS[scene]) <= set(values)
+        assert set(quantities.PAPER_NUMBERS[scene]) <= set(values)
         other = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
         other |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
         assert kind.numbers(other, **data) == values

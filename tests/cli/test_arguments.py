@@ -3,14 +3,13 @@
 import os
 import re
 import shutil
-import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 from documents import complaint
-from project import ROOT
+from project import ROOT, run
 
 from pipeline.cli import arguments
 from pipeline.config.validation import document
@@ -50,27 +49,18 @@ def old_pythons():
     folders = [*map(str, Path.home().glob(".pyenv/versions/*/bin")), os.environ["PATH"]]
     for minor in range(6, 11):
         python = shutil.which(f"python3.{minor}", path=os.pathsep.join(folders))
-        run = subprocess.run([python or "false", "-V"], capture_output=True, check=False)
-        if run.returncode == 0:
+        if python and run(python, "-V").returncode == 0:
             yield python
 
 
 ASK = "from pipeline.cli.arguments import main; import sys; sys.exit(main(sys.argv[1:]))"
 
 
+@pytest.mark.skipif(not any(old_pythons()), reason="no Python older than 3.11 here")
 def test_the_oldest_python_answers_too():
-    python = next(old_pythons(), None)
-    if python is None:
-        pytest.skip("no Python older than 3.11 here")
-
     def ask(*words):
-        return subprocess.run(
-            [python, "-B", "-c", ASK, *words],
-            env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+        return run(next(old_pythons()), "-B", "-c", ASK, *words, env=environment)
 
     assert ask("--help").stdout.count("\n") < 40
     assert ask("fig33").stderr == "reproduce: no command or figure fig33: did you mean fig3?\n"
@@ -155,39 +145,16 @@ def test_options_of_snakemake_may_stand_between_those_of_a_command():
     assert args.options == ["-k", "verify", "--help"]
 
 
-@pytest.fixture
-def bare(tmp_path):
-    """The files that `reproduce` needs to answer, in a folder with spaces and a colon."""
-    folder = tmp_path / "a clone: here"
-    files = [
-        *ROOT.glob("src/pipeline/**/*.py"),
-        *(ROOT / name for name in ("reproduce", "config.yaml", "pyproject.toml")),
-        *(ROOT / "requirements" / name for name in ("lock.txt", "build.txt")),
-        ROOT / "src/pseudorigid/__init__.py",
-    ]
-    for file in files:
-        target = folder / file.relative_to(ROOT)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(file, target)
-    return folder
-
-
-def test_help_and_mistakes_without_a_venv_install_nothing(bare, tmp_path):
-    before = sorted(bare.rglob("*"))
+def test_help_and_mistakes_without_a_venv_install_nothing(tree, tmp_path):
+    before = sorted(tree.path.rglob("*"))
     (tmp_path / "python3").symlink_to(sys.executable)
     for words, status in {"help compare": 0, "--version": 0, "verfy": 2, "fig3 --help": 0}.items():
-        result = subprocess.run(
-            [str(bare / "reproduce"), *words.split()],
-            env={"PATH": f"{tmp_path}:{os.environ['PATH']}"},
-            cwd="/",
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        environment = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
+        result = run(tree.path / "reproduce", *words.split(), env=environment, cwd="/")
         assert result.returncode == status, result
         assert (result.stdout == "") == (status == 2)
         assert len(result.stderr.splitlines()) == (status == 2)
-    assert sorted(bare.rglob("*")) == before
+    assert sorted(tree.path.rglob("*")) == before
 
 
 def test_no_scene_has_the_name_of_a_command():

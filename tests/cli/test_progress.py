@@ -10,8 +10,8 @@ from project import SHIPPED
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
+from pipeline.checks import published_sets
 from pipeline.checks.freshness import Freshness
-from pipeline.cli import progress
 from pipeline.cli.session import UsageError, one_line
 from pipeline.config import build_specs, load
 from pipeline.jobs import server
@@ -60,7 +60,7 @@ def made(tmp_path, monkeypatch):
 
 
 def planned(made):
-    return progress.plan(Freshness(*made), [ORBITS, DRAWING])
+    return Freshness(*made).plan([ORBITS, DRAWING])
 
 
 def test_a_plan_names_what_changed_by_scene(made):
@@ -102,19 +102,20 @@ def test_a_plan_names_damaged_and_missing_results(made):
     assert planned(made) == ["fig2: not made yet: orbits, drawing"]
 
 
-def test_a_file_is_the_committed_one_by_its_bytes(tmp_path, monkeypatch):
-    monkeypatch.setattr(progress, "ROOT", tmp_path)
-    folder = tmp_path / "figures"
-    folder.mkdir()
+def test_a_file_is_the_committed_one_by_its_bytes(tmp_path):
+    (tmp_path / "figures").mkdir()
     for name in ("same.png", "other.png", "new.png"):
-        (folder / name).write_text(name)
-    sums = {name: hashlib.sha256(b"same.png").hexdigest() for name in ("same.png", "other.png")}
-    sums["gone.png"] = sums["same.png"]
-    (folder / "SHA256SUMS").write_text("".join(f"{d}  {name}\n" for name, d in sums.items()))
-    paths = [f"figures/{name}.png" for name in ("same", "other", "new", "gone")]
-    compared = progress.committed("figures", [*paths, "results/x.pdf"])
-    words = ("identical", "differs", "not committed", "missing")
-    assert compared == dict(zip(paths, words, strict=True))
+        (tmp_path / "figures" / name).write_text(name)
+    digest = hashlib.sha256(b"same.png").hexdigest()
+    lines = [f"{digest}  {name}.png\n" for name in ("same", "other", "gone")]
+    (tmp_path / "figures" / "SHA256SUMS").write_text("".join(lines))
+    for name, words in {
+        "same": "identical to the committed one",
+        "other": "differs from the committed one",
+        "new": "not committed",
+        "gone": "missing",
+    }.items():
+        assert published_sets.committed_state(tmp_path, f"figures/{name}.png") == words
 
 
 @pytest.fixture

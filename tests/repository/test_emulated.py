@@ -20,7 +20,7 @@ import pytest
 from project import ROOT, run
 from test_matrix import CONTROLS, probe
 
-from pipeline.checks.checksums import read_sums
+from pipeline.checks.published_sets import read_sums
 from pipeline.cli.packages import wheels
 from pipeline.cli.session import UsageError
 

@@ -4,10 +4,16 @@ from pathlib import Path
 from typing import Any
 
 from ..records.files import read_bytes, write_whole
-from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, format_sums, read_published_text
+from . import manifest
 from .difference import UPSTREAM
-from .verify import Findings, inspect, unlisted
+from .published_sets import (
+    SUMS,
+    ChecksumError,
+    committed_sets,
+    format_sums,
+    read_published_text,
+)
+from .verify import Findings, inspect
 
 
 def accept(root: Path, checked: dict[str, Any]) -> int:
@@ -16,7 +22,7 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
     Measured charts are published too, without a checksum. Returns the exit status, 1 if a result
     of the paper is missing or not current.
     """
-    for published_set in published_sets.committed_sets(checked):
+    for published_set in committed_sets(checked):
         results, command = published_set.build_specs, published_set.command
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue
@@ -39,7 +45,7 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
 def _renew(root: Path, findings: Findings) -> None:
     """Write the manifest and checksum list of a set, and print what changed."""
     published_set = findings.published_set
-    folder, noun = published_set.folder, published_set.noun
+    folder = published_set.folder
     fresh = manifest.build(root, published_set)
     try:
         committed = manifest.read(root, folder)
@@ -50,11 +56,11 @@ def _renew(root: Path, findings: Findings) -> None:
         if fresh == committed and sums == format_sums(manifest.sums(fresh)):
             print(f"{folder}: nothing changed")
             return
-        changes = _changes(root, findings, committed) or [f"other changes behind the same {noun}"]
+        changes = _changes(root, findings, committed) or ["other changes behind the same pictures"]
     manifest.write(root, folder, fresh)
     print(*changes, sep="\n")
     files = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST}"
-    print(f"{files} renewed: {len(published_set.drawn)} {noun}")
+    print(f"{files} renewed: {len(published_set.drawn)} figures")
 
 
 def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> list[str]:
@@ -68,4 +74,4 @@ def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> li
             changes.append(f"{name}  the file is the same")
     drawn = findings.published_set.drawn
     gone = [f"{name}  gone" for name in manifest.sums(committed) if name not in drawn]
-    return changes + gone + unlisted(root, findings.published_set)
+    return changes + gone + findings.published_set.unlisted(root)

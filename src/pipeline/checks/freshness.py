@@ -1,25 +1,28 @@
 """Whether results are what this tree would make, by their records and never by their times."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..config.build_specs import with_dependencies
 from ..records.build_spec import BuildSpec
 from ..records.differences import differing_files, differing_origin
 from ..records.files import file_hash, obstacle
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import syntax_hash
 
+CURRENT = "current"
 MISSING = "missing"
 DAMAGED = "changed after it was made"
-FROM_CONFIG = "made from another config:"
+_FROM_CONFIG = "made from another config:"
 # Differing layer -> how the reason to make a result again begins.
 _MADE = {
-    "config": FROM_CONFIG,
+    "config": _FROM_CONFIG,
     "source": "made by other code than this tree's:",
     "environment": "made with",
 }
+_MOST_CAUSES = 4  # in a line: the blocks of a sweep may differ each in another way
 
 
 class Freshness:
@@ -27,11 +30,14 @@ class Freshness:
 
     Three cached methods take a result: `reason(path)` says why it has to be recomputed (MISSING if
     it is not there), `own_reason(path)` why even if its inputs keep their bytes, and
-    `refusal(path)` why it cannot exist. Each returns None if there is no such reason.
+    `refusal(path)` why it cannot exist. Each returns None if there is no such reason. `forged` maps
+    results that are not to be trusted, whatever their records say, to the reasons.
     """
 
-    def __init__(self, root: Path, build_specs: dict[str, BuildSpec]) -> None:
-        self.root, self.build_specs = root, build_specs
+    def __init__(
+        self, root: Path, build_specs: dict[str, BuildSpec], forged: Mapping[str, str] | None = None
+    ) -> None:
+        self.root, self.build_specs, self.forged = root, build_specs, forged or {}
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.packages = versions()
@@ -43,6 +49,42 @@ class Freshness:
         """Return result -> why, for those of `paths` (default: all) that have to be recomputed."""
         chosen = self.build_specs if paths is None else paths
         return {path: why for path in chosen if (why := self.reason(path))}
+
+    def state(self, path: str) -> str:
+        """Say whether a result is current, missing, stale and why, or cannot exist and why."""
+        reason = self.reason(path) or CURRENT
+        if reason in (CURRENT, MISSING) or self.refusal(path):
+            return reason
+        return f"stale: {self._why(self.outdated(with_dependencies(self.build_specs, [path])))}"
+
+    def plan(self, paths: Iterable[str]) -> list[str]:
+        """Return a line for each scene with outdated results: the reasons and the stages to make.
+
+        Stages after `perhaps` are made only if their input data change.
+        """
+        scenes: dict[str, dict[str, list[str]]] = {}
+        for path in self.outdated(paths):
+            spec = self.build_specs[path]
+            scenes.setdefault(spec.scene, {}).setdefault(spec.step.split()[0], []).append(path)
+        lines = []
+        for scene, stages in scenes.items():
+            reasons = self._why([path for results in stages.values() for path in results])
+            certain = [name for name, made in stages.items() if any(map(self.own_reason, made))]
+            perhaps = [name for name in stages if name not in certain]
+            parts = [", ".join(certain), f"perhaps {', '.join(perhaps)}" if perhaps else ""]
+            lines.append(f"{scene}: {reasons}: {'; '.join(filter(None, parts))}")
+        return lines or ["nothing to make"]
+
+    def _why(self, paths: Iterable[str]) -> str:
+        """Say why outdated results must be made: the first causes alone."""
+        paths = list(paths)
+        causes = dict.fromkeys(filter(None, map(self.own_reason, paths)))
+        if len(causes) > 1:
+            causes.pop(MISSING, None)
+        shown = ["not made yet" if cause == MISSING else cause for cause in causes][:_MOST_CAUSES]
+        shown = [cause.removeprefix(f"{_FROM_CONFIG} ") for cause in shown]
+        more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
+        return "; ".join(shown + more) or str(self.reason(paths[0]))
 
     def _refusal(self, path: str) -> str | None:
         spec = self.build_specs[path]
@@ -74,7 +116,7 @@ class Freshness:
             return str(error)
         if self.digest(path) != record["output"]["sha256"]:
             return DAMAGED
-        return self._difference(record, self.build_specs[path])
+        return self._difference(record, self.build_specs[path]) or self.forged.get(path)
 
     def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
         """Return how what made a result, by its record, differs from what would make it now."""

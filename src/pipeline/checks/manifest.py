@@ -17,8 +17,13 @@ from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .checksums import SUMS, ChecksumError, format_sums, read_published_text
-from .published_sets import PublishedSet
+from .published_sets import (
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    format_sums,
+    read_published_text,
+)
 
 MANIFEST = "MANIFEST.json"
 BLOCK = 1024  # values that are hashed together, so that a difference can be located

@@ -1,9 +1,11 @@
-"""The sets of published files that must keep their bytes, and what each is made from.
+"""The sets of published files that must keep their bytes: what makes them, and their checksums.
 
 They are the figures of the paper, the pictures of claims, families and proofs, the study's charts
 whose data are the same on every machine, and the atlas.
 """
 
+import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,18 +15,26 @@ from ..config import PAPER, build_specs, paths
 from ..config.schema import study as parts
 from ..config.schema.published import FOLDERS
 from ..records.build_spec import BuildSpec
+from ..records.files import file_hash, read_text
 
-# Set -> what its files are called, and the command that makes them.
-_SETS = {
-    PAPER: ("figures", "./reproduce"),
-    "claims": ("figures", "./reproduce claims"),
-    "families": ("figures", "./reproduce families"),
-    "proofs": ("figures", "./reproduce prove --pictures"),
-    "study": ("charts", "./reproduce study"),
-    "sweep": ("pictures", "./reproduce atlas"),
+COMMANDS = {
+    PAPER: "./reproduce",
+    "claims": "./reproduce claims",
+    "families": "./reproduce families",
+    "proofs": "./reproduce prove --pictures",
+    "study": "./reproduce study",
+    "sweep": "./reproduce atlas",
 }
+SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
+IDENTICAL = "identical to the committed one"
+# A name that contains a folder could lead out of this folder.
+_LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 _Blocks = dict[str, dict[str, Any]]  # scene -> the config block that decides it
 _Data = dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
+
+
+class ChecksumError(Exception):
+    """One line about a checksum list or manifest that cannot be read; it names the file."""
 
 
 class PublishedSet(NamedTuple):
@@ -33,17 +43,37 @@ class PublishedSet(NamedTuple):
     The name of a published file is that of its scene and a suffix.
     """
 
-    noun: str  # for its files
-    folder: str
-    results: str  # folder with the drawings and their data
-    command: str  # makes them
+    group: str  # its name: "paper", "study" or the like
     drawn: dict[str, str]  # name of a published file -> its drawing in results
     config: _Blocks
     data: _Data
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
-    texts: tuple[str, ...]  # other files that the command writes
-    on_request: bool  # made by a command of its own, not by every run
+
+    @property
+    def folder(self) -> str:
+        """The folder of the published files."""
+        return FOLDERS[self.group]
+
+    @property
+    def results(self) -> str:
+        """The folder of the drawings and their data."""
+        return f"results/{self.group}"
+
+    @property
+    def command(self) -> str:
+        """The command that makes the files."""
+        return COMMANDS[self.group]
+
+    @property
+    def on_request(self) -> bool:
+        """Whether only a command of its own makes the set, and not every run."""
+        return self.group != PAPER
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """Other files that the command writes."""
+        return (paths.LEDGER, paths.LEDGER_DATA) if self.group == "claims" else ()
 
     def sources(self, scene: str) -> list[str]:
         """Return the project's files that decide a scene's figures."""
@@ -51,11 +81,15 @@ class PublishedSet(NamedTuple):
         results = [*self.data[scene].values(), *drawn]
         return sorted({file for path in results for file in self.build_specs[path].sources})
 
+    def unlisted(self, root: Path) -> list[str]:
+        """Return a line for each picture in the folder that the set does not have."""
+        return unlisted_files(root, self.folder, {*self.drawn, *self.measured})
+
 
 def committed_sets(checked: dict[str, Any]) -> list[PublishedSet]:
     """Return all published sets of a checked config."""
     variants = checked["variants"]
-    sets = [_figures(checked, name) for name in paths.PUBLISHED if variants[name]]
+    sets = [_figures(variants, name) for name in paths.PUBLISHED if variants[name]]
     return [*sets, _study(variants), _atlas(checked["sweeps"])]
 
 
@@ -63,26 +97,14 @@ def _set(
     group: str, config: _Blocks, data: _Data, specs: dict[str, BuildSpec], *measured: str
 ) -> PublishedSet:
     """Return the set with the drawings among these results."""
-    noun, command = _SETS[group]
     drawn = {Path(path).name: path for path, spec in specs.items() if spec.program == "draw"}
-    return PublishedSet(
-        noun,
-        FOLDERS[group],
-        f"results/{group}",
-        command,
-        {name: path for name, path in drawn.items() if Path(name).suffix[1:] in paths.SHOWN},
-        config,
-        data,
-        specs,
-        measured,
-        (paths.LEDGER, paths.LEDGER_DATA) if group == "claims" else (),
-        group != PAPER,
-    )
+    shown = {name: path for name, path in drawn.items() if Path(name).suffix[1:] in paths.SHOWN}
+    return PublishedSet(group, shown, config, data, specs, measured)
 
 
-def _figures(checked: dict[str, Any], variant: str) -> PublishedSet:
+def _figures(variants: paths.Variants, variant: str) -> PublishedSet:
     """Return the figures of the paper, or the pictures of claims, families or proofs."""
-    variants, scenes = checked["variants"], checked["variants"][variant]
+    scenes = variants[variant]
     config = {scene: paths.drawing(block) for scene, block in scenes.items()}
     data: _Data = {scene: {} for scene in scenes}
     for (name, scene, stage), path in paths.artifact_paths(variants).items():
@@ -113,3 +135,52 @@ def _atlas(sweeps: dict[str, Any]) -> PublishedSet:
             config[scene] = grid.whole(sweep) | {"chains": sweep["chains"]}
             data[scene] = data[name] | {"chains": paths.chains_dataset(name)}
     return _set("sweep", config, data, build_specs.of_sweeps(sweeps))
+
+
+# -- checksum lists --------------------------------------------------------------------------------
+
+
+def format_sums(sums: Mapping[str, str]) -> str:
+    """Return the text of a checksum list (file name -> sha256), as sha256sum writes it."""
+    return "".join(f"{digest}  {name}\n" for name, digest in sums.items())
+
+
+def read_sums(root: Path, folder: str) -> dict[str, str]:
+    """Return file name -> sha256 from a folder's list; empty if it cannot be read."""
+    try:
+        lines = read_published_text(root, f"{folder}/{SUMS}").splitlines()
+    except ChecksumError:
+        return {}
+    return {match[2]: match[1] for match in map(_LINE.fullmatch, lines) if match}
+
+
+def committed_state(root: Path, path: str) -> str:
+    """Say how a published file compares with the one in the checksum list of its folder."""
+    folder, _, name = path.rpartition("/")
+    digest, sums = file_hash(root / path), read_sums(root, folder)
+    if digest is None:
+        return "missing"
+    if name not in sums:
+        return "not committed"
+    return IDENTICAL if digest == sums[name] else "differs from the committed one"
+
+
+def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
+    """Return a line for each picture in a published folder whose name is not in `names`."""
+    files = (root / folder).glob("[!.]*")
+    pictures = {path.name for path in files if path.suffix[1:] in paths.SHOWN}
+    return [
+        f"{folder}/{name}: no scene of config.yaml makes it: delete it, or put its scene back"
+        for name in sorted(pictures - set(names))
+    ]
+
+
+def read_published_text(root: Path, name: str) -> str:
+    """Read a checksum list or manifest; raises ChecksumError."""
+    try:
+        return str(read_text(root / name))
+    except (FileNotFoundError, NotADirectoryError):
+        raise ChecksumError(f"{name}: missing") from None
+    except ValueError as error:  # of another kind of file, or no text
+        reason = str(error).removeprefix(f"{root / name}: ")
+        raise ChecksumError(f"{name}: {reason}") from None

@@ -11,11 +11,17 @@ from pathlib import Path
 from typing import Any
 
 from ..records.files import file_hash, obstacle
-from . import manifest, published_sets
-from .checksums import SUMS, ChecksumError, format_sums, read_published_text, unlisted_files
+from . import manifest
 from .difference import UPSTREAM, Comparison
 from .freshness import MISSING, Freshness
-from .published_sets import PublishedSet
+from .published_sets import (
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    committed_sets,
+    format_sums,
+    read_published_text,
+)
 
 NEW = "new: ./reproduce accept adds it to the manifest"
 
@@ -29,6 +35,8 @@ class Findings:
     # Name of each published file -> differing layer -> words; None for a new file. Empty without a
     # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
+    # Result -> why its record must be false, though it fits this tree.
+    forged: dict[str, str] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
     problems: list[str] = field(default_factory=list)  # of manifest, sums, texts, surplus files
 
@@ -104,14 +112,14 @@ class Findings:
         identical = total - len(differences) - new
         counts = {"other finding": len(findings), "note": len(self.notes)}
         others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
-        yield f"{identical} of {total} {published_set.noun} identical{''.join(others)}"
+        yield f"{identical} of {total} figures identical{''.join(others)}"
 
 
 def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
     """Compare each published set of a tree with its committed state; sets without one are left."""
     return [
         inspect(root, published_set)
-        for published_set in published_sets.committed_sets(checked)
+        for published_set in committed_sets(checked)
         if not published_set.on_request or manifest.is_present(root, published_set)
     ]
 
@@ -125,17 +133,13 @@ def inspect(root: Path, published_set: PublishedSet) -> Findings:
         findings.layers = {name: comparison.layers(name) for name in published_set.drawn}
         # If the manifest lists a result and all that makes it is as committed, the result must be
         # the committed one too, whatever its record says.
-        findings.stale = comparison.unexplained()
+        findings.forged = comparison.unexplained()
         findings.problems += _other_files(root, published_set, committed)
         if read_published_text(root, f"{folder}/{SUMS}") != format_sums(manifest.sums(committed)):
             findings.problems.append(f"{folder}/{SUMS}: is not as {manifest.MANIFEST} has it")
     except ChecksumError as error:
         findings.problems.append(str(error))
-    findings.stale |= Freshness(root, published_set.build_specs).outdated()
-    for path, spec in published_set.build_specs.items():  # inputs come before results
-        for used in spec.inputs:
-            if used in findings.stale:
-                findings.stale.setdefault(path, f"made from {used}, which is not current")
+    findings.stale = Freshness(root, published_set.build_specs, findings.forged).outdated()
     return findings
 
 
@@ -149,16 +153,10 @@ def _other_files(
                 f"{published_set.folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does "
                 "not publish: ./reproduce accept takes it out"
             )
-    yield from unlisted(root, published_set)
+    yield from published_set.unlisted(root)
     for path in published_set.texts:
         if file_hash(root / path) != committed["texts"].get(path):
             yield f"{path}: not the committed one: {published_set.command} writes it"
-
-
-def unlisted(root: Path, published_set: PublishedSet) -> list[str]:
-    """Return a line for each picture in a set's folder that the set does not have."""
-    names = {*published_set.drawn, *published_set.measured}
-    return unlisted_files(root, published_set.folder, names)
 
 
 def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
-from ..checks.checksums import unlisted_files
 from ..checks.freshness import MISSING, Freshness
+from ..checks.published_sets import committed_state, unlisted_files
 from ..config import build_specs, paths, unknown
 from ..config.schema.kinds import KINDS
 from ..config.schema.published import FOLDERS, PUBLISHED
@@ -14,7 +14,7 @@ from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
-from . import progress, running
+from . import running
 from .session import CommandLineError
 
 # File, where users find it -> its scene, and the results that it is made from, its drawing last.
@@ -41,9 +41,10 @@ def make(
 ) -> int:
     """Make and publish files, print a table of them, and return the exit status.
 
-    A figure whose periodic orbit does not exist is left out, and the others are made. `group` is a
-    variant, "study" or "sweep". Further results to make are `data`, which the table leaves out, as
-    it does files that were current if it is `brief`. `options` are those for snakemake.
+    A figure whose periodic orbit does not exist is left out, and the others are made; the status is
+    1 only if it should have been published. `group` is a variant, "study" or "sweep". Further
+    results to make are `data`, which the table leaves out, as it does files that were current if it
+    is `brief`. `options` are those for snakemake.
     """
     variants, folder = checked["variants"], FOLDERS.get(group)
     drawings = {path: upstream[-1] for path, (_, upstream) in wanted.items()}
@@ -63,33 +64,33 @@ def make(
         print(*notes, sep="\n", end="\n" * bool(notes))
         return status
     freshness = Freshness(ROOT, specs)
-    outdated, lost = freshness.outdated(results), absent(checked, group, freshness)
-    missing = {wanted[path][0] for path in wanted if drawings[path] in outdated}
-    if missing and not outdated.keys() & set(data) and missing <= set(lost):
-        status = 0
-    rows = {}
-    for path, (scene, upstream) in wanted.items():
+    outdated = freshness.outdated(results)
+    refused = {path for path in outdated if freshness.refusal(path)}
+    if refused and refused == outdated.keys():
+        status = int(bool(folder))
+    states = {}
+    for path, (_, upstream) in wanted.items():
         drawing, state = drawings[path], "recomputed"
-        if scene in lost:
-            state = f"cannot exist: {lost[scene]}"
+        if drawing in refused:
+            state = outdated[drawing]
             for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
                 (ROOT / old).unlink(missing_ok=True)
         elif drawing in outdated:
             state = _failed(upstream, outdated[drawing])
         elif identity(drawing) == before[drawing]:
             state = "current"
-        rows[path] = scene, state
+        states[path] = state
     good = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
     for path, reason in _publish(good).items():
-        rows[path], status = (rows[path][0], f"not published: {reason}"), status or 1
+        states[path], status = f"not published: {reason}", status or 1
     notes += _missed_impacts(paths.artifact_paths(variants), group, blocks(good))
     if group in PUBLISHED:
         figures = paths.figures(variants, group)
         notes += unlisted_files(ROOT, str(folder), [PurePath(path).name for path in figures])
-    shown = {path: row for path, row in rows.items() if not (brief and row[1] == "current")}
+    shown = {path: state for path, state in states.items() if not (brief and state == "current")}
     if shown:
-        _print_table(folder, shown, notes)
-    return status or int(bool(folder) and any(scene in lost for scene, _ in wanted.values()))
+        _print_table(folder, wanted, shown, notes)
+    return status
 
 
 def _failed(upstream: list[str], reason: str) -> str:
@@ -100,16 +101,18 @@ def _failed(upstream: list[str], reason: str) -> str:
 
 
 def _print_table(
-    folder: str | None, rows: Mapping[str, tuple[str, str]], notes: Iterable[str]
+    folder: str | None, wanted: Wanted, states: Mapping[str, str], notes: Iterable[str]
 ) -> None:
     """Print scene and state of each file, compared with the commit in a `folder`, and notes."""
-    as_committed = progress.committed(folder, rows) if folder else {}
-    lines = [("figure", "file", "size", "state", "as committed" if as_committed else "")]
-    for path, (scene, state) in rows.items():
-        made = state in ("current", "recomputed")
-        size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB" if made else ""
-        lines.append((scene, path, size, state, as_committed.get(path, "") if made else ""))
-    print("", *columns(lines), *notes, sep="\n")
+    rows = []
+    for path, state in states.items():
+        size = compared = ""
+        if state in ("current", "recomputed"):
+            size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB"
+            compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
+        rows.append((wanted[path][0], path, size, state, compared))
+    head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
+    print("", *columns([head, *rows]), *notes, sep="\n")
 
 
 def _publish(drawings: dict[str, str]) -> dict[str, str]:
@@ -125,17 +128,6 @@ def _publish(drawings: dict[str, str]) -> dict[str, str]:
             except FileError as error:
                 problems[path] = str(error).removeprefix(f"{published}: ")
     return problems
-
-
-def absent(
-    checked: dict[str, Any], variant: str, freshness: Freshness | None = None
-) -> dict[str, str]:
-    """Map scenes whose figures cannot exist, as far as jobs found out, to the reasons."""
-    variants = checked["variants"]
-    known = freshness or Freshness(ROOT, build_specs.of_variants(variants))
-    figures = paths.figures(variants, variant) if variant in variants else {}
-    reasons = {scene: known.refusal(upstream[-1]) for scene, upstream in figures.values()}
-    return {scene: reason for scene, reason in reasons.items() if reason}
 
 
 def _hidden(scenes: dict[str, Any]) -> Iterator[str]:

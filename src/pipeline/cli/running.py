@@ -20,7 +20,6 @@ from ..records.files import obstacle
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import explain
-from .progress import plan
 from .session import CommandLineError, UsageError, interruptible, print_error
 
 INTERRUPTED = 130
@@ -107,7 +106,7 @@ def make(
             print_error(f"{path}: {reason}: made again")
     options = options_of(arguments)
     if options.dryrun and not options.special:
-        print(*plan(freshness, paths), sep="\n")
+        print(*freshness.plan(paths), sep="\n")
         return 0
     if not outdated and not options.special:
         return 0

@@ -21,9 +21,8 @@ import numpy as np
 import xarray as xr
 
 from ..checks import manifest, published_sets, verify
-from ..checks.checksums import SUMS, ChecksumError, format_sums, read_sums
 from ..checks.difference import Comparison, dataset_difference
-from ..checks.published_sets import PublishedSet
+from ..checks.published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_sums
 from ..config.paths import EXPLORER, LEDGER, LEDGER_DATA, PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
 from ..explorer import page

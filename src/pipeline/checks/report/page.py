@@ -4,27 +4,24 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 """
 
 import base64
-import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
-from pseudorigid.dynamics.paper import FIGURES, WINDOW
-
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
 from ...explorer.data import address
 from ...records import swhid
-from ...records.artifacts import load
-from ...records.files import file_hash, read_bytes, read_text
+from ...records.files import read_bytes, read_text
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
-from .. import claims, published_sets
-from ..checksums import read_sums
+from .. import claims
 from ..claims.schema import CORRECTED, FALSE, Verdict
-from ..freshness import MISSING, Freshness
+from ..freshness import CURRENT, Freshness
+from ..published_sets import IDENTICAL, committed_sets, committed_state
+from ..quantities import measured, printed
 from ..verify import Findings, inspect
 from .captions import caption_of
 
@@ -38,22 +35,14 @@ _TEMPLATES = jinja2.Environment(
     lstrip_blocks=True,
 )
 Picture = dict[str, Any]  # what the template shows of a picture
-# scene -> quantity -> the paper's value
-PAPER_NUMBERS: dict[str, dict[str, str]] = {
-    scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
-    for scene, texts in tomllib.loads(
-        Path(__file__).with_name("paper_numbers.toml").read_text(encoding="utf-8")
-    ).items()
-}
 
 
-def render(root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]]) -> str:
+def render(root: Path, checked: dict[str, Any]) -> str:
     """Return the page of the tree at `root`.
 
-    `absent` maps a variant and a scene to the reason why there is no figure. Raises ValueError,
-    which names the file, if a result cannot be read.
+    Raises ValueError, which names the file, if a result cannot be read.
     """
-    page, results = _Page(root, checked, absent), root / "results"
+    page, results = _Page(root, checked), root / "results"
     figures = page.variant(PAPER)
     variants = {name: page.variant(name) for name in page.variants if name not in PUBLISHED}
     made = {name: shown for name, shown in variants.items() if any(p["image"] for p in shown)}
@@ -89,15 +78,12 @@ def _image(file: Path) -> Picture:
 
 
 class _Page:
-    def __init__(
-        self, root: Path, checked: dict[str, Any], absent: dict[str, dict[str, str]]
-    ) -> None:
-        self.root, self.absent = root, absent
-        self.variants = checked["variants"]
+    def __init__(self, root: Path, checked: dict[str, Any]) -> None:
+        self.root, self.variants = root, checked["variants"]
         self.artifact_paths = paths.artifact_paths(self.variants)
-        self.sets = [inspect(root, each) for each in published_sets.committed_sets(checked)]
-        self.outdated = Freshness(root, build_specs.of_variants(self.variants)).outdated()
-        self.outdated |= self.sets[0].stale  # of the paper
+        self.sets = [inspect(root, each) for each in committed_sets(checked)]
+        specs = build_specs.of_variants(self.variants)
+        self.freshness = Freshness(root, specs, self.sets[0].forged)  # of the paper
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def variant(self, name: str) -> list[Picture]:
@@ -106,15 +92,12 @@ class _Page:
         for scene, block in self.variants[name].items():
             drawing = paths.drawn(scene, "png", name)
             picture = _described(f"{name}-{scene}", name, scene, block)
-            reason = self.absent.get(name, {}).get(scene)
-            if not reason and (stale := self.outdated.get(drawing)):
-                reason = "not made" if stale == MISSING else f"not current: {stale}"
-            if reason:
-                pictures.append(picture | {"missing": reason})
+            if (state := self.freshness.state(drawing)) != CURRENT:
+                pictures.append(picture | {"missing": state})
             else:
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
-                measured = self._measured(name, scene) | {"file": self._file(name, scene)}
-                pictures.append(picture | self._made(drawing, data) | measured)
+                numbers = self._measured(name, scene) | {"file": _file(self.root, name, drawing)}
+                pictures.append(picture | self._made(drawing, data) | numbers)
         return pictures
 
     def on_request(self) -> list[tuple[str, list[Picture]]]:
@@ -131,17 +114,16 @@ class _Page:
         """Return the picture of this tree if it is current, else the committed one, or None."""
         published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
-        scene, variant = Path(name).stem, Path(published_set.results).name
+        scene, variant = Path(name).stem, published_set.group
         block = published_set.config.get(scene)
         picture = _described(published.replace("/", "-"), variant, scene, block)
         if drawing and drawing not in findings.stale:
-            measured = self._measured(variant, scene) if variant in self.variants else {}
+            numbers = self._measured(variant, scene) if variant in self.variants else {}
             made = self._made(drawing, published_set.data[scene].values())
-            return picture | made | measured | {"rows": [], "file": published}
+            return picture | made | numbers | {"rows": [], "file": published}
         if not (self.root / published).is_file():
             return None
-        committed_hash = read_sums(self.root, published_set.folder).get(name)
-        if drawing and file_hash(self.root / published) != committed_hash:
+        if drawing and committed_state(self.root, published) != IDENTICAL:
             missing = f"{published} is not the committed one, nor made by this tree"
             return picture | {"missing": missing}
         origin = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
@@ -174,26 +156,15 @@ class _Page:
 
     def _measured(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
-        block = self.variants[variant][scene]
-        files = {stage: self.artifact_paths[variant, scene, stage] for stage in paths.stages(block)}
-        data = {stage: load(self.root / file) for stage, file in files.items()}
-        try:
-            values = KINDS[block["picture"]].numbers(block, **data)
-        except (LookupError, TypeError, AttributeError, ArithmeticError):
-            wrong = ", ".join(files.values())
-            raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
-        printed = PAPER_NUMBERS.get(scene, {})
-        rows = [(name, printed.get(name, "not printed"), value) for name, value in values.items()]
-        headline = KINDS[block["picture"]].headline
+        values = measured(self.root, self.variants, variant, scene)
+        rows = [(name, printed(scene, name), value) for name, value in values.items()]
+        headline = KINDS[self.variants[variant][scene]["picture"]].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
 
-    def _file(self, variant: str, scene: str) -> str:
-        """Return where a picture is published, and whether it is the committed one."""
-        drawn = paths.drawn(scene, "png", variant)
-        if variant != PAPER:
-            return drawn
-        folder = PUBLISHED[variant]
-        committed_hash = read_sums(self.root, folder).get(f"{scene}.png")
-        same = "identical to" if committed_hash == file_hash(self.root / drawn) else "not"
-        state = f"{same} the committed one" if committed_hash else "not among the committed ones"
-        return f"{folder}/{scene}.png: {state}"
+
+def _file(root: Path, variant: str, drawing: str) -> str:
+    """Return where a picture is published, and how it compares with the commit."""
+    if variant != PAPER:
+        return drawing
+    path = f"{PUBLISHED[PAPER]}/{Path(drawing).name}"
+    return f"{path}: {committed_state(root, path)}"

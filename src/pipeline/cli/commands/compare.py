@@ -9,27 +9,25 @@ from ..session import CommandLineError, interruptible, locked, one_line
 
 def run(args: Arguments) -> int:
     """Make the missing results of two variants and print what differs."""
-    checked, hidden = args.checked, set(config.PUBLISHED) - {config.PAPER}
-    variants = {name: block for name, block in checked["variants"].items() if name not in hidden}
+    variants, hidden = args.checked["variants"], set(config.PUBLISHED) - {config.PAPER}
+    known = [name for name in variants if name not in hidden]
     names = [name for name in (args.a, args.b) if name is not None]
     for name in names:
-        if name not in variants:
-            raise CommandLineError(config.unknown("variant", name, list(variants)))
+        if name not in known:
+            raise CommandLineError(config.unknown("variant", name, known))
     if len(set(names)) < 2:
-        raise CommandLineError(f"compare needs two names of {', '.join(variants)}")
+        raise CommandLineError(f"compare needs two names of {', '.join(known)}")
+    scenes, status = args.figure or list(args.checked["scenes"]), 0
     with locked():
         for name in names:
-            files = figures.of_scenes(checked, name, args.figure)
-            status = figures.make(checked, name, files, args.options, brief=True)
-            if status and not (name in config.PUBLISHED and figures.absent(checked, name)):
+            files = figures.of_scenes(args.checked, name, scenes)
+            status |= figures.make(args.checked, name, files, args.options, brief=True)
+            if status == running.INTERRUPTED:
                 return status
-        if running.is_dry_run(args.options):
-            return 0
-        from ...checks.compare import compare
+        if not running.is_dry_run(args.options):
+            from ...checks.compare import compare
 
-        scenes = args.figure or list(checked["scenes"])
-        print()
-        with interruptible(), one_line():
-            absent = [figures.absent(checked, name) for name in names]
-            compare(ROOT, variants, names, absent, scenes)
-    return 0
+            print()
+            with interruptible(), one_line():
+                compare(ROOT, variants, names, scenes)
+    return status

@@ -1,17 +1,16 @@
 """./reproduce list: show what can be made and the state of each file."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
-from ...checks import published_sets
-from ...checks.freshness import MISSING, Freshness
+from ...checks import manifest, published_sets
+from ...checks.freshness import CURRENT, MISSING, Freshness
+from ...checks.published_sets import ChecksumError, PublishedSet, committed_state
 from ...config import PUBLISHED, build_specs, paths
 from ...config.schema import study as parts
-from ...records.differences import columns
+from ...records.differences import columns, differing_block
 from ...records.sources import ROOT
-from .. import figures
 from ..arguments import Arguments
-from ..progress import Row, staleness, states
 
 
 def run(args: Arguments) -> int:
@@ -19,35 +18,42 @@ def run(args: Arguments) -> int:
     variants, sweeps = args.checked["variants"], args.checked["sweeps"]
     freshness = Freshness(ROOT, build_specs.of_all(args.checked))
     for published_set in published_sets.committed_sets(args.checked):
-        _print(published_set.command, states(published_set))
+        _print(published_set.command, [*_published(freshness, published_set)])
     measured = [parts.drawn(c) for c in parts.CHARTS if parts.CHARTS[c][0] in parts.MEASURED]
-    _print("./reproduce study, measured", _states(freshness, measured, {}))
-    _print("./reproduce sweep", _states(freshness, map(paths.sweep_dataset, sweeps), {}))
+    for command, results in (
+        ("./reproduce study, measured", measured),
+        ("./reproduce sweep", [*map(paths.sweep_dataset, sweeps)]),
+    ):
+        _print(command, [(PurePath(path).stem, path, freshness.state(path)) for path in results])
     rows = []
     for name in (name for name in variants if name not in PUBLISHED):
-        drawings = [upstream[-1] for _, upstream in paths.figures(variants, name).values()]
-        absent = figures.absent(args.checked, name, freshness)
         files: dict[str, list[str]] = {}
-        for _, path, state in _states(freshness, drawings, absent):
-            files.setdefault(state, []).append(PurePath(path).name)
+        for _, upstream in paths.figures(variants, name).values():
+            files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
         rows += [(name, state, " ".join(files[state])) for state in files]
     _print("./reproduce variant NAME", rows)
     return 0
 
 
-def _states(freshness: Freshness, results: Iterable[str], absent: dict[str, str]) -> list[Row]:
-    """Return (scene, file, state) of results that are not published."""
-    rows = []
-    for path in results:
-        scene = PurePath(path).stem
-        state = f"cannot exist: {absent[scene]}" if scene in absent else MISSING
-        if scene not in absent and (ROOT / path).is_file():
-            state = staleness(freshness, path) or "current"
-        rows.append((scene, path, state))
-    return rows
+def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:
+    """Yield scene, file and state of each file of a published set.
+
+    Whether a file is stale follows from its drawing's record or, without one, from the manifest.
+    """
+    try:
+        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
+    except ChecksumError:
+        scenes = {}
+    for name, drawing in published_set.drawn.items():
+        scene, path = PurePath(name).stem, f"{published_set.folder}/{name}"
+        state, made = committed_state(ROOT, path), freshness.state(drawing)
+        if made == MISSING and scene in scenes:
+            words = differing_block(scenes[scene]["config"], published_set.config[scene])
+            made = f"stale: {words}" if words else MISSING
+        yield scene, path, state if state == MISSING or made in (CURRENT, MISSING) else made
 
 
-def _print(title: str, rows: Sequence[Row]) -> None:
+def _print(title: str, rows: Sequence[Sequence[str]]) -> None:
     """Print rows below a title, nothing without rows."""
     if rows:
         print(title, *(f"  {line}" for line in columns(rows)), "", sep="\n")

@@ -13,17 +13,15 @@ PAGE = "results/report/report.html"
 
 def run(args: Arguments) -> int:
     """Make missing results, then the page."""
-    checked = args.checked
     with locked():
-        files = figures.of_scenes(checked, PAPER)
-        status = figures.make(checked, PAPER, files, args.options)
-        absent = {name: figures.absent(checked, name) for name in checked["variants"]}
-        if running.is_dry_run(args.options) or (status and not absent[PAPER]):
+        files = figures.of_scenes(args.checked, PAPER)
+        status = figures.make(args.checked, PAPER, files, args.options)
+        if running.is_dry_run(args.options) or status == running.INTERRUPTED:
             return status
         from ...checks.report import page
 
         with interruptible(), one_line():
-            write_whole(ROOT / PAGE, page.render(ROOT, checked, absent))
-            explore.write(checked)  # which the report links to
+            write_whole(ROOT / PAGE, page.render(ROOT, args.checked))
+            explore.write(args.checked)  # which the report links to
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return status

@@ -11,13 +11,10 @@ from pseudorigid.dynamics.paper import EXPONENT
 from pseudorigid.proofs.theorems.statements import THEOREMS
 
 from ...checks import claims, manifest, published_sets
-from ...checks.checksums import ChecksumError
 from ...checks.claims.schema import VERDICT_WORDS
+from ...checks.quantities import measured, printed
 from ...checks.report.captions import caption_of
-from ...checks.report.page import PAPER_NUMBERS
 from ...config import PAPER, PUBLISHED, paths
-from ...config.schema.kinds import KINDS
-from ...records.artifacts import load
 from ...records.files import read_text
 from .. import metadata
 
@@ -36,7 +33,7 @@ def numbers_of(root: Path, checked: Table) -> str:
     sets = published_sets.committed_sets(checked)
     try:
         committed = {each.folder: manifest.read(root, each.folder) for each in sets}
-    except ChecksumError as error:
+    except published_sets.ChecksumError as error:
         raise ValueError(str(error)) from None
     figures = {
         scene: _figure(each.folder, each.command, scene, entry, committed[each.folder]["data"])
@@ -68,13 +65,8 @@ def numbers_of(root: Path, checked: Table) -> str:
 
 def _rows(root: Path, checked: Table, scene: str) -> Table:
     """Return quantity -> the paper's value and the one measured in a scene's datasets."""
-    block, files = checked["variants"][PAPER][scene], paths.artifact_paths(checked["variants"])
-    data = {stage: load(root / files[PAPER, scene, stage]) for stage in paths.stages(block)}
-    printed = PAPER_NUMBERS.get(scene, {})
-    return {
-        name: {"paper": printed.get(name, "not printed"), "ours": ours}
-        for name, ours in KINDS[block["picture"]].numbers(block, **data).items()
-    }
+    values = measured(root, checked["variants"], PAPER, scene)
+    return {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
 
 
 def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) -> Table:

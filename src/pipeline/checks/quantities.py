@@ -1,0 +1,35 @@
+"""The reported quantities of scenes: measured in their datasets, and as the paper prints them."""
+
+import tomllib
+from pathlib import Path
+
+from pseudorigid.dynamics.paper import FIGURES, WINDOW
+
+from ..config import paths
+from ..config.schema.kinds import KINDS
+from ..records.artifacts import load
+
+# scene -> quantity -> the paper's value
+PAPER_NUMBERS: dict[str, dict[str, str]] = {
+    scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
+    for scene, texts in tomllib.loads(
+        Path(__file__).with_name("paper_numbers.toml").read_text(encoding="utf-8")
+    ).items()
+}
+
+
+def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> dict[str, str]:
+    """Return the quantities of a scene, measured in its datasets; ValueError names wrong files."""
+    block, files = variants[variant][scene], paths.artifact_paths(variants)
+    own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
+    data = {stage: load(root / file) for stage, file in own.items()}
+    try:
+        return KINDS[block["picture"]].numbers(block, **data)
+    except (LookupError, TypeError, AttributeError, ArithmeticError):
+        wrong = ", ".join(own.values())
+        raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
+
+
+def printed(scene: str, quantity: str) -> str:
+    """Return the paper's value of a quantity of a scene."""
+    return PAPER_NUMBERS.get(scene, {}).get(quantity, "not printed")
