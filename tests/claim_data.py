@@ -2,9 +2,6 @@
 
 import json
 
-import numpy as np
-import xarray as xr
-
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.analyses.clusters import clusters
 from pseudorigid.analyses.control import control
@@ -15,8 +12,7 @@ from pseudorigid.analyses.rotation import rotation
 from pseudorigid.analyses.spread import spread
 from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, paper
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.dynamics.variables import attributes_of
-from pseudorigid.sweep.cell import VARIABLES, cells
+from pseudorigid.sweep import blocks
 
 BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
 SEA = (0.55, 0.68)
@@ -26,20 +22,10 @@ STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]
 
 def sweep(ks, energies, starts, impacts):
     """Return the dataset of a sweep over k and E/g^2."""
-    rows = [cells(k, energies, starts, impacts) for k in ks]
-    data = {
-        name: (
-            ("k", "energy"),
-            np.array([[cell[name] for cell in row] for row in rows]),
-            attributes_of(words),
-        )
-        for name, (words, _) in VARIABLES.items()
-        if name != "chains"
-    }
-    config = json.dumps({"starts": starts, "impacts": impacts})
-    axes = {"k": ks, "energy": energies}
-    axes = {name: (name, axis, attributes_of(name)) for name, axis in axes.items()}
-    return xr.Dataset(data, coords=axes, attrs={"g": 0.04, "config": config})
+    work = {"starts": starts, "impacts": impacts}
+    block = blocks.compute({"cells": [[k, energy] for k in ks for energy in energies]} | work)
+    dataset = blocks.join({"k": ks, "energy": energies}, [block])
+    return dataset.assign_attrs(g=0.04, config=json.dumps(work))
 
 
 def made(stage, *inputs, ball=BALL, energy=HIGH, method=None, **fields):

@@ -5,19 +5,14 @@ import json
 import pytest
 from verdicts import verified
 
-from pipeline.records.record import record_path
+from pipeline.checks.freshness import Freshness
+from pipeline.records.build_spec import BuildSpec
+from pipeline.records.record import record_path, recorded
 
 PERIODIC = "results/paper/periodic_fig3.nc"
-ORBITS = "results/paper/orbits_fig2.nc"
+ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
 TARGET = "results/paper/motion_fig3.nc"
 MOTION = "src/pseudorigid/dynamics/motion.py"
-
-
-def finding(tree):
-    """Return the first finding about results; all figures must be as committed."""
-    found = verified(tree)
-    assert (found.status, found.wrong) == (1, {})
-    return found.findings[0].removesuffix(": run ./reproduce")
 
 
 def test_a_record_says_what_made_its_result(accepted):
@@ -31,25 +26,79 @@ def test_a_record_says_what_made_its_result(accepted):
     assert {"commit", "dirty"} <= set(record)
 
 
-def test_a_result_whose_record_does_not_fit(moved):
-    path = moved.path / record_path(ORBITS)
-    text = path.read_text()
-    path.unlink()
-    assert finding(moved) == f"{ORBITS}: no record of what made it"
-    for content in ("", "[]", "{}", text.replace('"sources"', '"sauces"')):
-        path.write_text(content)
-        assert finding(moved) == f"{ORBITS}: its record {record_path(ORBITS)} cannot be read"
-    path.write_text(text)
-    path = moved.path / record_path(TARGET)
-    text = path.read_text()
-    for part, file, reason in (
-        ("inputs", PERIODIC, f"made from another {PERIODIC}"),
-        ("sources", MOTION, f"made by other code than this tree's: {MOTION} differs"),
-    ):
-        record = json.loads(text)
-        record[part][file] = "0" * 64
-        path.write_text(json.dumps(record))
-        assert finding(moved) == f"{TARGET}: {reason}"
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """Return a folder with recorded orbits and a drawing of them, and their specifications."""
+    monkeypatch.chdir(tmp_path)
+    config, view = {"ball": {"g": 0.04}, "energy": 0.01}, {"view": {"elevation": 40}}
+    specs = {
+        ORBITS: BuildSpec(ORBITS, "fig2", "orbits", config, "stage", None, ["a.py", "b.py"], []),
+        DRAWING: BuildSpec(
+            DRAWING, "fig2", "drawing png", config | view, "draw", None, ["b.py"], [ORBITS]
+        ),
+    }
+    for source in ("a.py", "b.py"):
+        (tmp_path / source).write_text(source)
+    for path, spec in specs.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        with recorded(spec):
+            (tmp_path / path).write_text(path)
+    return tmp_path, specs
+
+
+def planned(made):
+    """Return the line of a plan after `fig2: `."""
+    (line,) = Freshness(*made).plan([ORBITS, DRAWING])
+    return line.removeprefix("fig2: ")
+
+
+def test_a_plan_names_what_changed_by_scene(made):
+    root, specs = made
+    assert planned(made) == "nothing to make"
+    assert Freshness(*made).state(DRAWING) == "current"
+
+    def with_config(*paths, **fields):
+        new = {path: specs[path]._replace(config=specs[path].config | fields) for path in paths}
+        return root, specs | new
+
+    changed = with_config(DRAWING, view={"elevation": 30})
+    assert planned(changed) == "view.elevation 40 -> 30: drawing"
+    assert planned(with_config(*specs, energy=0.008)) == "energy 0.01 -> 0.008: orbits, drawing"
+    orbits = with_config(ORBITS, energy=0.008)
+    assert planned(orbits) == "energy 0.01 -> 0.008: orbits; perhaps drawing"
+    assert Freshness(*orbits).state(DRAWING) == "stale: energy 0.01 -> 0.008"
+    forged = Freshness(*made, {ORBITS: "a forgery"})
+    assert forged.plan(specs) == ["fig2: a forgery: orbits; perhaps drawing"]
+    (root / "b.py").write_text("other")
+    other = "made by other code than this tree's"
+    assert planned(made) == f"{other}: b.py differs: orbits, drawing"
+    (root / "a.py").write_text("other")
+    both = f"{other}: a.py differs (and 1 more); {other}: b.py differs"
+    assert planned(made) == f"{both}: orbits, drawing"
+
+
+def test_a_plan_names_records_that_do_not_fit_and_results_that_changed(made):
+    root, _ = made
+    drawn, computed = (root / record_path(path) for path in (DRAWING, ORBITS))
+    record, text = json.loads(drawn.read_text()), computed.read_text()
+    here = record["environment"]["numpy"]
+    drawn.write_text(json.dumps(record | {"inputs": {ORBITS: "0" * 64}}))
+    assert planned(made) == f"made from another {ORBITS}: drawing"
+    drawn.write_text(json.dumps(record | {"environment": record["environment"] | {"numpy": "1.0"}}))
+    assert planned(made) == f"made with numpy 1.0 then, {here} here: drawing"
+    (root / DRAWING).unlink()
+    assert planned(made) == "not made yet: drawing"
+    (root / ORBITS).write_text("other")
+    assert planned(made) == "changed after it was made: orbits, drawing"
+    for content in ("", "{", "[]", "{}", text.replace('"sources"', '"sauces"')):
+        computed.write_text(content)
+        broken = f"its record {record_path(ORBITS)} cannot be read"
+        assert planned(made) == f"{broken}: orbits, drawing"
+    computed.unlink()
+    assert planned(made) == "no record of what made it: orbits, drawing"
+    (root / ORBITS).unlink()
+    assert planned(made) == "not made yet: orbits, drawing"
+    assert Freshness(*made).state(ORBITS) == "missing"
 
 
 @pytest.mark.slow
@@ -68,6 +117,7 @@ def test_a_run_killed_between_result_and_record_does_both_again(moved):
     assert run.wait() == -9
     module.write_text(text)
     assert result.exists() and not record.exists()
-    assert ORBITS in finding(moved)
+    found = verified(moved)
+    assert (found.status, found.wrong) == (1, {}) and ORBITS in found.findings[0]
     assert moved.run(ORBITS).returncode == 0
     assert verified(moved)[:3] == (0, {}, [])

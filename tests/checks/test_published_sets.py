@@ -1,10 +1,13 @@
 """Missing, broken and stale manifests and checksum lists, and accept, which renews them."""
 
+import hashlib
 import shutil
 
 import pytest
 from runs import contents
 from verdicts import accepting, verified
+
+from pipeline.checks.published_sets import committed_state
 
 FIG3 = "paper_figures/fig3.png"
 
@@ -129,6 +132,22 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved, edited):
         "paper_figures/SHA256SUMS and paper_figures/MANIFEST.json renewed: 12 figures",
     ]
     assert verified(moved)[:4] == (0, {}, [], [])
+
+
+def test_a_file_is_the_committed_one_by_its_bytes(tmp_path):
+    (tmp_path / "figures").mkdir()
+    for name in ("same.png", "other.png", "new.png"):
+        (tmp_path / "figures" / name).write_text(name)
+    digest = hashlib.sha256(b"same.png").hexdigest()
+    lines = [f"{digest}  {name}.png\n" for name in ("same", "other", "gone")]
+    (tmp_path / "figures" / "SHA256SUMS").write_text("".join(lines))
+    for name, words in {
+        "same": "identical to the committed one",
+        "other": "differs from the committed one",
+        "new": "not committed",
+        "gone": "missing",
+    }.items():
+        assert committed_state(tmp_path, f"figures/{name}.png") == words
 
 
 # ---- accept ----

@@ -21,12 +21,16 @@ from .session import CommandLineError
 Wanted = dict[str, tuple[str, list[str]]]
 
 
+def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None:
+    """Raise CommandLineError for the first name that config.yaml does not have."""
+    for name in names:
+        if name not in known:
+            raise CommandLineError(unknown(kind, name, known))
+
+
 def of_scenes(checked: dict[str, Any], variant: str, names: Sequence[str] = ()) -> Wanted:
     """Return the files of the named scenes of a variant, of all without names."""
-    scenes = checked["variants"][variant]
-    for name in names:
-        if name not in scenes:
-            raise CommandLineError(unknown("figure", name, list(scenes)))
+    require_known("figure", names, list(checked["variants"][variant]))
     figures = paths.figures(checked["variants"], variant)
     return {path: made for path, made in figures.items() if not names or made[0] in names}
 

@@ -12,9 +12,7 @@ def run(args: Arguments) -> int:
     variants, hidden = args.checked["variants"], set(config.PUBLISHED) - {config.PAPER}
     known = [name for name in variants if name not in hidden]
     names = [name for name in (args.a, args.b) if name is not None]
-    for name in names:
-        if name not in known:
-            raise CommandLineError(config.unknown("variant", name, known))
+    figures.require_known("variant", names, known)
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(known)}")
     scenes, status = args.figure or list(args.checked["scenes"]), 0

@@ -3,12 +3,11 @@
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
-from ...checks import manifest, published_sets
 from ...checks.freshness import CURRENT, MISSING, Freshness
-from ...checks.published_sets import ChecksumError, PublishedSet, committed_state
+from ...checks.published_sets import PublishedSet, committed_sets, committed_state
 from ...config import PUBLISHED, build_specs, paths
 from ...config.schema import study as parts
-from ...records.differences import columns, differing_block
+from ...records.differences import columns
 from ...records.sources import ROOT
 from ..arguments import Arguments
 
@@ -17,7 +16,7 @@ def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
     variants, sweeps = args.checked["variants"], args.checked["sweeps"]
     freshness = Freshness(ROOT, build_specs.of_all(args.checked))
-    for published_set in published_sets.committed_sets(args.checked):
+    for published_set in committed_sets(args.checked):
         _print(published_set.command, [*_published(freshness, published_set)])
     measured = [parts.drawn(c) for c in parts.CHARTS if parts.CHARTS[c][0] in parts.MEASURED]
     for command, results in (
@@ -36,21 +35,12 @@ def run(args: Arguments) -> int:
 
 
 def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:
-    """Yield scene, file and state of each file of a published set.
-
-    Whether a file is stale follows from its drawing's record or, without one, from the manifest.
-    """
-    try:
-        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
-    except ChecksumError:
-        scenes = {}
+    """Yield scene, file and state of each file of a published set."""
     for name, drawing in published_set.drawn.items():
-        scene, path = PurePath(name).stem, f"{published_set.folder}/{name}"
+        path = f"{published_set.folder}/{name}"
         state, made = committed_state(ROOT, path), freshness.state(drawing)
-        if made == MISSING and scene in scenes:
-            words = differing_block(scenes[scene]["config"], published_set.config[scene])
-            made = f"stale: {words}" if words else MISSING
-        yield scene, path, state if state == MISSING or made in (CURRENT, MISSING) else made
+        known = state == MISSING or made in (CURRENT, MISSING)
+        yield PurePath(name).stem, path, state if known else made
 
 
 def _print(title: str, rows: Sequence[Sequence[str]]) -> None:

@@ -2,20 +2,18 @@
 
 import shutil
 
-from ...config import paths, unknown
+from ...config import paths
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import Arguments
 from ..packages import add_packages
-from ..session import CommandLineError, UsageError, locked
+from ..session import UsageError, locked
 
 
 def run(args: Arguments) -> int:
     """Make the datasets of all sweeps or of the named ones; `atlas` makes pictures too."""
     sweeps, options = args.checked["sweeps"], args.options
-    for name in args.sweep:
-        if name not in sweeps:
-            raise CommandLineError(unknown("sweep", name, list(sweeps)))
+    figures.require_known("sweep", args.sweep, list(sweeps))
     if not sweeps:
         raise UsageError("config.yaml: sweeps: missing, or empty")
     if args.slurm:

@@ -20,6 +20,5 @@ def _variant(args: Arguments) -> str:
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
-    if args.variant not in variants:
-        raise CommandLineError(config.unknown("variant", args.variant, variants))
+    figures.require_known("variant", [args.variant], variants)
     return str(args.variant)
