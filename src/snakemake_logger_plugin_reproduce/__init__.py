@@ -13,6 +13,8 @@ from pipeline.jobs.server import ADDRESS, plan
 from pipeline.records.files import disk_is_full, identity
 from pipeline.records.record import failure
 
+from .cells import Cells
+
 WIDTH = 6  # characters of a scene's name
 
 
@@ -29,6 +31,7 @@ class LogHandler(LogHandlerBase):
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
+        self.cells: Cells | None = None
         threading.Thread(target=_end_with_parent, daemon=True).start()
 
     def emit(self, record: LogRecord) -> None:
@@ -64,8 +67,12 @@ class LogHandler(LogHandlerBase):
     def _print(self, job: int, *words: str) -> None:
         spec = plan().specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
-        line = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        print(line.rstrip(), file=sys.stderr, flush=True)
+        line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
+        if step.startswith("block") and len(words) > 1:  # blocks are many: cells are counted
+            self.cells = self.cells or Cells(plan().specs, plan().outdated)
+            line = self.cells.done(self.results[job])
+        if line:
+            print(line.rstrip(), file=sys.stderr, flush=True)
 
     def _reason(self, result: str) -> str:
         """Return the last line of a failed job's log, or of snakemake's message."""

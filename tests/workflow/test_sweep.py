@@ -12,10 +12,18 @@ from runs import rows
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import sweep
 from pipeline.cli.session import UsageError
+from pipeline.config import build_specs, paths
 from pipeline.records.artifacts import load
+from pipeline.records.build_spec import BuildSpec
 from pseudorigid.sweep import cell
+from snakemake_logger_plugin_reproduce import cells
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+
+
+def specs():
+    """Build specifications of a sweep of six cells."""
+    return build_specs.of_sweeps({"plane": SMALL})
 
 
 @pytest.mark.parametrize(
@@ -30,6 +38,29 @@ def test_a_sweep_that_is_not_in_the_config_is_one_line(name, sweeps, line):
     args = Arguments(sweep=names, slurm=False, options=[], config={"sweeps": sweeps})
     with pytest.raises(UsageError, match=line):
         sweep.run(args)
+
+
+def test_progress_shows_rate_and_time_to_finish(monkeypatch):
+    begin = "sweep: 4 of 10 cells"
+    assert cells.line(10, (6, 600), 1.5) == begin
+    assert cells.line(10, (6, 600), 1.5, (0.0, 9, 900)) == f"{begin}, 2 cells/s, 0 min 3 s to go"
+    done = cells.line(10, (0, 0), 2.0, (0.0, 4, 400))
+    assert done == "sweep: 10 of 10 cells, 2 cells/s"
+    assert cells.line(10, (9, 999_900), 1.0, (0.0, 10, 10**6)).endswith("2 h 46 min to go")
+    # Before the first block the jobs may compile: speed is not measured from that.
+    first, second, third = paths.block_files("plane", SMALL)
+    other = BuildSpec("results/claims/x.nc", "x", "x", {"cells": 24}, "stage", None, [], [])
+    progress = cells.Cells(specs() | {other.result: other}, {second, third, other.result})
+    assert progress.done(second) == "sweep: 4 of 6 cells"
+    assert progress.done(third).startswith("sweep: 6 of 6 cells, ")
+    monkeypatch.setattr(cells, "PAUSE", 1000.0)
+    progress = cells.Cells(specs(), {first, second, third})
+    lines = [progress.done(path) for path in (first, second, third)]
+    assert [line and line.split(",")[0] for line in lines] == [
+        "sweep: 2 of 6 cells",
+        None,
+        "sweep: 6 of 6 cells",
+    ]
 
 
 @pytest.fixture
@@ -67,6 +98,7 @@ def test_damaged_files_alone_are_made_again(tree):
     out = tree.succeed("sweep")
     for name in damaged:
         assert f"results/sweep/{name}: changed after it was made: made again" in out
+    assert "sweep: 6 of 6 cells" in out
     assert rows(out) == {"results/sweep/small.nc": "recomputed"}
     assert hashes(tree) == content
     assert {name for name in before if times(tree)[name] != before[name]} == set(damaged)
