@@ -129,7 +129,7 @@ def test_a_share_outside_its_interval_is_refused(datasets, wrong):
 
 def test_a_number_without_dimensions_is_compared(monkeypatch):
     ours, given = (xr.Dataset({"zero": value}, attrs={"config": "{}"}) for value in (1.0, 2.0))
-    monkeypatch.setattr(soundness, "_made", lambda *_: ours)
+    monkeypatch.setattr(soundness, "recomputed", lambda *_: ours)
     given = given.assign_attrs(k=0.2, g=0.04, energy=ENERGY)
     assert soundness.dataset_error("twist", given) == "its zero[] is 2.0, made again 1.0"
 

@@ -1,7 +1,6 @@
 """The names of results, and the line of each step of a run."""
 
 import logging
-import os
 
 import pytest
 from project import SHIPPED
@@ -93,15 +92,6 @@ def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
     monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
     emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
     assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
-
-
-def test_a_result_that_stays_as_it_was_has_no_seconds(handler, capsys, tmp_path):
-    (tmp_path / DRAWING).parent.mkdir(parents=True)
-    (tmp_path / DRAWING).touch()
-    emit(handler, *begin(f"{DRAWING} (update)"))
-    os.utime(tmp_path / DRAWING)
-    emit(handler, *end(0, 11.0, 1, 2))
-    assert "as it was" in capsys.readouterr().err
 
 
 def test_only_errors_of_the_given_kind_are_one_line():

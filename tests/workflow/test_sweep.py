@@ -10,7 +10,7 @@ from project import fresh_tree, of_scenes, wait_for
 from runs import rows
 
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.commands import sweep
+from pipeline.cli.commands import figures
 from pipeline.cli.session import UsageError
 from pipeline.config import build_specs, paths
 from pipeline.records.artifacts import load
@@ -35,9 +35,10 @@ def specs():
 )
 def test_a_sweep_that_is_not_in_the_config_is_one_line(name, sweeps, line):
     names = [name] if name else []
-    args = Arguments(sweep=names, slurm=False, options=[], config={"sweeps": sweeps})
+    args = Arguments(word="sweep", sweep=names, slurm=False, options=[])
+    args.config = {"sweeps": sweeps}
     with pytest.raises(UsageError, match=line):
-        sweep.run(args)
+        figures.run(args)
 
 
 def test_progress_shows_rate_and_time_to_finish(monkeypatch):
@@ -139,9 +140,10 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
 
 def test_slurm_needs_sbatch(monkeypatch):
     monkeypatch.setenv("PATH", "/nowhere")
-    args = Arguments(sweep=[], slurm=True, options=[], config={"sweeps": {"small": SMALL}})
+    args = Arguments(word="sweep", sweep=[], slurm=True, options=[])
+    args.config = {"sweeps": {"small": SMALL}}
     with pytest.raises(UsageError, match="--slurm: there is no sbatch on this machine"):
-        sweep.run(args)
+        figures.run(args)
 
 
 @pytest.mark.slow

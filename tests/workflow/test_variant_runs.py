@@ -7,7 +7,7 @@ from runs import VARIANTS, contents, rows
 
 from pipeline import config
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.commands import variant
+from pipeline.cli.commands import figures
 from pipeline.cli.session import CommandLineError
 from pipeline.config import build_specs
 from pipeline.records.artifacts import load
@@ -74,7 +74,8 @@ def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
 def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert figures_of(variants, "low") == {"fig3.png", "fig7.png"}
     output = (variants.path / "said of paper and low").read_text()
-    assert [line.split()[0] for line in output.splitlines() if ABSENT in line] == ["fig4", "low:"]
+    named = [line.split()[0] for line in output.splitlines() if ABSENT in line]
+    assert named == ["low/fig4", "low:"]
     assert rows(output) == {}  # what is current is not listed
 
 
@@ -117,7 +118,8 @@ def test_one_figure_of_a_variant_is_drawn_again_as_soon_as_it_can_exist(done):
     ],
 )
 def test_an_unknown_variant_is_one_line(variants, name, line):
-    args = Arguments(variant=name, figure=[], options=[], config=config.load(variants.config))
+    checked = config.load(variants.config)
+    args = Arguments(word="variant", variant=name, figure=[], options=[], config=checked)
     with pytest.raises(CommandLineError) as error:
-        variant.run(args)
+        figures.run(args)
     assert str(error.value) == line

@@ -70,6 +70,7 @@ COMMANDS = {
         "make the figures of a variant of config.yaml, in results/NAME/figures/",
         _name("variant", "a variant of config.yaml", "NAME"),
         _names("figure", _FIGURES),
+        module="figures",
     ),
     "compare": SnakemakeCommand(
         "show what differs between two variants, figure by figure",
@@ -77,10 +78,15 @@ COMMANDS = {
         _name("b", "another one"),
         _names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
     ),
-    "sweep": SnakemakeCommand("compute grids over k and E/g^2, in results/sweep/", *_SWEEPS),
-    "atlas": SnakemakeCommand("draw these grids, in more_figures/atlas/", *_SWEEPS, module="sweep"),
+    "sweep": SnakemakeCommand(
+        "compute grids over k and E/g^2, in results/sweep/", *_SWEEPS, module="figures"
+    ),
+    "atlas": SnakemakeCommand(
+        "draw these grids, in more_figures/atlas/", *_SWEEPS, module="figures"
+    ),
     "study": SnakemakeCommand(
         "compare speed and accuracy with other methods, in more_figures/study/",
+        module="figures",
         details=" Installs the packages of the other methods first (once).",
     ),
     "claims": SnakemakeCommand(
@@ -97,7 +103,7 @@ COMMANDS = {
     ),
     "families": SnakemakeCommand(
         "follow periodic orbits from birth to end: more_figures/families/",
-        module="variant",
+        module="figures",
         details=" Takes minutes; a killed search continues.",
     ),
     "prove": Command(

@@ -8,6 +8,7 @@ from typing import Any
 from ..checks.freshness import MISSING, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import build_specs, paths, unknown
+from ..config.build_specs import with_dependencies
 from ..config.schema.kinds import KINDS
 from ..config.schema.published import FOLDERS, PUBLISHED
 from ..records.differences import columns
@@ -17,8 +18,7 @@ from ..records.sources import ROOT
 from . import running
 from .session import CommandLineError
 
-# File, where users find it -> its scene, and the results that it is made from, its drawing last.
-Wanted = dict[str, tuple[str, list[str]]]
+Wanted = dict[str, str]  # file, where users find it -> its drawing in results
 
 
 def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None:
@@ -31,8 +31,8 @@ def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None
 def of_scenes(checked: dict[str, Any], variant: str, names: Sequence[str] = ()) -> Wanted:
     """Return the files of the named scenes of a variant, of all without names."""
     require_known("figure", names, list(checked["variants"][variant]))
-    figures = paths.figures(checked["variants"], variant)
-    return {path: made for path, made in figures.items() if not names or made[0] in names}
+    figures = paths.figures(checked["variants"], variant).items()
+    return {path: made[-1] for path, (scene, made) in figures if not names or scene in names}
 
 
 def make(
@@ -51,18 +51,17 @@ def make(
     is `brief`. `options` are those for snakemake.
     """
     variants, folder = checked["variants"], FOLDERS.get(group)
-    drawings = {path: upstream[-1] for path, (_, upstream) in wanted.items()}
-    results = [*drawings.values(), *data]
+    results = [*wanted.values(), *data]
     specs = build_specs.of_variants(variants)
     if set(results) - set(specs):
         specs = build_specs.of_all(checked)
-    before = {drawing: identity(drawing) for drawing in drawings.values()}
+    before = {drawing: identity(drawing) for drawing in wanted.values()}
 
-    def blocks(files: Iterable[str]) -> dict[str, Any]:
-        scenes = {wanted[path][0] for path in files}
+    def blocks(drawings: Iterable[str]) -> dict[str, Any]:
+        scenes = {PurePath(path).stem for path in drawings}
         return {name: block for name, block in variants.get(group, {}).items() if name in scenes}
 
-    notes = [*_hidden(blocks(wanted))]
+    notes = [*_hidden(blocks(wanted.values()))]
     status = running.make(checked, Freshness(ROOT, specs), results, options)
     if running.is_dry_run(options) or status == running.INTERRUPTED:
         print(*notes, sep="\n", end="\n" * bool(notes))
@@ -73,27 +72,31 @@ def make(
     if refused and refused == outdated.keys():
         status = int(bool(folder))
     states = {}
-    for path, (_, upstream) in wanted.items():
-        drawing, state = drawings[path], "recomputed"
+    for path, drawing in wanted.items():
+        state = "recomputed"
         if drawing in refused:
             state = outdated[drawing]
             for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
                 (ROOT / old).unlink(missing_ok=True)
         elif drawing in outdated:
-            state = _failed(upstream, outdated[drawing])
+            state = _failed(with_dependencies(specs, [drawing]), outdated[drawing])
         elif identity(drawing) == before[drawing]:
             state = "current"
         states[path] = state
-    good = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
+    good = {path: drawing for path, drawing in wanted.items() if drawing not in outdated}
     for path, reason in _publish(good).items():
         states[path], status = f"not published: {reason}", status or 1
-    notes += _missed_impacts(paths.artifact_paths(variants), group, blocks(good))
+    notes += _missed_impacts(paths.artifact_paths(variants), group, blocks(good.values()))
     if group in PUBLISHED:
         figures = paths.figures(variants, group)
         notes += unlisted_files(ROOT, str(folder), [PurePath(path).name for path in figures])
-    shown = {path: state for path, state in states.items() if not (brief and state == "current")}
-    if shown:
-        _print_table(folder, wanted, shown, notes)
+    rows = [
+        (specs[wanted[path]].scene, path, state)
+        for path, state in states.items()
+        if not (brief and state == "current")
+    ]
+    if rows:
+        _print_table(folder, rows, notes)
     return status
 
 
@@ -105,16 +108,16 @@ def _failed(upstream: list[str], reason: str) -> str:
 
 
 def _print_table(
-    folder: str | None, wanted: Wanted, states: Mapping[str, str], notes: Iterable[str]
+    folder: str | None, states: Iterable[tuple[str, str, str]], notes: Iterable[str]
 ) -> None:
     """Print scene and state of each file, compared with the commit in a `folder`, and notes."""
     rows = []
-    for path, state in states.items():
+    for scene, path, state in states:
         size = compared = ""
         if state in ("current", "recomputed"):
             size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB"
             compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
-        rows.append((wanted[path][0], path, size, state, compared))
+        rows.append((scene, path, size, state, compared))
     head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
     print("", *columns([head, *rows]), *notes, sep="\n")
 

@@ -67,7 +67,7 @@ def _differ(ours: Any, given: Any) -> bool:
 
 def _recompute(stage: str, dataset: xr.Dataset) -> str | None:
     """Return what differs from the dataset that a stage makes of the same config, or None."""
-    ours = _made(stage, *_ball(dataset), dataset.attrs["config"])
+    ours = recomputed(stage, *_ball(dataset), dataset.attrs["config"])
     surplus = dataset.attrs.keys() - ours.attrs.keys() - SAVED_ATTRIBUTES
     if surplus := surplus | set(dataset.variables) - set(ours.variables):
         return f"it has {', '.join(sorted(map(str, surplus)))}, which its stage does not make"
@@ -86,7 +86,7 @@ def _recompute(stage: str, dataset: xr.Dataset) -> str | None:
 
 
 @cache
-def _made(stage: str, ball: Ball, energy: float, config: str) -> xr.Dataset:
+def recomputed(stage: str, ball: Ball, energy: float, config: str) -> xr.Dataset:
     """Compute the dataset of a stage from a config, given as JSON."""
     if stage == "derivations":
         dataset: xr.Dataset = derivations(ball, energy)
@@ -94,7 +94,7 @@ def _made(stage: str, ball: Ball, energy: float, config: str) -> xr.Dataset:
     block, row = json.loads(config), STAGES[stage]
     if not isinstance(block, dict):
         raise ValueError("its config is no mapping")
-    inputs = [_made(name, ball, energy, config) for name in row.inputs]
+    inputs = [recomputed(name, ball, energy, config) for name in row.inputs]
     fields = {name: block[name] for name in row.fields if name in block}
     function = getattr(import_module(row.module), row.function)
     method = block.get("method", {}) if row.follows else {}

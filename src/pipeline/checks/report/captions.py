@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 import jinja2
 
+from ...config.schema.kinds import KINDS
+
 CAPTIONS = tomllib.loads(Path(__file__).with_name("captions.toml").read_text(encoding="utf-8"))
 
 
@@ -22,7 +24,8 @@ def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
     """Return the caption of a complete scene or sweep, or of a chart, which has no block."""
     block = block or {}
     if "picture" in block:
-        texts = CAPTIONS["kinds"][block["picture"]]
+        kind = block["picture"]
+        texts = {"title": KINDS[kind].__doc__} | CAPTIONS["kinds"][kind]
     elif "k" in block:
         kind = "chains" if "chains" in block else "line" if len(block["k"]) == 1 else "plane"
         texts = CAPTIONS["sweeps"][kind]
