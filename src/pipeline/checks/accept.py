@@ -6,13 +6,7 @@ from typing import Any
 from ..records.files import read_bytes, write_whole
 from . import manifest
 from .difference import UPSTREAM
-from .published_sets import (
-    SUMS,
-    ChecksumError,
-    committed_sets,
-    format_sums,
-    read_published_text,
-)
+from .published_sets import SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 
 
@@ -49,11 +43,11 @@ def _renew(root: Path, findings: Findings) -> None:
     fresh = manifest.build(root, published_set)
     try:
         committed = manifest.read(root, folder)
-        sums = read_published_text(root, f"{folder}/{SUMS}")
+        unchanged = fresh == committed and manifest.is_listed(root, folder, fresh)
     except ChecksumError as error:
         changes = [f"a new manifest ({error})"]
     else:
-        if fresh == committed and sums == format_sums(manifest.sums(fresh)):
+        if unchanged:
             print(f"{folder}: nothing changed")
             return
         changes = _changes(root, findings, committed) or ["other changes behind the same pictures"]

@@ -4,6 +4,7 @@ Nothing is computed here: both variants must have their results.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont, ImageOps
@@ -37,10 +38,12 @@ def compare(
         if len(present) == len(names):
             lines += _data_differences(root, variants, names, scene)
         image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
-        image.unlink(missing_ok=True)
         if present:
             _side_by_side({name: present.get(name) for name in names}, image)
             lines.append(f"side by side: {image.relative_to(root)}")
+        else:
+            with suppress(OSError):
+                image.unlink()  # left by an earlier comparison
         print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
 
 

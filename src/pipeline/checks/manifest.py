@@ -17,13 +17,7 @@ from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .published_sets import (
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    format_sums,
-    read_published_text,
-)
+from .published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_published_text
 
 MANIFEST = "MANIFEST.json"
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
@@ -140,6 +134,11 @@ def sums(manifest: Manifest) -> dict[str, str]:
     """Return file name -> sha256, sorted by name."""
     figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
     return {name: entry["sha256"] for name, entry in sorted(figures)}
+
+
+def is_listed(root: Path, folder: str, manifest: Manifest) -> bool:
+    """Return whether a folder's checksum list is that of a manifest; raises ChecksumError."""
+    return read_published_text(root, f"{folder}/{SUMS}") == format_sums(sums(manifest))
 
 
 def write(root: Path, folder: str, manifest: Manifest) -> None:

@@ -14,14 +14,7 @@ from ..records.files import file_hash, obstacle
 from . import manifest
 from .difference import UPSTREAM, Comparison
 from .freshness import MISSING, Freshness
-from .published_sets import (
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    committed_sets,
-    format_sums,
-    read_published_text,
-)
+from .published_sets import SUMS, ChecksumError, PublishedSet, committed_sets
 
 NEW = "new: ./reproduce accept adds it to the manifest"
 
@@ -135,7 +128,7 @@ def inspect(root: Path, published_set: PublishedSet) -> Findings:
         # the committed one too, whatever its record says.
         findings.forged = comparison.unexplained()
         findings.problems += _other_files(root, published_set, committed)
-        if read_published_text(root, f"{folder}/{SUMS}") != format_sums(manifest.sums(committed)):
+        if not manifest.is_listed(root, folder, committed):
             findings.problems.append(f"{folder}/{SUMS}: is not as {manifest.MANIFEST} has it")
     except ChecksumError as error:
         findings.problems.append(str(error))

@@ -41,7 +41,7 @@ class Command:
 
 
 # Options that such a command does not know go to snakemake.
-SnakemakeCommand = partial(Command, runs_snakemake=True)
+SnakemakeCommand = partial(Command, runs_snakemake=True, module="figures")
 
 
 def _names(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":
@@ -70,23 +70,18 @@ COMMANDS = {
         "make the figures of a variant of config.yaml, in results/NAME/figures/",
         _name("variant", "a variant of config.yaml", "NAME"),
         _names("figure", _FIGURES),
-        module="figures",
     ),
     "compare": SnakemakeCommand(
         "show what differs between two variants, figure by figure",
         _name("a", "a variant of config.yaml, or paper"),
         _name("b", "another one"),
         _names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
+        module="compare",
     ),
-    "sweep": SnakemakeCommand(
-        "compute grids over k and E/g^2, in results/sweep/", *_SWEEPS, module="figures"
-    ),
-    "atlas": SnakemakeCommand(
-        "draw these grids, in more_figures/atlas/", *_SWEEPS, module="figures"
-    ),
+    "sweep": SnakemakeCommand("compute grids over k and E/g^2, in results/sweep/", *_SWEEPS),
+    "atlas": SnakemakeCommand("draw these grids, in more_figures/atlas/", *_SWEEPS),
     "study": SnakemakeCommand(
         "compare speed and accuracy with other methods, in more_figures/study/",
-        module="figures",
         details=" Installs the packages of the other methods first (once).",
     ),
     "claims": SnakemakeCommand(
@@ -99,11 +94,11 @@ COMMANDS = {
                 "help": "judge it by this file instead of the dataset NAME (such as fig2/orbits)",
             },
         ),
+        module="claims",
         details=" Makes missing results first, including the sweeps.",
     ),
     "families": SnakemakeCommand(
         "follow periodic orbits from birth to end: more_figures/families/",
-        module="figures",
         details=" Takes minutes; a killed search continues.",
     ),
     "prove": Command(
@@ -115,7 +110,8 @@ COMMANDS = {
         details=" The exit status is 1 if one is not proved.",
     ),
     "report": SnakemakeCommand(
-        "write one HTML page: figures, numbers beside the paper's, corrections, run times"
+        "write one HTML page: figures, numbers beside the paper's, corrections, run times",
+        module="report",
     ),
     "explore": Command(
         "write a page that computes orbits in a browser, with the same bits, and open it",

@@ -22,7 +22,7 @@ def main(words: list[str]) -> int:
     os.chdir(ROOT)
     set_environment()
     command = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
-    name = command.module or args.word or "figures"
+    name = command.module or args.word
     try:
         module = importlib.import_module(f".commands.{name}", __package__)
         return int(module.run(args))

@@ -19,7 +19,8 @@ def run(args: Arguments) -> int:
     with locked():
         for name in names:
             files = figures.of_scenes(args.checked, name, scenes)
-            status |= figures.make(args.checked, name, files, args.options, brief=True)
+            made = figures.make(args.checked, name, files, args.options, brief=True)
+            status = made or status
             if status == running.INTERRUPTED:
                 return status
         if not running.is_dry_run(args.options):
