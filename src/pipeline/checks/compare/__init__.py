@@ -1,0 +1,64 @@
+"""Comparison of two variants, figure by figure: ./reproduce compare A B.
+
+Nothing is computed here: both variants must have their results.
+"""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import xarray as xr
+
+from ...config import paths
+from ...config.build_specs import of_variants
+from ...config.schema.fields import YamlMapping
+from ...records.artifacts import load
+from ...records.differences import brief, differing_keys
+from ..freshness import CURRENT, Freshness
+from . import cycles, picture, summaries
+
+
+def compare(
+    root: Path, variants: paths.Variants, names: Sequence[str], scenes: Sequence[str]
+) -> None:
+    """Print what differs between two variants and save their figures side by side."""
+    files = paths.artifact_paths(variants)
+    freshness = Freshness(root, of_variants(variants, names))
+    print(" | ".join(names))
+    print(f"(a periodic orbit further than {cycles.REACH:g} section radii away counts as another)")
+    for scene in scenes:
+        blocks = [variants[name][scene] for name in names]
+        drawings = {name: paths.drawn(scene, "png", name) for name in names}
+        states = {name: freshness.state(path) for name, path in drawings.items()}
+        lines = [*_config_differences(*blocks)]
+        lines += [f"{name}: {state}" for name, state in states.items() if state != CURRENT]
+        for stage in paths.stages(blocks[0]):
+            results = [files[name, scene, stage] for name in names]
+            if all(freshness.state(result) == CURRENT for result in results):
+                first, second = (load(root / result) for result in results)
+                texts = _stage_differences(stage, first, second, names)
+                lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
+        image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
+        image.unlink(missing_ok=True)
+        if CURRENT in states.values():
+            present = {n: root / p if states[n] == CURRENT else None for n, p in drawings.items()}
+            picture.side_by_side(present, image)
+            lines.append(f"side by side: {image.relative_to(root)}")
+        print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
+
+
+def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:
+    """Yield a line for each key of the config that differs, except derived axes."""
+    before, after = (paths.drawing(block) | {"axes": None} for block in (first, second))
+    keys = differing_keys(before, after)
+    yield from [f"{key}: {brief(a)} | {brief(b)}" for key, a, b in keys] or ["the same config"]
+
+
+def _stage_differences(
+    stage: str, first: xr.Dataset, second: xr.Dataset, names: Sequence[str]
+) -> list[str]:
+    """Describe how the two datasets of a stage differ."""
+    if stage == "periodic":
+        return cycles.table(first, second, names)
+    lines = [summaries.norms(first, second)]
+    lines += summaries.orbits(first, second) if stage == "orbits" else []
+    return lines + (summaries.exponents(first, second, names) if stage == "lyapunov" else [])
