@@ -8,19 +8,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from project import SHIPPED
 
-from pipeline import config
 from pipeline.checks import claims
 from pipeline.checks.claims import VERDICTS, chaos, schema
 from pipeline.checks.claims.schema import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from pipeline.cli.commands import claims as claim_verdicts
 from pipeline.cli.session import UsageError
-from pipeline.config import paths
+from pipeline.config import ConfigError, paths
 from pipeline.records.sources import ROOT
 from pseudorigid import Ball
 from pseudorigid.proofs import THEOREMS
-from pseudorigid.proofs.derivations import FORMULAS
 
 PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's text
 ALL = range(1, 73)
@@ -290,27 +287,64 @@ def test_what_is_no_list_of_verdicts_is_refused(text):
         claims.read_json(text)
 
 
-def test_each_claim_is_whole_and_names_what_exists():
-    formulas = {name for names in FORMULAS.values() for name in names}
-    for claim in claims.CLAIMS.values():
-        assert bool(claim.quote) != bool(claim.paraphrase)
-        assert sum(map(bool, (claim.check, claim.formulas, claim.verdict))) == 1
-        assert not claim.formulas or claim.data == ["derivations"]
-        assert {*claim.theorems} <= {*paths.THEOREMS} and {*claim.formulas} <= formulas
-    claim_verdicts.dataset_paths(config.load(SHIPPED))  # raises an error for an unknown name
-    assert claims.CHECKS.keys() == {claim.check for claim in claims.CLAIMS.values()} - {""}
+# Lines of claims.toml with a mistake: line -> (another, how the message begins).
+MISTAKES = {
+    'place = "2.1"\n': {
+        'plase = "2.1"\n': "claims.1.place: Field required",
+        "place = 2.1\n": "claims.1.place: Input should be a valid string",
+    },
+    "[claims.2]": {
+        "[claims.two]": "claims.two.[key]: Input should be a valid integer",
+        "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",
+    },
+    '"fig2/orbits"': {
+        '"fig2/orbit"': "claims.4.data[1]: 'orbit' is not known: did you mean orbits?"
+    },
+    '["uncoupled"]': {'["couple"]': "claims.1.formulas[0]: 'couple' is not known: did you mean un"},
+    '"twist-zero"': {
+        '"twist-zer"': "claims.49.theorems[1]: 'twist-zer' is not known: did you mean twist-zero?"
+    },
+    'check = "model.homogeneous"\n': {
+        'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
+        "": "claims.4: expected one of check, formulas and verdict",
+        'quote = "x"\nverdict = "holds"\n': "Cannot overwrite a value",
+        'paraphrase = "x"\n': "claims.4: expected either quote or paraphrase",
+    },
+    'verdict = "holds"': {'verdict = "hold"': "claims.72.verdict: Input should be 'does not hold'"},
+    'data = ["derivations"]': {
+        'data = ["atlas/line"]': "claims.1: formulas are in one dataset: expected d"
+    },
+    '"undecided" =': {'"unsettled" =': "verdicts.unsettled.[key]: Input should be 'does not hold'"},
+}
+
+
+@pytest.mark.parametrize(("text", "other"), [(a, b) for a in MISTAKES for b in MISTAKES[a]])
+def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other):
+    assert text in claims.TEXT
+    with pytest.raises(ConfigError) as error:
+        schema.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
+    assert error.value.lines[0].startswith(f"claims.toml: {MISTAKES[text][other]}")
+
+
+def test_every_check_and_every_verdict_is_used():
+    assert claims.CHECKS.keys() <= {claim.check for claim in claims.CLAIMS.values()}
     assert set(VERDICTS) == set(schema.VERDICT_WORDS)
-
-
-def test_a_misspelt_field_of_a_claim_is_refused():
-    with pytest.raises(ValueError, match="plase"):
-        schema.Claim(place="1", value="x", plase="1")
 
 
 def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
     monkeypatch.setattr(claims, "required_datasets", lambda: ["fig22/orbits"])
     with pytest.raises(UsageError, match=r"^config.yaml: no scene makes fig22/orbits"):
         claim_verdicts.dataset_paths({"variants": {}, "sweeps": {}})
+
+
+@pytest.mark.parametrize(
+    ("value", "wrong"),
+    [("{shel}", "no number 'shel'"), ("{shell", "expected '}'"), ("{shell:y}", "Unknown format")],
+)
+def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
+    claim = claims.CLAIMS[3].model_copy(update={"value": value})
+    with pytest.raises(ConfigError, match=f"^claims.toml: claims.3: {wrong}"):
+        claim.judge(datasets, {})
 
 
 # -- what single rows say -------------------------------------------------------------------------

@@ -4,7 +4,6 @@ CLAIMS.json has the verdicts as data, and CLAIMS.md is rendered from it.
 """
 
 import json
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from inspect import getmembers, isfunction
@@ -23,12 +22,9 @@ CHECKS = {
     for name, function in getmembers(module, isfunction)
     if function.__module__ == module.__name__ and not name.startswith("_")
 }
-DOCUMENT = schema.Document.model_validate(
-    tomllib.loads(Path(__file__).with_name("claims.toml").read_text(encoding="utf-8"))
-)
+TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
+DOCUMENT = schema.load(TEXT, CHECKS)
 CLAIMS, VERDICTS = DOCUMENT.claims, DOCUMENT.verdicts
-for number, claim in CLAIMS.items():
-    claim.number, claim.function = number, CHECKS[claim.check] if claim.check else None
 _ROWS = TypeAdapter(list[Verdict])
 
 

@@ -1,12 +1,20 @@
 """The form of claims.toml, what a claim and its verdict are, and what the checks share."""
 
-from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal, NamedTuple, get_args
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from typing import Annotated, Any, Literal, NamedTuple, Self, get_args
 
 import numpy as np
 import xarray as xr
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
+
+from pseudorigid.proofs.derivations import FORMULAS
+
+from ...config import ConfigError, paths
+from ...config.schema.stages import STAGES
+from ...config.validation.words import dotted
+from ...records.names import suggestion
 
 VerdictWord = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
 VERDICT_WORDS = get_args(VerdictWord)
@@ -49,6 +57,30 @@ class Verdict:
     datasets: list[str]
 
 
+def _hint(name: str, known: Iterable[str]) -> str:
+    hint = suggestion(name, known) or f"known are {', '.join(known)}"
+    return f"{name!r} is not known: {hint}"
+
+
+def _one_of(known: Iterable[str]) -> AfterValidator:
+    """Return a validator of names. In the name of a dataset, only the stage counts."""
+    names = [*known]
+
+    def checked(name: str) -> str:
+        folder, _, own = name.rpartition("/")
+        if own not in names and folder != "atlas":
+            raise ValueError(_hint(own, names))
+        return name
+
+    return AfterValidator(checked)
+
+
+_Dataset = Annotated[str, _one_of([*STAGES, "derivations"])]
+_Theorem = Annotated[str, _one_of(paths.THEOREMS)]
+_Formula = Annotated[str, _one_of(name for names in FORMULAS.values() for name in names)]
+_Part = Annotated[list[str], Field(min_length=1, max_length=2)]
+
+
 class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -69,19 +101,29 @@ class Claim(_Table):
 
     number: int = 0
     place: Text
-    quote: str = ""
-    paraphrase: str = ""
-    data: list[str] = []
-    theorems: list[str] = []
-    check: str = ""
+    quote: Text = ""
+    paraphrase: Text = ""
+    data: list[_Dataset] = []
+    theorems: list[_Theorem] = []
+    check: Text = ""
     function: Callable[..., Outcome] | None = None
-    formulas: list[str] = []
+    formulas: list[_Formula] = []
     verdict: VerdictWord | None = None
-    value: Text
-    error: str = ""
-    evidence: str = ""
-    parts: dict[str, list[str]] = {}
+    value: Text = ""
+    error: Text = ""
+    evidence: Text = ""
+    parts: dict[str, _Part] = {}
     cases: dict[str, Case] = {}
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if bool(self.quote) == bool(self.paraphrase):
+            raise ValueError("expected either quote or paraphrase")
+        if sum(map(bool, (self.check, self.formulas, self.verdict))) != 1:
+            raise ValueError("expected one of check, formulas and verdict")
+        if self.formulas and self.data != ["derivations"]:
+            raise ValueError('formulas are in one dataset: expected data = ["derivations"]')
+        return self
 
     @property
     def statement(self) -> str:
@@ -90,7 +132,14 @@ class Claim(_Table):
         return quoted if self.quote else self.paraphrase
 
     def judge(self, datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> Verdict:
-        """Return the verdict on the claim; `proofs` maps theorems to "proved" or another word."""
+        """Return the verdict on the claim; `proofs` maps theorems to "proved" or another word.
+
+        Raises ValueError if a dataset is missing, and ConfigError if a sentence asks for a number
+        that the check does not give.
+        """
+        missing = [name for name in self.data if name not in datasets]
+        if missing:
+            raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
         inputs: list[Any] = [datasets[name] for name in self.data]
         if self.theorems:
             inputs.append({name: proofs.get(name) == PROVED for name in self.theorems})
@@ -102,9 +151,13 @@ class Claim(_Table):
             outcome = derived(*inputs, *self.formulas)
         sentences = self.cases[outcome.case] if outcome.case else self
         numbers = dict(outcome.numbers)
-        for name in (name for name in self.parts if name in numbers):
-            numbers[name] = _part(self.parts[name], numbers[name], numbers)
-        value, error = (text.format_map(numbers) for text in (sentences.value, sentences.error))
+        try:
+            for name in (name for name in self.parts if name in numbers):
+                numbers[name] = _part(self.parts[name], numbers[name], numbers)
+            value, error = (s.format_map(numbers) for s in (sentences.value, sentences.error))
+        except (LookupError, ValueError) as mistake:
+            wrong = f"no number {mistake}" if isinstance(mistake, KeyError) else str(mistake)
+            raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
         return Verdict(
             self.number, self.place, self.statement, outcome.verdict, value, error, self.evidence,
             self.data,
@@ -124,6 +177,26 @@ class Document(_Table):
     head: Text
     verdicts: dict[VerdictWord, Text]
     claims: dict[Annotated[int, Field(strict=False)], Claim]
+
+
+def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> Document:
+    """Read claims.toml; `checks` are the functions by name.
+
+    Raises ConfigError with a line for each mistake.
+    """
+    try:
+        document = Document.model_validate(tomllib.loads(text))
+        for number, claim in document.claims.items():
+            claim.number, claim.function = number, checks.get(claim.check)
+            if claim.check and claim.function is None:
+                raise ValueError(f"claims.{number}.check: {_hint(claim.check, checks)}")
+    except ValidationError as error:
+        lines = [f"{dotted(each['loc'])}: {each['msg']}" for each in error.errors()]
+    except ValueError as error:
+        lines = [str(error)]
+    else:
+        return document
+    raise ConfigError(*(f"claims.toml: {line.replace('Value error, ', '')}" for line in lines))
 
 
 def outcome_of(holds: object, proved: bool = False, /, **numbers: Any) -> Outcome:
