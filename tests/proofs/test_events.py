@@ -5,14 +5,13 @@ from fractions import Fraction
 
 import mpmath
 import pytest
-from certificates import refused, with_bounds, with_field
+from certificates import refused, with_field
 from flint import arb, ctx
 from independent_solver import exact_map
 
 from pseudorigid.dynamics.fixed_point import resonance
 from pseudorigid.proofs import THEOREMS
 from pseudorigid.proofs.checks import events
-from pseudorigid.proofs.search import events as event_search
 
 CHECKERS = (events.check_resonance, events.check_doubling, events.check_grazing)
 EVENTS = [name for name, theorem in THEOREMS.items() if theorem.checker in CHECKERS]
@@ -190,17 +189,6 @@ def test_a_resonance_of_which_theta_is_wide_or_shifted_is_refused():
 )
 def test_a_stronger_or_another_statement_is_not_proved(name, bound, value, reason):
     assert reason in refused(name, **{bound: value})
-
-
-def test_a_consistent_certificate_of_another_ball_is_refused():
-    """It proves its own statement, and not the theorem's."""
-    theorem = THEOREMS["six-inverse-birth"]
-    ball = {"k": Fraction(1, 5), "g": Fraction(1, 20)}
-    energy = str(float(Fraction("0.009682501945") * Fraction(25, 16)))
-    other = with_bounds(theorem, **ball, energies=(Fraction("0.015"), Fraction("0.0152")))
-    text = event_search.propose_grazing(other, [energy])
-    assert other.check(text).verdict == "proved"
-    assert "the certificate is of g" in refused("six-inverse-birth", text)
 
 
 def test_a_flight_that_meets_the_floor_before_its_apex_is_no_half_orbit():

@@ -17,9 +17,6 @@ from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.proofs import THEOREMS, Surface, search_certificate
 from pseudorigid.proofs.checks import jump, periodic
 from pseudorigid.proofs.enclosure.fixed_point import energy_at, slope_at, trace_at
-from pseudorigid.proofs.search import approximate_orbits
-from pseudorigid.proofs.search.periodic import polished
-from pseudorigid.proofs.search.twist import estimate
 from pseudorigid.proofs.theorems.statements import theorem_verdict
 
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
@@ -102,14 +99,9 @@ def test_the_closed_form_of_the_trace_is_that_of_the_enclosed_map(energy):
         rows, image = surface.jacobian(*point)
         assert abs(image.x - point[0]) < arb("1e-40")
         assert abs(rows[0][0] + rows[1][1] - trace_at(k, theta)) < arb("1e-25")
-
-
-def test_the_trace_falls_as_steeply_as_differences_say():
-    with ctx.workprec(200):
-        k, step = arb(1) / 5, arb(2) ** -60
-        for theta in (arb("1.6"), arb("2.0"), arb("2.3")):
-            slope = (trace_at(k, theta + step) - trace_at(k, theta - step)) / (2 * step)
-            assert abs(slope - slope_at(k, theta)) < arb("1e-30")
+        step = arb(2) ** -60
+        slope = (trace_at(k, theta + step) - trace_at(k, theta - step)) / (2 * step)
+        assert abs(slope - slope_at(k, theta)) < arb("1e-30")
 
 
 def frequency(energy, fixed, frame, q):
@@ -194,16 +186,6 @@ def test_the_entropy_solves_its_equation(results):
         loop = THEOREMS[name].prove().parts["loop"]
         entropy = float(middle(results[name].digits["entropy"]))
         assert np.exp(-6 * entropy) + np.exp(-loop * entropy) == pytest.approx(1, abs=1e-12)
-
-
-@pytest.mark.parametrize("name", ["twist-six", "twist-ten", "twist-twelve"])
-def test_the_closed_formula_and_the_normal_form_give_one_twist(name):
-    theorem = THEOREMS[name]
-    surface, period = theorem.bounds["surface"], theorem.bounds["period"]
-    proved = theorem.prove().digits["twist"]
-    with ctx.workprec(160):
-        points = polished(surface, approximate_orbits.points(surface, period, "elliptic"))
-        assert abs(estimate(surface, points) - proved) < arb("1e-25")
 
 
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
