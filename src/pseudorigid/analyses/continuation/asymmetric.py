@@ -91,10 +91,11 @@ class AsymmetricOrbits(PeriodicOrbits):
     point. So their errors grow like the square root of the orbit's multiplier.
     """
 
-    total_time = TOTAL
+    total_time, lowest_speed = TOTAL, SLOWEST
 
     def __init__(self, period: int, parameter: Parameter):
         super().__init__(NO_LINE, period, parameter)
+        self.flights = slice(FLIGHTS, FLIGHTS + period)
 
     def point(self, place: Place) -> Point | None:
         """Return the orbit from a place (X, Y, parameter), or None beyond the section."""
@@ -112,7 +113,7 @@ class AsymmetricOrbits(PeriodicOrbits):
         gradients = tuple(map(tuple, (ahead - back)[:, :3].tolist()))
         defect = tuple((ahead - back)[:, 3].tolist())
         matrix = out[:4] / math.sqrt(np.sum(out[:4] * out[:4]))
-        guard = np.concatenate((matrix, out[FLIGHTS : FLIGHTS + self.period]))
+        guard = np.concatenate((matrix, out[self.flights]))
         orbit = self.orbit(out)
         mirrored = orbit * _MIRROR
         index = np.arange(self.period)
@@ -166,14 +167,6 @@ class AsymmetricOrbits(PeriodicOrbits):
         out = np.empty((times.size, 2))
         flight_heights(*state_at(k, rho, *at), k, 0.0, False, times, near, out)
         return out
-
-    def times(self, data: np.ndarray) -> np.ndarray:
-        """Return the times of flight in a point's data."""
-        return data[FLIGHTS : FLIGHTS + self.period].copy()
-
-    def lowest_speed(self, point: Point) -> float:
-        """Return the lowest contact speed, in units where g = 1."""
-        return float(point.data[SLOWEST])
 
     def orbit(self, data: np.ndarray) -> np.ndarray:
         """Return the points (period, 2) of an orbit, in section radii, in a point's data."""

@@ -51,7 +51,7 @@ def grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
     It is a touch, where a flight meets the floor without an impact and is solved for, or at the
     rim, where the speed of an impact vanishes.
     """
-    speed, times = system.lowest_speed(last), system.times(last.data)
+    speed, times = system.speed(last), system.times(last.data)
     heights = system.heights(last.place, times, np.full(times.size, np.nan))
     touching = not np.all(np.isnan(heights[:, 1]))
     flight = int(np.nanargmax(heights[:, 1])) if touching else -1
@@ -113,18 +113,19 @@ def _touch(
             if not _is_next_to(place, last):
                 return None
         # The largest gradients, times the rounding of the place, are the rounding of the values.
-        if not least < max(1e-11, _ROUNDING * sum(abs(x) for row in columns for x in row)):
+        scales = [max(1.0, abs(z)) for z in best]
+        sizes = sum(z * abs(x) for z, row in zip(scales, columns, strict=True) for x in row)
+        if not least < max(1e-11, _ROUNDING * sizes):
             return None
     if not _is_next_to(best, last):
         return None
-    data, _ = system.tracked(best, times)
-    return End(
-        "touch", best[-1], best[0], impact=flight, point=last._replace(place=best, data=data)
-    )
+    point = last._replace(place=best, data=system.tracked(best, times)[0])
+    return End("touch", point.p, point.q, impact=flight, point=point)
 
 
 def _is_next_to(place: Place, last: Point) -> bool:
-    return all(abs(a - b) < _FAR for a, b in zip(place, last.place, strict=True))
+    pairs = zip(place, last.place, strict=True)
+    return all(abs(a - b) < _FAR * max(1.0, abs(b)) for a, b in pairs)
 
 
 def entered(system: AsymmetricOrbits, place: Place) -> Point | None:

@@ -76,7 +76,10 @@ def lines(period: int) -> tuple[int, ...]:
 class PeriodicOrbits:
     """Orbits of one period, as a `System` of `curve`: what symmetric and other ones share."""
 
-    total_time: int  # entry of a point's data
+    # Parts of a point's data: the total time, the lowest contact speed, and the times of flight.
+    total_time: int
+    lowest_speed: int
+    flights: slice
 
     def __init__(self, line: int, period: int, parameter: Parameter):
         self.line, self.period, self.parameter = line, period, parameter
@@ -87,6 +90,14 @@ class PeriodicOrbits:
     def time(self, point: Point) -> float:
         """Return the total time of the orbit."""
         return float(point.data[self.total_time])
+
+    def speed(self, point: Point) -> float:
+        """Return the lowest contact speed, in units where g = 1."""
+        return float(point.data[self.lowest_speed])
+
+    def times(self, data: np.ndarray) -> np.ndarray:
+        """Return the times of flight in a point's data."""
+        return data[self.flights].copy()
 
     def separation(self, point: Point) -> float:
         """Return how far the orbit is from a shorter or more symmetric one, in section radii."""
@@ -102,12 +113,12 @@ class PeriodicOrbits:
 class Orbits(PeriodicOrbits):
     """Symmetric orbits of one period from one symmetry line. A place is (q, parameter)."""
 
-    total_time = TIME
+    total_time, lowest_speed = TIME, LOWEST_SPEED
 
     def __init__(self, line: int, period: int, parameter: Parameter):
         super().__init__(line, period, parameter)
         flights = half_length(line, period) + line + (1 if period % 2 else line)
-        self._times = slice(TIMES, TIMES + flights)
+        self.flights = slice(TIMES, TIMES + flights)
         self._places = slice(PLACES, PLACES + 2 * (period // 2 + 1))
 
     def point(self, place: Place) -> Point | None:
@@ -123,7 +134,7 @@ class Orbits(PeriodicOrbits):
         ratio = math.sqrt(k * (1.0 + k))  # y/x of the section
         b, c = b * ratio, c / ratio
         size = math.sqrt(a * a + b * b + c * c + d * d)
-        guard = np.concatenate(([a / size, b / size, c / size, d / size], out[self._times]))
+        guard = np.concatenate(([a / size, b / size, c / size, d / size], out[self.flights]))
         # In section radii, so that the vectors do not turn when the section grows.
         places = out[self._places].reshape(-1, 2) * np.array([k / rho, k / (rho * ratio)])
         apart = tuple((places[d:] - places[:-d]).ravel() for d in self.divisors)
@@ -147,14 +158,6 @@ class Orbits(PeriodicOrbits):
         to_apex = self.period % 2 == 1 or self.line == FIX_RP
         flight_heights(x, v, w, k, depth, to_apex, times, near, out)
         return out
-
-    def times(self, data: np.ndarray) -> np.ndarray:
-        """Return the times of flight along the half orbit from a point's data."""
-        return data[self._times].copy()
-
-    def lowest_speed(self, point: Point) -> float:
-        """Return the lowest contact speed, in units where g = 1."""
-        return float(point.data[LOWEST_SPEED])
 
     def trace(self, point: Point) -> float:
         """Return the trace of the whole orbit's Jacobian in canonical coordinates."""
