@@ -6,7 +6,7 @@ import pytest
 from pseudorigid import Ball
 from pseudorigid.analyses.families import families
 from pseudorigid.sweep.cell import cell
-from pseudorigid.sweep.shares import elliptic_orbits, extrema, shares
+from pseudorigid.sweep.shares import causes, elliptic_orbits, extrema, shares
 
 BALL, SPAN = Ball(0.2, 0.04), [0.0075, 0.0095]
 
@@ -58,8 +58,6 @@ def test_extrema_stand_out_from_their_intervals():
 
 def test_nothing_is_a_cause_for_lying_near():
     """A chain that does not account for half of the change is no cause, whatever its events."""
-    from pseudorigid.sweep.shares import causes
-
     share = np.array([[0.30, 0.05], [0.10, 0.04], [0.30, 0.05]])
     total = share.sum(axis=1)
     held = families(BALL, 0.01, "energy", [0.007, 0.008], 6, 2)

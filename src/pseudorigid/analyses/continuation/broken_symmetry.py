@@ -17,7 +17,16 @@ _UNTURNED = 1e-10  # largest angle from its ray, in radians, of a point that sta
 Vector = tuple[float, float]
 
 
-def beside_pitchfork(system: AsymmetricOrbits, parent: Orbits, event: Event) -> list[Point]:
+def starts_beside(
+    system: AsymmetricOrbits, parent: Orbits | AsymmetricOrbits, event: Event
+) -> list[Point]:
+    """Return orbits of a system beside the event of another one at which they branch off."""
+    if event.kind == "pitchfork":
+        return _beside_pitchfork(system, parent, event)
+    return (_beside_doubling if event.kind == "doubling" else _beside_resonance)(system, event)
+
+
+def _beside_pitchfork(system: AsymmetricOrbits, parent: Orbits, event: Event) -> list[Point]:
     """Return an orbit without symmetry beside a pitchfork of a symmetric one."""
     point = system.point(parent.first_place(event.point))
     if point is None:
@@ -30,7 +39,7 @@ def beside_pitchfork(system: AsymmetricOrbits, parent: Orbits, event: Event) -> 
     return _aside(system, point.place, _kernel(a, b, c, d), _ASIDE, _ASIDE)
 
 
-def beside_doubling(system: AsymmetricOrbits, _: AsymmetricOrbits, event: Event) -> list[Point]:
+def _beside_doubling(system: AsymmetricOrbits, event: Event) -> list[Point]:
     """Return orbits of twice the period beside a period doubling."""
     a, c, b, d = event.point.data[:4].tolist()  # of P^n
     across = _kernel(a + 1.0, b, c, d + 1.0)
@@ -56,7 +65,7 @@ def _aside(
     return [start] if start is not None and system.separation(start) > COLLAPSED else []
 
 
-def beside_resonance(system: AsymmetricOrbits, _: AsymmetricOrbits, event: Event) -> list[Point]:
+def _beside_resonance(system: AsymmetricOrbits, event: Event) -> list[Point]:
     """Return orbits of q times the period beside a resonance p/q.
 
     At each point of a small ellipse around the parent, which the linearized map keeps, the

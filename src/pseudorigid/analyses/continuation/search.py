@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from .asymmetric import NO_LINE, AsymmetricOrbits
-from .broken_symmetry import beside_doubling, beside_pitchfork, beside_resonance
+from .broken_symmetry import starts_beside
 from .curve import Point, at_parameter, solve_at
 from .families import Event, Family, follow
 from .grazing import End, beyond_rim, beyond_touch
@@ -145,10 +145,7 @@ class Search:
         if period > self.longest:
             return []
         if event.kind == "pitchfork" or family.line == NO_LINE:
-            beside = {"pitchfork": beside_pitchfork, "doubling": beside_doubling}
-            starts = beside.get(event.kind, beside_resonance)(
-                self.systems[period, NO_LINE], family.system, event
-            )
+            starts = starts_beside(self.systems[period, NO_LINE], family.system, event)
             return [(period, NO_LINE, start) for start in starts]
         found = []
         for p in self._levels_beside(event.point.p):
