@@ -6,11 +6,10 @@ from itertools import product
 import numpy as np
 
 from .asymmetric import NO_LINE, AsymmetricOrbits
-from .broken_symmetry import starts_beside
 from .curve import Point, at_parameter, solve_at
-from .families import Event, Family, follow
-from .grazing import End, beyond_rim, beyond_touch
+from .families import End, Event, Family, follow
 from .half_orbit import FIX_R, FIX_RP
+from .starts import beyond_rim, beyond_touch, starts_beside
 from .symmetric import CELLS, Orbits, Parameter, lines, roots
 
 # Distances in the parameter's range at which branches are sought beside an event, and distances in
