@@ -104,7 +104,6 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
     given = {"regular": share, "regular_low": share - 0.05, "regular_high": share + 0.08}
     given |= {"exponent": value, "exponent_low": value - 0.04, "exponent_high": value + 0.05}
     figure = atlas.line(LINE, dataset(LINE, **given, exponent_error=0.01))
-    assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
     energy = np.array(LINE["energy"]) * 0.04**2
     across = 110 + 900 * energy / (1.02 * energy[-1])
 
@@ -128,8 +127,10 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
 def test_a_sweep_without_a_sea_can_be_drawn():
     nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
     wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # the edges of cells pass k = 0
-    for sweep in (PLANE, wide, LINE):
-        atlas.draw(sweep, dataset(sweep, **nothing))
+    long = LINE | {"energy": [0.625 * i for i in range(1, 60)]}
+    for sweep in (PLANE, wide, long):
+        figure = atlas.draw(sweep, dataset(sweep, **nothing))
+    assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
 
 
 @pytest.mark.parametrize(

@@ -11,19 +11,16 @@ from .canvas.ragged_rows import rows
 _SIZE = 6.0  # points: text beside lines
 BOTTOM = 395  # pixels below the frame
 _DASHES, _DOTS = (4.0, 1.6), (1.2, 1.6)  # in widths of a line
-_STYLES = {
-    "resonance": {"lw": 1.3},
-    "fold": {"lw": 0.6},
-    "doubling": {"lw": 1.0, "ls": (0, _DASHES)},
-    "rim": {"lw": 1.0, "ls": (0, _DOTS)},
-    "jumps": {"lw": 0.9, "ls": (0, _DASHES + _DOTS)},
-}
-_MEANINGS = {
-    "resonance": "the fixed point's rotation number is 1/q: a chain branches off",
-    "fold": "fold: an elliptic orbit of the chain is born or ends",
-    "doubling": "its first period doubling",
-    "rim": "it loses an impact, at rest on the floor",
-    "jumps": "$E/g^2 = 1 + k/2$: above it the map jumps",
+# The kinds of curve: their style and meaning.
+_KINDS = {
+    "resonance": ({"lw": 1.3}, "the fixed point's rotation number is 1/q: a chain branches off"),
+    "fold": ({"lw": 0.6}, "fold: an elliptic orbit of the chain is born or ends"),
+    "doubling": ({"lw": 1.0, "ls": (0, _DASHES)}, "its first period doubling"),
+    "rim": ({"lw": 1.0, "ls": (0, _DOTS)}, "it loses an impact, at rest on the floor"),
+    "jumps": (
+        {"lw": 0.9, "ls": (0, _DASHES + _DOTS)},
+        "$E/g^2 = 1 + k/2$: above it the map jumps",
+    ),
 }
 _HUES = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.SKY)
 
@@ -40,7 +37,7 @@ def draw(sweep, data, curves):
     ):
         energy, k = (curves[name].values[part] for name in ("energy", "k"))
         color = hues.get(order, style.BLACK)
-        panel.line(energy, k, color=color, zorder=2.0, **_STYLES[kind])
+        panel.line(energy, k, color=color, zorder=2.0, **_KINDS[kind][0])
         if kind == "resonance":
             atlas.name_curve(panel, panel.within(energy, k), energy, k, f"1/{order}")
     for energy in atlas.PAPER_ENERGIES.values():
@@ -57,9 +54,9 @@ def _key(sheet, hues):
         x = LEFT + i * 135
         sheet.draw([x, x + 40], [y, y], color=color, lw=1.3)
         sheet.text(x + 52, y, f"q = {order}", size=_SIZE)
-    for kind, text in _MEANINGS.items():
+    for line_style, text in _KINDS.values():
         y -= 38
-        sheet.draw([LEFT, LEFT + 90], [y, y], color=style.BLACK, **_STYLES[kind])
+        sheet.draw([LEFT, LEFT + 90], [y, y], color=style.BLACK, **line_style)
         sheet.text(LEFT + 108, y, text, size=_SIZE)
     x = LEFT + 660
     sheet.draw([x], [y], ls="none", marker="o", ms=5.0, mfc="white", mec=style.BLACK, mew=0.4)

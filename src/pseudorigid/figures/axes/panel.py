@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import compress
 
 import numpy as np
 
@@ -142,17 +141,12 @@ class Panel:
         _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
     def note(self, x, y, text, shift=(0.0, 0.0), ha="left", va="center"):
-        """Write `text` beside a point, `shift` points away, mirrored if it would not fit."""
+        """Write `text` beside a point, `shift` points away, on the other side if only that fits."""
         left, bottom, right, top = self.frame
         (x,), (y,) = self.place(x, y)
-        across = float(x), shift[0] * POINT, ha
-        up = float(y), shift[1] * POINT, va
-        mirrored = _mirrored(*across), _mirrored(*up)
-        wide, high = width(text, self.small), self.small * POINT
-        places = (across, up), mirrored, (across, mirrored[1]), (mirrored[0], up)
-        fits = (_fits(*a, wide, left, right) and _fits(*b, high, bottom, top) for a, b in places)
-        (x, right_by, ha), (y, up_by, va) = next(compress(places, fits), (across, up))
-        self.sheet.text(x + right_by, y + up_by, text, ha=ha, va=va, size=self.small)
+        x, ha = _beside(float(x), shift[0] * POINT, ha, width(text, self.small), left, right)
+        y, va = _beside(float(y), shift[1] * POINT, va, self.small * POINT, bottom, top)
+        self.sheet.text(x, y, text, ha=ha, va=va, size=self.small)
 
     def _label(self, x, text):
         """Return the middle of a label below the frame."""
@@ -187,16 +181,14 @@ class Window(Panel):
         return ~np.logical_or.reduce([(part < 0.0) | (part > 1.0) for part in fractions])
 
 
-def _mirrored(at, shift, side):
-    """Mirror the shift and the alignment of a text at the coordinate `at`."""
+def _beside(at, shift, side, size, low, high):
+    """Return coordinate and side of a text beside `at`, mirrored if only so it fits the frame."""
     other = {"left": "right", "right": "left", "bottom": "top", "top": "bottom"}
-    return at, -shift, other.get(side, side)
-
-
-def _fits(at, shift, side, size, low, high):
-    """Return whether a text of `size` pixels, shifted from `at`, lies between low and high."""
-    start = at + shift - {"left": 0.0, "bottom": 0.0, "center": 0.5}.get(side, 1.0) * size
-    return low + POINT <= start and start + size <= high - POINT
+    for by, end in ((shift, side), (-shift, other.get(side, side))):
+        start = at + by - {"left": 0.0, "bottom": 0.0, "center": 0.5}.get(end, 1.0) * size
+        if low + POINT <= start and start + size <= high - POINT:
+            return at + by, end
+    return at + shift, side
 
 
 def upright(panels, at, **line_style):

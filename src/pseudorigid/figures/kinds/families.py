@@ -14,6 +14,7 @@ _LEFT, _RIGHT = 125, 1000  # pixels
 # Colours by period; a longer period has that of the period less a multiple of their number.
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
+_NAMES = {"doubling": "period doubling"}  # of marks in the key
 _NAME = 50  # pixels: room for the name of a resonance
 _RESIDUES = -0.6, 1.6
 
@@ -134,14 +135,9 @@ def _resonances(panels, scene, families):
 def _keys(sheet, families, shown):
     """Explain widths, marks and colours."""
     entries = [
-        ("elliptic", style.BLACK, "", False, 1.7),
-        ("hyperbolic", style.BLACK, "", False, 0.5),
-        ("inverse hyperbolic", style.BLACK, "", True, 0.6),
+        *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in _WIDTHS.items()),
         ("rim of the section", style.BACKDROP, "", False, 1.0),
-        ("fold", style.BLACK, "o", True),
-        ("period doubling", style.BLACK, "s", True),
-        ("pitchfork", style.BLACK, "D", True),
-        ("resonance", style.BLACK, "^", True),
+        *((_NAMES.get(kind, kind), style.BLACK, mark, True) for kind, mark in _MARKS.items()),
         ("an impact grazes", style.BLACK, "x", True),
     ]
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
