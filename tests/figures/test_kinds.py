@@ -6,8 +6,6 @@ from samples import (
     ATTRS,
     FLAT,
     SCENES,
-    SPACE,
-    VIEW,
     drawn,
     exponents,
     manifolds,
@@ -44,15 +42,6 @@ def test_all_visible_points_are_drawn_and_the_sea_comes_first():
     assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
     assert [line.get_color() for line in dots] == [style.SEA, style.HUES[0], style.HUES[1]]
     assert 0 < np.sum(seen) < seen.size
-
-
-def test_projection_is_orthographic_and_fits():
-    view = projection.Projection([span["limits"] for span in SPACE.values()], VIEW)
-    frame = np.array([view.right, view.up, view.eye])
-    assert np.allclose(frame @ frame.T, np.eye(3), atol=1e-15)
-    across, up = view.place(10, 20, 300, 400)(*view.corners().T)
-    assert across.min() >= 10 - 1e-9 and across.max() <= 310 + 1e-9
-    assert up.min() >= 20 - 1e-9 and up.max() <= 420 + 1e-9
 
 
 @pytest.mark.parametrize("degrees", [0, 30, 40, 90, 115, 180, 270, -65, 1e-3, 359.999, 12345.678])

@@ -51,3 +51,7 @@ def test_names_of_exponents_that_coincide_are_moved_apart():
 def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
     scene = SCENES["portrait"] | {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}}
     assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
+
+
+def test_a_negative_tick_has_a_minus_sign():
+    assert style.number(-0.2) == "\N{MINUS SIGN}0.2"

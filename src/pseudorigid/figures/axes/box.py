@@ -70,9 +70,7 @@ class Box:
         left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
         right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
         inner = _WIDE - (left + right) * POINT
-        across, up = self.view(*self.view.corners().T)
-        inner_high = inner * float((up.max() - up.min()) / (across.max() - across.min()))
-        self.view.place(left * POINT, 0, inner, inner_high)
+        inner_high = float(self.view.place(left * POINT, 0, inner))
         # A hanging label reaches down by its height, another one by half of that.
         edges = [0.0, inner_high]
         for at, step, reach, _, size in self._labels():
@@ -82,7 +80,7 @@ class Box:
         needed = bottom + max(edges) + top
         high = 75 * int(np.ceil(needed / 75))
         bottom += (high - needed) / 2
-        self.view.place(left * POINT, bottom, inner, inner_high)
+        self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
 
     def _key(self, text, cells):

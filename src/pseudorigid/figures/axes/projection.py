@@ -30,17 +30,13 @@ class Projection:
         """Return the eight corners of the box as an (8, 3) array, z fastest."""
         return np.array(list(product(*self.limits)))
 
-    def place(self, left, bottom, width, height):
-        """Scale and shift so that the box touches the sides of a rectangle, centred in it."""
+    def place(self, left, bottom, width):
+        """Scale and shift the box to a left end, a bottom and a width; return its height."""
         self.scale, self.shift = 1.0, (0.0, 0.0)
         across, up = self(*self.corners().T)
-        wide, high = across.max() - across.min(), up.max() - up.min()
-        self.scale = min(width / wide, height / high)
-        self.shift = (
-            left + (width - self.scale * (across.min() + across.max())) / 2,
-            bottom + (height - self.scale * (up.min() + up.max())) / 2,
-        )
-        return self
+        self.scale = width / (across.max() - across.min())
+        self.shift = left - self.scale * across.min(), bottom - self.scale * up.min()
+        return self.scale * (up.max() - up.min())
 
     def __call__(self, x, y, z):
         """Return (across, up) on the sheet for coordinates of any shape, NaN where one is NaN."""

@@ -1,5 +1,7 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
+from functools import partial
+
 import numpy as np
 
 from ..axes.limits import complete, of_window, refuse_empty
@@ -8,6 +10,8 @@ from ..canvas import style
 from ..canvas.ragged_rows import rows
 
 _DOT = 3.4  # points
+_NAMES = style.NAMES["x"], style.NAMES["xdot"]
+plane = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
 
 
 @style.pinned()
@@ -37,9 +41,3 @@ def draw(scene, manifolds):
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )
     return picture.figure
-
-
-def plane(scene):
-    """Return the empty picture of a scene with axes x and xdot."""
-    names = (style.NAMES["x"], style.NAMES["xdot"])
-    return Plane(scene, ("x", "xdot"), names, high=975, right=75)

@@ -1,5 +1,7 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
+from functools import partial
+
 import numpy as np
 
 from ...dynamics.variables import final_exponents
@@ -11,6 +13,8 @@ from ..canvas.sheet import POINT
 
 _INSET_START = 0.25  # of the impacts
 _INSET_ROOM = 170  # pixels: the least distance of the first two exponents that takes an inset
+_NAMES = "Number of impacts", "Lyapunov exponents"
+plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
 @style.pinned()
@@ -67,9 +71,3 @@ def _inset(picture, largest, first, second, last):
     bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
     frame = left + _INSET_START * (right - left), bottom, right, high - 0.2 * (high - low)
     return _Inset(picture.sheet, frame, across, Axis(**largest))
-
-
-def plane(scene):
-    """Return the empty picture of a scene with axes impact and exponent."""
-    names = ("Number of impacts", "Lyapunov exponents")
-    return Plane(scene, ("impact", "exponent"), names, right=84)

@@ -1,5 +1,7 @@
 """A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
 
+from functools import partial
+
 import numpy as np
 
 from ..axes.limits import complete, of_data, refuse_empty
@@ -7,6 +9,7 @@ from ..axes.plane import Plane
 from ..canvas import style
 
 _DOT = 2.4  # points
+plane = partial(Plane, axes=("t", "displacement"), names=("$t$", r"$-x,\ u$"))
 
 
 @style.pinned()
@@ -32,8 +35,3 @@ def draw(scene, motion):
         ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
     )
     return picture.figure
-
-
-def plane(scene):
-    """Return the empty picture of a scene with axes t and displacement."""
-    return Plane(scene, ("t", "displacement"), ("$t$", r"$-x,\ u$"))
