@@ -12,6 +12,8 @@ from types import SimpleNamespace
 
 import pytest
 from project import wait_for
+from selenium import webdriver
+from selenium.webdriver.remote.websocket_connection import WebSocketConnection
 
 PROGRAMS = {"chromium": ("chromium", "chromedriver"), "firefox": ("firefox-esr",)}
 _TIMEOUT = 600  # seconds that a script may take
@@ -20,7 +22,6 @@ _TIMEOUT = 600  # seconds that a script may take
 @contextmanager
 def started(name, folder, width=1200, height=900):
     """Start a browser with its profile in `folder`; skip the test if it is not installed."""
-    pytest.importorskip("selenium")
     missing = [program for program in PROGRAMS[name] if not shutil.which(program)]
     if missing:
         pytest.skip(f"{' and '.join(missing)} not installed (Debian packages, see .ci/run)")
@@ -32,8 +33,6 @@ class Chromium:
     """Chromium by chromedriver."""
 
     def __init__(self, folder, width, height):
-        from selenium import webdriver
-
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium")
         for argument in (
@@ -74,8 +73,6 @@ class Firefox:
     """Firefox by Selenium's connection for WebDriver BiDi."""
 
     def __init__(self, folder, width, height):
-        from selenium.webdriver.remote.websocket_connection import WebSocketConnection
-
         folder.mkdir(parents=True, exist_ok=True)
         self._process = subprocess.Popen(
             [shutil.which("firefox-esr"), "--headless", "--remote-debugging-port=0",

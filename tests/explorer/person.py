@@ -1,6 +1,5 @@
 """Someone who uses the explorer's page in Chromium by pointer, touch, keys and fields."""
 
-import base64
 import csv
 import io
 import re
@@ -8,6 +7,8 @@ import time
 
 import numpy as np
 from PIL import Image
+from selenium.webdriver import ActionChains, Keys
+from selenium.webdriver.support.ui import Select, WebDriverWait
 
 MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
 WHOLE = 1.12  # half the disk's view, in section radii
@@ -17,12 +18,10 @@ class Person:
     """What a person does with the page, and sees."""
 
     def __init__(self, browser):
-        from selenium.webdriver import ActionChains
-        from selenium.webdriver.common.by import By
-
         self.browser, self.driver, self.run = browser, browser.driver, browser.run
-        self.chain = lambda **how: ActionChains(self.driver, duration=20, **how)
-        self.by = By.ID
+
+    def chain(self):
+        return ActionChains(self.driver, duration=20)
 
     def open(self, address):
         self.browser.open("about:blank")
@@ -30,7 +29,7 @@ class Person:
         self.file = address.split("#")[0]
 
     def find(self, name):
-        return self.driver.find_element(self.by, name)
+        return self.driver.find_element("id", name)
 
     def text(self, name):
         return self.run("return document.getElementById(args[0]).textContent", name)
@@ -55,13 +54,9 @@ class Person:
         self.find(name).submit()
 
     def choose(self, name, value):
-        from selenium.webdriver.support.ui import Select
-
         Select(self.find(name)).select_by_value(value)
 
     def type(self, name, text):
-        from selenium.webdriver.common.keys import Keys
-
         field = self.find(name)
         field.send_keys(Keys.CONTROL + "a")
         field.send_keys(Keys.BACKSPACE)
@@ -88,12 +83,9 @@ class Person:
             orbits.append(orbit | {"verdict": re.sub(r"^\d+\. ", "", title)})
         return orbits
 
-    def wait(self, condition, patience=60):
-        end = time.monotonic() + patience
-        while not (value := condition()):
-            assert time.monotonic() < end, (self.text("hint"), self.browser.errors())
-            time.sleep(0.1)
-        return value
+    def wait(self, condition):
+        """Wait until a condition is true, and return its value."""
+        return WebDriverWait(self.driver, 60, 0.1).until(lambda _: condition())
 
     def settled(self):
         """Wait until all orbits are complete, and return them."""
@@ -132,16 +124,9 @@ class Person:
         chain.release().perform()
 
     def pixels(self):
-        """The section's canvases as arrays, one over the other."""
-        url = (
-            "const [first, ...rest] = document.querySelectorAll('#section canvas');"
-            "const c = document.createElement('canvas'); c.width = first.width;"
-            "c.height = first.height; const d = c.getContext('2d');"
-            "for (const layer of [first, ...rest]) d.drawImage(layer, 0, 0);"
-            "return c.toDataURL().split(',')[1];"
-        )
-        data = base64.b64decode(self.run(url))
-        return np.array(Image.open(io.BytesIO(data)).convert("RGBA"))
+        """What the section shows."""
+        picture = self.find("section").screenshot_as_png
+        return np.array(Image.open(io.BytesIO(picture)).convert("RGBA"))
 
     def saved(self):
         """Save the chosen orbit as CSV, and return its rows."""

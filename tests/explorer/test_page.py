@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from person import WHOLE
 from project import SHIPPED, shipped, wait_for
+from selenium.webdriver import Keys
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from pipeline import config
 from pipeline.explorer import data
@@ -84,8 +86,6 @@ def test_dragging_turns_the_surface_and_moves_the_disk(person):
 
 
 def test_the_wheel_zooms_without_limit_at_the_pointer(person):
-    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
-
     person.press("as-disk")
     person.pointer(person.spot(0.3, 0.2)).perform()
     place = person.text("where")
@@ -131,8 +131,6 @@ def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
 
 
 def test_the_keyboard_does_everything(person):
-    from selenium.webdriver.common.keys import Keys
-
     person.press("clear")
     box = person.find("section")
     person.run("document.getElementById('section').focus()")
@@ -390,8 +388,6 @@ def test_the_atlas_goes_to_a_ball_and_an_energy(person):
 
 
 def test_the_atlas_answers_to_keys(person):
-    from selenium.webdriver.common.keys import Keys
-
     person.settled()
     person.unfold("atlas-panel")
     canvas = person.find("atlas")
