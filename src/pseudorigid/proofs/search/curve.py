@@ -6,11 +6,12 @@ midpoints: `checks.curve` proves the result. A curve is a pair of polynomials in
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from flint import acb, arb, ctx
+from scipy.optimize import bisect
 
 from ...dynamics.orbits import orbit
 from ...dynamics.variables import chart, states_of
@@ -144,7 +145,7 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
         x = centre + reach * i / _SCAN
         value = excess(x, 4000)
         if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
-            return _bisect(excess, previous[0], x)
+            return bisect(excess, previous[0], x, xtol=1e-17)
         previous = x, value
     raise ValueError(f"no curve with the rotation number {omega:.6g} was found on y = 0")
 
@@ -153,17 +154,6 @@ def _nearest(points: Sequence) -> float:
     """Return the distance between the first point and the nearest of the others."""
     first, *others = np.asarray(points, dtype=float)
     return float(min(np.abs(np.array(others) - first).max(axis=1)))
-
-
-def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a function changes its sign, to a double."""
-    sign = function(low)
-    while low < (middle := 0.5 * (low + high)) < high:
-        if function(middle) * sign > 0.0:
-            low = middle
-        else:
-            high = middle
-    return middle
 
 
 def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
