@@ -76,6 +76,8 @@ Range = Annotated[
     allowed("a list of two increasing numbers", min_length=2, max_length=2),
     Predicate(rising),
 ]
+# A JSON schema describes no keys, so that these words stand apart from the pattern.
+NAME = "a name of letters, digits, - and _ that does not begin with -"
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$")]
 
 

@@ -9,12 +9,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from ...records.names import suggestion
-from ..schema.fields import TAGS, Block, YamlMapping, fields_of
+from ..schema.fields import NAME, TAGS, Block, YamlMapping, fields_of
 from .words import Place, dotted, refusal
 
 _UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the second for keys not text
 _OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
-_NAME = "a name of letters, digits, - and _ that does not begin with -"
 
 
 def mistakes(model: type[Block], given: object, place: Place) -> list[str]:
@@ -104,7 +103,7 @@ def _line(model: type[Block], loc: Place, kind: str, value: object, place: Place
         hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
         return f"{dotted(where)}: unknown key: {hint}"
     if loc[-1:] == ("[key]",):
-        return refusal(where[:-2], value, _NAME)
+        return refusal(where[:-2], value, NAME)
     words = allowed_at(model, loc)
     if kind == "missing":
         return f"{dotted(where)}: missing: expected {words}"
