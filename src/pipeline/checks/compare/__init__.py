@@ -4,6 +4,7 @@ Nothing is computed here: both variants must have their results.
 """
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import xarray as xr
@@ -38,11 +39,13 @@ def compare(
                 texts = _stage_differences(stage, first, second, names)
                 lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
         image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
-        image.unlink(missing_ok=True)
         if CURRENT in states.values():
             present = {n: root / p if states[n] == CURRENT else None for n, p in drawings.items()}
             picture.side_by_side(present, image)
             lines.append(f"side by side: {image.relative_to(root)}")
+        else:
+            with suppress(OSError):
+                image.unlink()  # left by an earlier comparison
         print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
 
 
