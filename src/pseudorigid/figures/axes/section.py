@@ -47,18 +47,17 @@ class Section(Panel):
         self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
 
 
-def at_top(sheet, attrs):
-    """Return a large panel of the section of a dataset's ball and energy at the top of a sheet."""
-    k, g, energy = (float(attrs[name]) for name in ("k", "g", "energy"))
+def at_top(sheet, scene):
+    """Return a large panel of the section of a scene's ball and energy at the top of a sheet."""
     top = sheet.high - 75
     frame = LEFT, top - SIDE, LEFT + SIDE, top
-    return Section(sheet, frame, attrs, Ball(k, g).section(energy)[1])
+    return Section(sheet, frame, scene["ball"], Ball(**scene["ball"]).section(scene["energy"])[1])
 
 
-def over_orbits(scene, data, orbits, sea, high=1125):
+def over_orbits(scene, orbits, sea, high=1125):
     """Return a large panel of the section with its rim and orbits at the top of a new sheet."""
     sheet = Sheet(style.COLUMN, high)
-    panel = at_top(sheet, data.attrs)
+    panel = at_top(sheet, scene)
     panel.orbits(orbits, sea)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))

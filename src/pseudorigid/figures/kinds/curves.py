@@ -14,7 +14,7 @@ _SHADE = "#f0c3a6"
 @style.pinned()
 def draw(scene, curves, orbits):
     """Draw orbits on the section, the proved curves, and the area inside them, shaded."""
-    panel = section.over_orbits(scene, curves, orbits, scene["sea"])
+    panel = section.over_orbits(scene, orbits, scene["sea"])
     x, y = curves["x"].values, curves["y"].values
     polygons = [(x[run], y[run]) for run in runs(np.isnan(x))]
     height = panel.high * panel.radius

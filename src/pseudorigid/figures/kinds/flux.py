@@ -17,7 +17,7 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 def draw(scene, flux):
     """Draw regions and lobes of the inner and the outer branches, and both crossings."""
     sheet = Sheet(style.COLUMN, 1725)
-    frame = _regions(sheet, flux)
+    frame = _regions(sheet, scene, flux)
     corner(sheet, frame, style.setting(scene))
     entries = [(_edge_name(flux, side), hue) for side, hue in reversed(_SIDES)]
     entries.append(("grazing rim", style.BLACK))
@@ -41,9 +41,9 @@ def _edge_name(flux, side):
     return f"edge of the {name} region"
 
 
-def _regions(sheet, flux):
+def _regions(sheet, scene, flux):
     """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
-    panel = section.at_top(sheet, flux.attrs)
+    panel = section.at_top(sheet, scene)
     panel.rim(zorder=2)
     for side, hue in _SIDES:
         if np.isnan(flux["area"].values[side]):

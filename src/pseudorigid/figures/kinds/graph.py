@@ -12,7 +12,7 @@ _LINK = "#8fb8d8"
 @style.pinned()
 def draw(scene, graph, orbits):
     """Draw an orbit of the sea, the sets, and a line for each connection between two of them."""
-    panel = section.over_orbits(scene, graph, orbits, range(orbits.sizes["orbit"]))
+    panel = section.over_orbits(scene, orbits, range(orbits.sizes["orbit"]))
     corners = np.stack([graph["corner_x"].values, graph["corner_y"].values], axis=1)
     centres = corners.mean(axis=2)
     for link in zip(graph["source"].values, graph["target"].values, strict=True):

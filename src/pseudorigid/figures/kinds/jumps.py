@@ -13,7 +13,7 @@ MAP, INVERSE = style.VERMILION, style.BLUE
 @style.pinned()
 def draw(scene, jumps, orbits):
     """Draw the section with the jumps of the map and its inverse, and further energies below."""
-    panel = section.over_orbits(scene, jumps, orbits, scene["sea"], high=1500)
+    panel = section.over_orbits(scene, orbits, scene["sea"], high=1500)
     dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
     panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
     for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
