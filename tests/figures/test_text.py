@@ -53,5 +53,6 @@ def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
     assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
 
 
-def test_a_negative_tick_has_a_minus_sign():
+def test_labels_of_ticks():
     assert style.number(-0.2) == "\N{MINUS SIGN}0.2"
+    assert style.number(160000, 5) == "1.6"
