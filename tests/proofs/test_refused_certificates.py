@@ -25,6 +25,7 @@ from pseudorigid.proofs import THEOREMS, Surface
 from pseudorigid.proofs.checks import ellipticity, horseshoe, jump, periodic, twist
 from pseudorigid.proofs.checks.certificate import Finding, NotProvedError
 from pseudorigid.proofs.checks.hsets import HSet
+from pseudorigid.proofs.enclosure.newton import enclose_zero
 from pseudorigid.proofs.enclosure.surface import ball_of
 from pseudorigid.proofs.search import approximate_orbits
 from pseudorigid.proofs.search import horseshoe as horseshoe_search
@@ -246,6 +247,20 @@ def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_a
     text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
     with pytest.raises(NotProvedError, match="not proved to be above"):
         ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
+
+
+@pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (1, 0), (3, 0.5)])
+def test_a_newton_image_that_is_not_inside_its_box_proves_no_zero(zero):
+    def system(values):
+        residuals = [value - wanted for value, wanted in zip(values, place, strict=True)]
+        return residuals, [[arb(1), arb(0)], [arb(0), arb(1)]]
+
+    box = [arb(0.5, 0.5), arb(0.5, 0.5)]
+    place = [arb(0.5, 1e-3), arb(0.5, 1e-3)]
+    assert all(found.contains(0.5) for found in enclose_zero(system, box))
+    place = [arb(a, 1e-3) for a in zero]
+    with pytest.raises(NotProvedError, match="does not lie inside"):
+        enclose_zero(system, box)
 
 
 # ---- certificates that are consistent and prove less than the statement
