@@ -193,7 +193,7 @@ def test_shapes_that_do_not_broadcast_are_rejected(call):
 
 @pytest.mark.parametrize("call", FUNCTIONS_OF_STATES[1:])
 def test_states_off_the_section_are_rejected(call):
-    for udot in (-0.2, [0.2, -0.2]):
+    for udot in (-0.2, [0.2, -0.2], np.nextafter(-0.1, -1.0)):
         with pytest.raises(ValueError, match=r"xdot \+ udot"):
             call(0.1, 0.1, udot)
 

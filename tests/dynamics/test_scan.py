@@ -40,6 +40,8 @@ def test_missed_impacts_are_counted():
     late = int(np.sum(tau[1:] > first + 1e-5))
     assert ball.map.missed == late > 5
     assert ball.map.impacts == 50_000
+    orbit(ball, SEA, 50_000)
+    assert (ball.map.missed, ball.map.impacts) == (2 * late, 100_000)
     # The energy does not show missed impacts.
     assert np.max(np.abs(BALL.energy(x, v, w) / 0.01 - 1.0)) < 1e-9
 
