@@ -44,17 +44,21 @@ def test_text_is_whole_and_apart():
 def test_each_curve_is_drawn_where_its_data_are():
     figure, lines = drawn()
     artists = [
-        np.column_stack(artist.get_data()) * figure.dpi
+        (np.column_stack(artist.get_data()) * figure.dpi, artist.get_color())
         for artist in figure.artists
         if len(artist.get_xdata()) == 2 and artist.get_zorder() == 2.0
     ]
     left, right = raster.edges(np.log10(SWEEP["energy"]))[[0, -1]]
     low, high = raster.edges(np.array(SWEEP["k"]))[[0, -1]]
-    for k, energy in lines.values():
+    colours = {}
+    for (order, _), (k, energy) in lines.items():
         x = atlas.LEFT + (np.log10(energy) - left) / (right - left) * atlas.WIDE
         y = chains.BOTTOM + (np.array(k) - low) / (high - low) * atlas.HIGH
         wanted = np.column_stack([x, y])
-        assert min(np.abs(places - wanted).max() for places in artists) < 0.3
+        distance, colour = min((np.abs(places - wanted).max(), each) for places, each in artists)
+        assert distance < 0.3
+        assert colours.setdefault(order, colour) == colour
+    assert len({*colours.values()}) == len(colours)
 
 
 def test_a_cell_is_darker_the_larger_its_regular_share():
