@@ -83,6 +83,16 @@ def test_one_variable_a_tenth_less_is_named(datasets, stage, name):
     assert name in words or name.removeprefix("regular_") in words
 
 
+def test_two_impacts_in_another_order_are_refused(datasets):
+    orbits = datasets[SOUND["orbits"]]
+    order = np.arange(orbits["x"].size)
+    order[[1, 2]] = 2, 1
+    names = "x", "xdot", "udot"
+    states = {name: orbits[name].copy(data=orbits[name].values[order]) for name in names}
+    words = soundness.dataset_error("orbits", orbits.assign(states))
+    assert words == "its states do not follow one another under the map"
+
+
 @pytest.mark.slow
 def test_an_inverted_verdict_of_the_derivations_is_refused(datasets):
     dataset = datasets["derivations"]
