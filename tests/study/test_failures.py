@@ -74,6 +74,6 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
 def test_agreement_is_the_median_of_the_first_separations():
     a = np.zeros((3, 10))
     b = a.copy()
-    b[0, 4:] = b[1, 7:] = 2 * failures.SEPARATION
+    b[0, 2:] = b[1, 7:] = 2 * failures.SEPARATION
     assert failures._agreement(a, b) == failures._agreement(b, a) == 7
     assert failures._agreement(a, a) == 10

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from pipeline.config.schema import study as parts
 from pseudorigid import Ball, symmetric_orbits
@@ -62,6 +63,22 @@ def test_impacts_pixels_and_the_cheapest_method(errors):
     assert np.all(errors["pixel"].values < errors["line"].values)
     assert errors["good"].values[:, 0].tolist() == [1, 1]
     assert errors["cheapest"].values.tolist() == [0, 0]
+
+
+def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch):
+    monkeypatch.setattr(figure_errors, "METHODS", (OURS, ENGINES[2]))
+    states = Ball(**BALL).start(np.linspace(-0.5, 0.5, 20), 0.01)
+    names = "x", "xdot", "udot"
+    manifolds = xr.Dataset({n: ("point", a) for n, a in zip(names, states, strict=True)})
+
+    def error(multiplier, period):
+        orbit = xr.Dataset({"x": (("orbit", "point"), np.zeros((1, period)))})
+        orbit = orbit.assign(type=("orbit", ["saddle"]), multiplier=("orbit", [multiplier]))
+        block = PORTRAIT | {"type": "saddle", "period": period}
+        return figure_errors._branches(block, orbit, manifolds).error[1]
+
+    assert error(2.0, 1) == pytest.approx(1.5 * error(4.0, 1), rel=1e-12)
+    assert error(0.0625, 2) == pytest.approx(error(4.0, 1), rel=1e-12)
 
 
 def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):
