@@ -125,6 +125,10 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
     with netCDF4.Dataset(tmp_path / "foreign.nc", "w") as file:
         file.title = "something else"
     assert refusal(tmp_path / "foreign.nc").endswith("no attribute config")
+    with netCDF4.Dataset(tmp_path / "empty.nc", "w") as file:
+        file.createDimension("point", 10**6)
+        file.createVariable("x", float, "point")  # values that are never written
+    assert refusal(tmp_path / "empty.nc").endswith("fewer values than it declares")
     path = saved(dataset(), tmp_path / "a.nc")
     whole = path.read_bytes()
     cut = [whole[:length] for length in range(0, len(whole), len(whole) // 40)]
@@ -139,6 +143,9 @@ def test_the_content_hash_of_the_tests_sees_content_and_only_content(tmp_path):
     assert content_hash(before[sorted(before.variables, reverse=True)]) == reference
     swapped = before.assign(x=("point", before["x"].values.astype(">f8"), before["x"].attrs))
     assert content_hash(swapped) == reference
+    other_nan = before["x"].copy(deep=True)
+    other_nan.values.view(np.int64)[1] ^= 1
+    assert content_hash(before.assign(x=other_nan)) == reference
     x, attrs = before["x"].values, before["x"].attrs
     changed = [
         before.assign(x=("point", np.where(np.arange(5) == 0, 0.1 + 2**-56, x), attrs)),

@@ -2,7 +2,12 @@
 
 import pytest
 
-from pipeline.records.differences import differing_block, differing_keys, differing_package
+from pipeline.records.differences import (
+    differing_block,
+    differing_keys,
+    differing_origin,
+    differing_package,
+)
 
 STARTS = [0.1, {"x": 0.2, "xdot": 0.0}, 0.3]
 
@@ -37,3 +42,6 @@ def test_every_package_that_differs_is_named():
     before, after = {"numpy": "1", "numba": "2", "xarray": "3"}, {"numpy": "2", "xarray": "3"}
     words = "numba 2 then, not installed here; numpy 1 then, 2 here"
     assert differing_package(before, after) == words
+    same = {"config": {}, "sources": {}}
+    old, new = same | {"environment": before}, same | {"environment": after}
+    assert differing_origin(old, new) == {"environment": words}

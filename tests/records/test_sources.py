@@ -29,6 +29,11 @@ def test_a_job_depends_on_what_it_imports_and_no_more():
     assert not [file for file in drawing if file.startswith("src/pipeline/config")]
 
 
+def test_a_theorem_depends_on_the_certificates():
+    files = sources.source_files("pseudorigid.proofs.theorems.statements")
+    assert "src/pseudorigid/proofs/certificates/six-elliptic.toml" in files
+
+
 def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
     package = tmp_path / "pseudorigid"
     (package / "inner").mkdir(parents=True)
