@@ -225,6 +225,7 @@ REFUSED = {
     "two kinds, later": ("c = 1.0\n    c = a > b\n    return c", 2,
                          "a variable that is both a number and a condition"),
     "a keyword argument": ("return other(t=a)", 1, "a keyword argument"),
+    "a keyword argument of Python's": ("return max(a, b, key=a)", 1, "a keyword argument"),
     "a star": ("return max(*other(a))", 1, "the call of max"),
     "try": ("try:\n        return a\n    finally:\n        b = a", 1, "Try"),
     "no result": ("a = b", 0, "f, which returns nothing,"),
