@@ -88,6 +88,7 @@ def test_what_is_given_reaches_every_file(monkeypatch):
     assert not metadata.missing(facts)
     assert metadata.addresses(facts) == ["https://example.org/x", "https://doi.org/10.1/x"]
     monkeypatch.setattr(metadata, "citation", lambda: facts)
+    assert json.loads(metadata.pages()[".zenodo.json"])["creators"][0]["name"] == "Bee, Ann"
     for name, text in metadata.pages().items():
         given = [
             "Bee",

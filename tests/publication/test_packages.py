@@ -18,7 +18,9 @@ PYTHON = ".".join(platform.python_version_tuple()[:2])
 
 
 @pytest.mark.parametrize("python", ["3.11", "3.13"])
-def test_the_conditions_of_requirements_are_those_of_the_other_machine(python):
+def test_the_conditions_of_requirements_are_those_of_the_other_machine(
+    python, tmp_path, monkeypatch
+):
     lines = wheels._requirements("lock", python, "aarch64")
     names = [line.partition("==")[0] for line in lines]
     assert "greenlet" in names and "pyreadline3" not in names
@@ -26,6 +28,11 @@ def test_the_conditions_of_requirements_are_those_of_the_other_machine(python):
         line.partition("==")[0] for line in wheels._requirements("lock", python, "riscv64")
     }
     assert all(" --hash=sha256:" in line and ";" not in line for line in lines)
+    conditions = "a==1 ; python_version < '3.12'\nb==1 ; python_full_version < '3.12'\n"
+    (tmp_path / "requirements").mkdir()
+    (tmp_path / "requirements" / "lock.txt").write_text(conditions)
+    monkeypatch.setattr(wheels, "ROOT", tmp_path)
+    assert len(wheels._requirements("lock", python, None)) == (2 if python == "3.11" else 0)
 
 
 @pytest.mark.parametrize(
