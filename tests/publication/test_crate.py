@@ -36,6 +36,9 @@ def test_each_result_has_an_action_with_its_inputs(unpacked):
     inputs = {item["@id"] for item in drawing["object"]}
     assert "results/paper/motion_fig3.nc" in inputs
     assert drawing["instrument"]["@id"] == "#tool-draw"
+    page = "https://spdx.org/licenses/BSD-3-Clause"
+    assert entities["./"]["license"] == entities["Snakefile"]["license"] == {"@id": page}
+    assert entities[page]["name"] == "BSD-3-Clause"
     assert all(reference["@id"] in entities for reference in references(graph))
 
 
