@@ -306,6 +306,7 @@ MISTAKES = {
     },
     'check = "model.homogeneous"\n': {
         'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
+        'check = "model.homogeneous"\ntheorems = ["twist-zero"]\n': "claims.4.check: model.homog",
         "": "claims.4: expected one of check, formulas and verdict",
         'quote = "x"\nverdict = "holds"\n': "Cannot overwrite a value",
         'paraphrase = "x"\n': "claims.4: expected either quote or paraphrase",
@@ -331,15 +332,20 @@ def test_every_check_and_every_verdict_is_used():
     assert set(VERDICTS) == set(schema.VERDICT_WORDS)
 
 
-def test_a_dataset_that_no_scene_makes_is_named(monkeypatch):
-    monkeypatch.setattr(claims, "required_datasets", lambda: ["fig22/orbits"])
-    with pytest.raises(UsageError, match=r"^config.yaml: no scene makes fig22/orbits"):
-        claim_verdicts.dataset_paths({"variants": {}, "sweeps": {}})
+def test_a_dataset_that_no_scene_makes_is_named_with_its_claim():
+    wrong = "^no scene of config.yaml makes fig2/orbits, which claim 4 needs: did you mean atlas/o"
+    with pytest.raises(UsageError, match=wrong):
+        claim_verdicts.dataset_paths({"variants": {}, "sweeps": {"orbits": {}}}, ["fig2/orbits"])
 
 
 @pytest.mark.parametrize(
     ("value", "wrong"),
-    [("{shel}", "no number 'shel'"), ("{shell", "expected '}'"), ("{shell:y}", "Unknown format")],
+    [
+        ("{shel}", "no number 'shel'"),
+        ("{shell", "expected '}'"),
+        ("{shell:y}", "Unknown format"),
+        ("{shell.x}", "'numpy.float64' object"),
+    ],
 )
 def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
     claim = claims.CLAIMS[3].model_copy(update={"value": value})

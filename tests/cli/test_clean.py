@@ -29,6 +29,9 @@ FILES = {
     "results/near/logs/fig4.png.json": True,
     "results/gone/figures/fig9.png": True,  # its variant is not in config.yaml
     "results/report/report.html": True,
+    "results/article.pdf": True,
+    "results/archive/pseudorigid-python3.13-x86_64.tar": True,
+    "results/archive/mine.tar": False,
     "results/compare/paper..near/fig3.png": True,
     "results/paper/differences/fig3.png": True,
     "results/paper/fig3.png": False,  # a user's copy, beside the folder of the recorded one
@@ -84,7 +87,7 @@ def test_generated_files_are_deleted(tmp_path):
     assert left(tree.path) == KEPT
     assert not list((tree.path / "results").rglob("*.json"))
     assert not (tree.path / "results" / "gone").exists()  # empty folders are deleted
-    assert result.stdout.startswith("deleted 12 files, ")
+    assert result.stdout.startswith("deleted 14 files, ")
     assert tree.run("clean", "--yes").stdout == "nothing to delete\n"
 
 

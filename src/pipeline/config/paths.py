@@ -11,13 +11,14 @@ from .schema.kinds import KINDS
 from .schema.published import FOLDERS, PAPER, PUBLISHED
 from .schema.stages import STAGES, upstream
 
-__all__ = ["ATLAS", "DERIVATIONS", "EXPLORER", "LEDGER", "PAPER", "PUBLISHED", "SHOWN"]
+__all__ = ["ARTICLE", "ATLAS", "DERIVATIONS", "EXPLORER", "LEDGER", "PAPER", "PUBLISHED", "SHOWN"]
 
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 ATLAS = FOLDERS["sweep"]
 LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 EXPLORER = "results/explorer.html"
+ARTICLE = "results/article.pdf"
 DERIVATIONS = "results/claims/derivations.nc"
 CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
 THEOREMS = sorted(file.name.removesuffix(".toml") for file in CERTIFICATES.iterdir())

@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from inspect import signature
 from typing import Annotated, Any, Literal, NamedTuple, Self, get_args
 
 import numpy as np
@@ -134,12 +135,8 @@ class Claim(_Table):
     def judge(self, datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> Verdict:
         """Return the verdict on the claim; `proofs` maps theorems to "proved" or another word.
 
-        Raises ValueError if a dataset is missing, and ConfigError if a sentence asks for a number
-        that the check does not give.
+        Raises ConfigError if a sentence asks for a number that the check does not give.
         """
-        missing = [name for name in self.data if name not in datasets]
-        if missing:
-            raise ValueError(f"claim {self.number} needs {', '.join(missing)}")
         inputs: list[Any] = [datasets[name] for name in self.data]
         if self.theorems:
             inputs.append({name: proofs.get(name) == PROVED for name in self.theorems})
@@ -155,7 +152,7 @@ class Claim(_Table):
             for name in (name for name in self.parts if name in numbers):
                 numbers[name] = _part(self.parts[name], numbers[name], numbers)
             value, error = (s.format_map(numbers) for s in (sentences.value, sentences.error))
-        except (LookupError, ValueError) as mistake:
+        except (LookupError, ValueError, AttributeError, TypeError) as mistake:
             wrong = f"no number {mistake}" if isinstance(mistake, KeyError) else str(mistake)
             raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
         return Verdict(
@@ -179,6 +176,18 @@ class Document(_Table):
     claims: dict[Annotated[int, Field(strict=False)], Claim]
 
 
+def _check_function(claim: Claim, place: str, checks: Mapping[str, Callable[..., Outcome]]) -> None:
+    """Raise ValueError if a claim's check does not exist or takes other arguments."""
+    if claim.function is None:
+        raise ValueError(f"{place}: {_hint(claim.check, checks)}")
+    given = [*claim.data, *(["a mapping of theorems"] if claim.theorems else [])]
+    try:
+        signature(claim.function).bind(*given)
+    except TypeError:
+        takes = f"{claim.check} does not take {len(given)} arguments: {', '.join(given)}"
+        raise ValueError(f"{place}: {takes}") from None
+
+
 def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> Document:
     """Read claims.toml; `checks` are the functions by name.
 
@@ -188,8 +197,8 @@ def load(text: str, checks: Mapping[str, Callable[..., Outcome]]) -> Document:
         document = Document.model_validate(tomllib.loads(text))
         for number, claim in document.claims.items():
             claim.number, claim.function = number, checks.get(claim.check)
-            if claim.check and claim.function is None:
-                raise ValueError(f"claims.{number}.check: {_hint(claim.check, checks)}")
+            if claim.check:
+                _check_function(claim, f"claims.{number}.check", checks)
     except ValidationError as error:
         lines = [f"{dotted(each['loc'])}: {each['msg']}" for each in error.errors()]
     except ValueError as error:

@@ -1,5 +1,6 @@
 """./reproduce article: set the replication article from the results."""
 
+from ...config.paths import ARTICLE
 from ...publication import archive, metadata
 from ...records.files import write_whole
 from ...records.sources import ROOT
@@ -7,7 +8,6 @@ from ..arguments import Arguments
 from ..packages import add_packages
 from ..session import interruptible, locked, one_line
 
-PDF = "results/article.pdf"
 NUMBERS = "results/article/numbers.json"
 
 
@@ -21,8 +21,8 @@ def run(args: Arguments) -> int:
     with locked(), interruptible(), one_line("article: "):
         write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.checked))
         pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
-        write_whole(ROOT / PDF, pdf)
-    print(f"{PDF}  {len(pdf) / 1e6:.1f} MB")
+        write_whole(ROOT / ARTICLE, pdf)
+    print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")
     for words in metadata.missing(metadata.citation()):
         print(f"{metadata.TO_FILL_IN} in {metadata.CITATION}: {words}")
     return 0

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from ...checks.claims.schema import UNDECIDED, Verdict
 from ...config import PAPER, paths
 from ...records import artifacts
 from ...records.files import write_whole
+from ...records.names import suggestion
 from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
@@ -32,7 +33,8 @@ def run(args: Arguments) -> int:
         return 0
     with locked():
         files = figures.of_scenes(checked, "claims")
-        data = [*dataset_paths(checked).values(), *map(paths.theorem, claims.required_theorems())]
+        data = [*dataset_paths(checked, claims.required_datasets()).values()]
+        data += map(paths.theorem, claims.required_theorems())
         status = figures.make(checked, "claims", files, args.options, data)
         if status or running.is_dry_run(args.options):
             return status
@@ -43,28 +45,32 @@ def run(args: Arguments) -> int:
     return 0
 
 
-def dataset_paths(checked: dict[str, Any]) -> dict[str, str]:
-    """Return name -> path of each dataset that the checks need."""
+def dataset_paths(checked: dict[str, Any], names: Iterable[str]) -> dict[str, str]:
+    """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
     known = {"derivations": paths.DERIVATIONS}
     known |= {f"atlas/{name}": paths.sweep_dataset(name) for name in checked["sweeps"]}
     for (variant, scene, stage), path in paths.artifact_paths(checked["variants"]).items():
         own = variant in (PAPER, "claims")
         known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
-    for name in claims.required_datasets():
+    for name in names:
         if name not in known:
-            raise UsageError(f"config.yaml: no scene makes {name}, which claims need")
-    return {name: known[name] for name in claims.required_datasets()}
+            numbers = [number for number, claim in claims.CLAIMS.items() if name in claim.data]
+            needs = f"no scene of config.yaml makes {name}, which claim {numbers[0]} needs"
+            raise UsageError(": ".join([needs, *filter(None, [suggestion(name, known)])]))
+    return {name: known[name] for name in names}
 
 
 def _load(
-    checked: dict[str, Any], names: Iterable[str], given: dict[str, xr.Dataset]
+    checked: dict[str, Any], names: Sequence[str], given: dict[str, xr.Dataset]
 ) -> dict[str, xr.Dataset]:
     """Return datasets by their names, those that are not given from their files.
 
     A sweep's dataset gets the g of its block, if there is one, as an attribute.
     """
-    datasets, files = {}, dataset_paths(checked) if set(names) - set(given) else {}
+    datasets, files = {}, dataset_paths(checked, names)
     for name in names:
+        if name not in given and not (ROOT / files[name]).exists():
+            raise UsageError(f"{files[name]}: missing: ./reproduce claims makes it")
         dataset = given[name] if name in given else artifacts.load(ROOT / files[name])
         folder, _, sweep = name.partition("/")
         block = checked["sweeps"].get(sweep, {}) if folder == "atlas" else {}

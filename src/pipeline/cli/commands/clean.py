@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...config import ConfigError, build_specs
-from ...config.paths import EXPLORER
+from ...config.paths import ARTICLE, EXPLORER
 from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
@@ -24,7 +24,9 @@ _OTHER_FILES = (
     "*/*/.*.part",
     "*/*.nc.part/*",
     "report/*.html",
+    "article/numbers.json",
     "archive/pseudorigid.tar",
+    "archive/pseudorigid-python*.tar",
     "compare/*/*.png",
 )
 
@@ -45,11 +47,15 @@ def run(args: Arguments) -> int:
             print("nothing to delete")
             return 0
         size = sum(file.lstat().st_size for file in files) / 1e6
-        where = ", ".join([f"results/{name}" for name in names] + [f.name for f in folders])
-        summary = f"{len(files)} files, {size:.1f} MB, in {where}"
+        single = [str(file.relative_to(ROOT)) for file in files if file.parent == RESULTS]
+        where = [f"results/{name}" for name in names] + single + [f.name for f in folders]
+        summary = f"{len(files)} files, {size:.1f} MB, in {', '.join(where)}"
         if not args.yes:
             print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
-            if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+            answer = sys.stdin.readline()
+            if not answer:  # without a terminal
+                print(file=sys.stderr)
+            if answer.strip().lower() not in ("y", "yes"):
                 raise UsageError("nothing was deleted")
         try:
             for file in files:
@@ -70,7 +76,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
     committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
     candidates = {file for pattern in _OTHER_FILES for file in RESULTS.glob(pattern)}
-    candidates |= set() if args.folder else {ROOT / EXPLORER}
+    candidates |= set() if args.folder else {ROOT / EXPLORER, ROOT / ARTICLE}
     with suppress(ConfigError):  # records alone then say which files are results
         specs = build_specs.of_all(args.checked)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
