@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from sections import BALL, any_sea, sea
 
-from pseudorigid import lyapunov_spectrum
+from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import ensemble
 from pseudorigid.kernel import impact, lanes, tangents
 from pseudorigid.kernel.arithmetic import WIDE
@@ -95,6 +95,8 @@ def test_states_that_leave_their_lane():
     assert all(BALL.time_to_impact(x[i], v[i], w[i]) > WIDE for i in (31, 35))
     vectors = assert_same_bits((x, v, w), BALL, 5)
     assert np.all(np.isfinite(vectors[:, 31])) and np.all(np.isnan(vectors[:, 11]))
+    unit = 2.0**300  # its fourth power overflows
+    assert_same_bits(unit * np.array(sea(60)), Ball(BALL.k, unit * BALL.g), 20)
 
 
 def test_few_flights_leave_their_lane(monkeypatch):
