@@ -146,9 +146,10 @@ RECORDS = ["pipeline.records", "pipeline.records.artifacts", "pipeline.records.f
     [
         (f"import pipeline.cli.running, pipeline.config as c; c.load({str(SHIPPED)!r})",
          LIBRARIES, []),
+        ("import pipeline.cli.commands.list", LIBRARIES, []),
         ("import pipeline.records.artifacts", OURS, [*RECORDS, "pseudorigid"]),
     ],
-    ids=["start of a run", "artifacts"],
+    ids=["start of a run", "list", "artifacts"],
 )  # fmt: skip
 def test_a_process_loads_no_more_than_it_needs(code, names, expected):
     program = f"import sys\n{code}\nprint(*sorted(n for n in sys.modules if n.startswith({names})))"
