@@ -13,7 +13,7 @@ from slowly import slowly
 from pseudorigid.proofs import THEOREMS
 from pseudorigid.proofs.checks import jump
 from pseudorigid.proofs.checks.certificate import NotProvedError
-from pseudorigid.proofs.checks.hsets import HSet
+from pseudorigid.proofs.checks.hsets import HSet, LocalMap, covering
 from pseudorigid.proofs.search.chains import DoubleMap
 
 SMALL = "entropy-lower"
@@ -81,6 +81,19 @@ def test_coverings_hold_for_points_in_doubles(name):
             ends.append(p_image)
         assert np.abs(ends).min() > 1
         assert np.all(np.sign(ends[0]) == -np.sign(ends[1]))
+
+
+@pytest.mark.parametrize("reach", [arb(1, 0.1), arb(-1, 0.1), arb(0.5), arb(1)])
+def test_a_covering_that_is_not_decided_is_refused(reach):
+    zero, half = arb(0), arb(0.5)
+    one = HSet("S", (zero, zero), (arb(1), zero), (zero, arb(1)))
+
+    def local(slope):
+        return LocalMap((zero, zero), ((slope, zero), (zero, half)), ((zero,) * 3,) * 2)
+
+    assert covering(local(2 * arb(1, 0.1)), one, one)[0] > 0
+    with pytest.raises(NotProvedError, match="not proved to land beyond"):
+        covering(local(reach), one, one)
 
 
 def test_a_doubled_connection_and_overlapping_strips_are_refused():
