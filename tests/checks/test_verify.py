@@ -54,6 +54,14 @@ def test_config(moved):
     assert found.findings[0].endswith("made from another config: impacts 60 -> 61: run ./reproduce")
 
 
+def test_without_results_the_list_asks_the_manifest_for_the_config(moved):
+    moved.edit("fig7", impacts=61)
+    shutil.rmtree(moved.path / "results")
+    listed = moved.run("list").stdout
+    assert "fig7  paper_figures/fig7.png  stale: impacts 60 -> 61\n" in listed
+    assert f"fig3  {FIG3}  identical to the committed one\n" in listed
+
+
 def test_source(moved, edited):
     """Results are stale until they are recomputed; then the changed source is a note."""
     moved.append("pseudorigid/dynamics/orbits.py")

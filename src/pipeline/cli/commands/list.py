@@ -4,10 +4,15 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
-from ...checks.published_sets import PublishedSet, committed_sets, committed_state
+from ...checks.published_sets import (
+    ChecksumError,
+    PublishedSet,
+    committed_sets,
+    committed_state,
+)
 from ...config import PUBLISHED, build_specs, paths
 from ...config.schema import study as parts
-from ...records.differences import columns
+from ...records.differences import columns, differing_block
 from ...records.sources import ROOT
 from ..arguments import Arguments
 
@@ -35,12 +40,24 @@ def run(args: Arguments) -> int:
 
 
 def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:
-    """Yield scene, file and state of each file of a published set."""
+    """Yield scene, file and state of each file of a published set.
+
+    Whether a file is stale follows from its drawing's record or, without one, from the manifest.
+    """
+    from ...checks import manifest  # takes long to import
+
+    try:
+        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
+    except ChecksumError:
+        scenes = {}
     for name, drawing in published_set.drawn.items():
-        path = f"{published_set.folder}/{name}"
+        scene, path = PurePath(name).stem, f"{published_set.folder}/{name}"
         state, made = committed_state(ROOT, path), freshness.state(drawing)
+        if made == MISSING and scene in scenes:
+            blocks = scenes[scene]["config"], published_set.config[scene]
+            made = f"stale: {words}" if (words := differing_block(*blocks)) else MISSING
         known = state == MISSING or made in (CURRENT, MISSING)
-        yield PurePath(name).stem, path, state if known else made
+        yield scene, path, state if known else made
 
 
 def _print(title: str, rows: Sequence[Sequence[str]]) -> None:
