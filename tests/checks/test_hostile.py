@@ -10,12 +10,14 @@ import shutil
 import subprocess
 import tarfile
 from contextlib import redirect_stdout, suppress
+from pathlib import Path
 
 import netCDF4
 import pytest
 from anything import FUZZ, JSON, PATHS, edited, spoilt
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from project import Tree
 from slowly import slowly
 from verdicts import accepting, against, verified
 
@@ -28,7 +30,7 @@ from pipeline.cli.commands import clean
 from pipeline.config import build_specs
 from pipeline.publication import archive
 from pipeline.records.files import FileError
-from pipeline.records.record import record_path, refusal_path
+from pipeline.records.record import log_path, record_path, refusal_path
 
 DATA = "results/paper/motion_fig3.nc"
 DRAWING = "results/paper/figures/fig3.png"
@@ -285,11 +287,31 @@ def test_a_run_goes_on_beside_special_files(moved):
     assert (result.returncode, result.stdout) == (1, line)
 
 
+@pytest.mark.parametrize(("place", "what"), [(record_path, "a FIFO"), (log_path, "a folder")])
+def test_a_special_file_beside_a_result_is_one_line(moved, place, what):
+    file = place(DATA)
+    (moved.path / DATA).unlink()
+    (moved.path / file).unlink(missing_ok=True)
+    (moved.path / file).parent.mkdir(exist_ok=True)
+    OTHERS[what](moved.path / file)
+    result = moved.run("fig3")
+    said = f"reproduce: {file}: {what} stands in its place, move it away\n"
+    assert (result.returncode, result.stdout) == (1, said)
+
+
 def test_a_special_file_as_config_is_one_line(moved):
     moved.config.unlink()
     os.mkfifo(moved.config)
     result = moved.run("-n")
     said = "config.yaml: a FIFO stands in its place, move it away\n"
+    assert (result.returncode, result.stdout) == (1, said)
+
+
+def test_a_folder_whose_name_is_no_text_is_one_line(moved):
+    folder = os.fsdecode(os.fsencode(moved.path.parent) + b"/\xff")
+    moved.path.rename(folder)
+    result = Tree(Path(folder)).run("list")
+    said = f"reproduce: {folder!a}: this folder's name is not UTF-8: rename it\n"
     assert (result.returncode, result.stdout) == (1, said)
 
 

@@ -24,6 +24,8 @@ def main(words: list[str]) -> int:
     command = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
     name = command.module or args.word
     try:
+        if not _is_utf8(ROOT):
+            raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
         module = importlib.import_module(f".commands.{name}", __package__)
         return int(module.run(args))
     except ConfigError as error:
@@ -36,3 +38,12 @@ def main(words: list[str]) -> int:
     except KeyboardInterrupt:
         return 130
     return 1
+
+
+def _is_utf8(path: Path) -> bool:
+    """Return whether the name of a file is text, as netCDF4 and snakemake need it."""
+    try:
+        os.fspath(path).encode()
+    except UnicodeEncodeError:
+        return False
+    return True

@@ -100,8 +100,9 @@ def make(
     )
     outdated = freshness.outdated(paths)
     for path, reason in outdated.items():
-        if obstacle(ROOT / path):
-            raise UsageError(f"{path}: {reason}")
+        for file in (path, record_path(path), log_path(path)):
+            if words := obstacle(ROOT / file):
+                raise UsageError(f"{file}: {words}")
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
     options = options_of(arguments)
