@@ -287,6 +287,16 @@ def test_a_run_goes_on_beside_special_files(moved):
     assert (result.returncode, result.stdout) == (1, line)
 
 
+@pytest.mark.slow
+def test_a_folder_in_place_of_a_figure_that_cannot_exist_is_left(moved):
+    moved.edit("fig3", type="inverse hyperbolic")
+    assert moved.run("fig3").returncode == 1
+    (moved.path / DRAWING / "mine").mkdir(parents=True)
+    result = moved.run("fig3")
+    assert result.returncode == 1 and result.stdout.count("cannot exist: ") == 2
+    assert (moved.path / DRAWING / "mine").is_dir()
+
+
 @pytest.mark.parametrize(("place", "what"), [(record_path, "a FIFO"), (log_path, "a folder")])
 def test_a_special_file_beside_a_result_is_one_line(moved, place, what):
     file = place(DATA)

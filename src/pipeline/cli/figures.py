@@ -77,7 +77,8 @@ def make(
         if drawing in refused:
             state = outdated[drawing]
             for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
-                (ROOT / old).unlink(missing_ok=True)
+                if not obstacle(ROOT / old):
+                    (ROOT / old).unlink(missing_ok=True)
         elif drawing in outdated:
             state = _failed(with_dependencies(specs, [drawing]), outdated[drawing])
         elif identity(drawing) == before[drawing]:
