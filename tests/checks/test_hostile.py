@@ -93,14 +93,16 @@ HOSTILE = {
 def test_a_hostile_archive_is_one_line(accepted, tmp_path, name):
     path = tmp_path / "h.tar"
     path.write_bytes(HOSTILE[name])
-    with pytest.raises(archive.ArchiveError, match=r"^\S+h.tar: [^\n\x1b]{10,200}$"):
+    with pytest.raises(archive.ArchiveError, match=r"^\S+h.tar: [^\n\x1b]{10,200}$") as error:
         against(accepted, path)
+    assert ("says that it has 8,000,000,000 bytes" in str(error.value)) == (name == "large")
 
 
 def test_bytes_beside_the_files_do_not_pass(packed, tmp_path):
     good, path = packed.read_bytes(), tmp_path / "h.tar"
-    for more in (b"x" * 700, bytes(700), bytes(10240), good):
-        path.write_bytes(good + more)
+    longer = [good + more for more in (b"x" * 700, bytes(700), bytes(10240), good)]
+    for changed in (*longer, good[:-1] + b"x"):
+        path.write_bytes(changed)
         with pytest.raises(archive.ArchiveError, match="bytes after its end"):
             archive.read(path)
     for place, part in ((100, b"0000777"), (136, b"00000000001"), (265, b"root")):  # of a header
