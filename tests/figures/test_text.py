@@ -5,6 +5,7 @@ from legible import assert_text_is_whole_and_apart
 from samples import DATA, FLAT, KINDS, SCENES, SPACE, drawn, exponents, module
 from slowly import slowly
 
+from pseudorigid.figures.axes import panel
 from pseudorigid.figures.canvas import style
 
 
@@ -56,3 +57,12 @@ def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
 def test_labels_of_ticks():
     assert style.number(-0.2) == "\N{MINUS SIGN}0.2"
     assert style.number(160000, 5) == "1.6"
+
+
+@pytest.mark.parametrize(
+    ("at", "shift", "side", "place"),
+    [(50, 3, "left", (53, "left")), (80, 3, "left", (77, "right")), (20, -3, "top", (23, "bottom")),
+     (20, -3, "right", (23, "left")), (50, 3, "center", (53, "center"))],
+)  # fmt: skip
+def test_a_note_is_on_the_other_side_if_only_that_fits(at, shift, side, place):
+    assert panel._beside(at, shift, side, 20, 0, 100) == place
