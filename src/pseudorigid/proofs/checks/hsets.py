@@ -164,7 +164,10 @@ def prove_hyperbolic(
 
     Raises NotProvedError.
     """
-    local = local_map(surface, source, target)
+    try:
+        local = local_map(surface, source, target)
+    except UndecidedError as error:
+        raise NotProvedError(f"{source.name}: {error}") from None
     return covering(local, source, target), cones(local, source, target), local
 
 
