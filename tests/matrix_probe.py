@@ -22,7 +22,7 @@ from numpy._core._multiarray_umath import __cpu_features__
 # `short` needs no more than this; what imports xarray and matplotlib is imported where it is used.
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.kernel import arithmetic
+from pseudorigid.kernel import arithmetic, impact
 from pseudorigid.kernel.compiled import jit
 
 BALL = Ball(k=0.2, g=0.04)
@@ -140,7 +140,7 @@ def compiled():
     from pseudorigid.sweep import cell
 
     dict(everything())
-    BALL.inverse_impact(0.1, 0.1, 0.1)
+    impact.reflect(0.1, 0.1, 0.1, 0.2, impact.impact_coefficients(0.2))  # for the explorer
     cell.cell(0.2, 6.25, 16, 1000)
     calls_the_library(1.0)
     may_fuse(np.ones(9), np.ones(9))
