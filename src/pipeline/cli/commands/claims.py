@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +45,7 @@ def run(args: Arguments) -> int:
     return 0
 
 
-def dataset_paths(checked: dict[str, Any], names: Iterable[str]) -> dict[str, str]:
+def dataset_paths(checked: dict[str, Any], names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
     known = {"derivations": paths.DERIVATIONS}
     known |= {f"atlas/{name}": paths.sweep_dataset(name) for name in checked["sweeps"]}
