@@ -17,6 +17,10 @@ from pseudorigid.sweep import blocks
 BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
 SEA = (0.55, 0.68)
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
+CONTROL = {
+    "strengths": [0.03], "orbits": 300, "impacts": 8000, "period": 6, "starts": STARTS_2,
+    "shown": 0.03, "drawn": 300, "resamples": 40, "seed": 1,
+}  # fmt: skip
 STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]
 
 
@@ -87,10 +91,8 @@ def datasets(derived, flowing):
             clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,
         ),
-        "control/control": made(
-            control, strengths=[0.01, 0.03], orbits=150, impacts=1600, period=6, starts=STARTS_2,
-            shown=0.03, drawn=300, resamples=40, seed=1,
-        ),
+        "control/control": made(control, **CONTROL),
+        "control_low/control": made(control, energy=0.001, **CONTROL),
         "jumps/jumps": made(jumps, energies=[0.0018], sides=200),
         "rotation/rotation": made(
             rotation, energies=[0.001, 0.026], starts=200, impacts=6000, detail=(-0.8344, -0.8341),

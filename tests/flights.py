@@ -78,7 +78,7 @@ def near_miss(rng):
         cosine, sine = mpmath.cos_sin(t)
         c = (x * (1 - t * sine - cosine) - g * t * t / 2) / (t * cosine - sine)
         b = -g * t - (x * sine + c * cosine)
-        if b + c < 0 and g + x * cosine - c * sine < 0 and abs(c) < 1e3:
+        if b + c < 0 and g + x * cosine - c * sine < 0 and max(abs(b) / g, abs(c)) < 1e3:
             break
     v, w = (float(a) for a in before(mpf(k), b, c))
     off = 1.0 + sign(rng) * log_uniform(rng, 1e-14, 1e-2)

@@ -112,7 +112,8 @@ class Tree:
         if self.cold:
             self.warm()
         # ./reproduce lets Python write bytecode, which halves the time of each start.
-        kept = {name: os.environ[name] for name in os.environ.keys() - {"PYTHONDONTWRITEBYTECODE"}}
+        others = os.environ.keys() - {"PYTHONDONTWRITEBYTECODE", "COLUMNS"}
+        kept = {name: os.environ[name] for name in others}
         return kept | {"PYTHONPATH": str(self.path / "src"), "PYTHONUTF8": "1"}
 
     def run(self, *arguments, **environment):
@@ -160,7 +161,9 @@ class Tree:
         """Copy the results and published figures of another tree that have a word in the name."""
         for folder in ("results/paper", "paper_figures"):
             for file in (other.path / folder).rglob(f"*{word}*"):
-                shutil.copy(file, self.path / file.relative_to(other.path))
+                place = self.path / file.relative_to(other.path)
+                place.parent.mkdir(exist_ok=True)
+                shutil.copy(file, place)
 
     def make_here(self, *targets):
         """Make results with records in this process, whose code is that of this tree."""

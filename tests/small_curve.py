@@ -23,7 +23,7 @@ class _Theorem(Theorem):
 
 SMALL = _Theorem(
     "small-curve", "a small curve surrounds the fixed point", curve.check,
-    THEOREMS["curve-fixed-point"].bounds | {
+    THEOREMS["curve-fixed-point-outer"].bounds | {
         "radius": Fraction("1e-6"), "rotation": (Fraction("0.1786"), Fraction("0.1787")),
         "share": Fraction("0.0069"), "error": Fraction("1e-35"),
     },

@@ -20,15 +20,15 @@ class Found(NamedTuple):
     lines: list  # the whole report
 
 
-def verified(tree, strict=False):
+def verified(tree, strict=False, committed=False):
     """Verify a tree."""
-    findings, *others = verify(tree.path, config.load(tree.config))
+    findings, *others = verify(tree.path, config.load(tree.config), committed)
     wrong = {
         name: [f"{layer}: {words}" for layer, words in layers.items()]
         for name, layers in findings.differences.items()
     }
     status = any(each.fails(strict) for each in (findings, *others))
-    problems = [*findings.problems, *findings.outdated]
+    problems = [*findings.problems, *findings.outdated, *findings.uncomputed]
     return Found(int(status), wrong, problems, findings.notes, [*findings.report()])
 
 

@@ -8,17 +8,6 @@ if __name__ == "__main__":
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-    from .cli.packages import report_damage
+    from .cli.main import main
 
-    try:
-        from .cli.main import main
-
-        status = main(sys.argv[1:])
-    except Exception:
-        if not report_damage():
-            raise
-        status = 1
-    else:
-        if status not in (0, 130):
-            report_damage()
-    sys.exit(status)
+    sys.exit(main(sys.argv[1:]))

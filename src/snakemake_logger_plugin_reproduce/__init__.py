@@ -1,17 +1,24 @@
 """Logger plugin of snakemake: `snakemake --logger reproduce` prints a line for each step."""
 
+import logging
 import os
 import signal
 import sys
 import threading
+import time
 from logging import LogRecord
+from pathlib import Path
 
+import psutil
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from pipeline.jobs.server import ADDRESS, plan
+from pipeline.jobs.heartbeat import Heartbeat
+from pipeline.jobs.plan import plan
+from pipeline.jobs.server import ADDRESS
 from pipeline.records.files import disk_is_full, identity
 from pipeline.records.record import failure
+from pipeline.records.sources import ROOT
 
 from .cells import Cells
 
@@ -27,12 +34,18 @@ class LogHandler(LogHandlerBase):
     def __post_init__(self) -> None:
         self.results: dict[int, str] = {}  # job -> result
         self.started: dict[int, float] = {}  # job -> time
+        self.running: dict[int, float] = {}  # job that has not ended -> time of the monotonic clock
         self.before: dict[str, int | None] = {}  # result -> its identity before the job
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
         self.cells: Cells | None = None
+        self.steps = "0 steps"  # how many are done
+        logging.raiseExceptions = False  # snakemake's own log may be on a full disk
         threading.Thread(target=_end_with_parent, daemon=True).start()
+        self.compiling = _compiling()
+        parent = psutil.Process(os.getppid() if ADDRESS in os.environ else None)
+        self.heartbeat = Heartbeat(self._running, waited=time.time() - parent.create_time())
 
     def emit(self, record: LogRecord) -> None:
         """Handle one of snakemake's events."""
@@ -43,17 +56,21 @@ class LogHandler(LogHandlerBase):
                 self.results[record.jobid], self.before[result] = result, identity(result)
             case LogEvent.JOB_STARTED:
                 self.started |= dict.fromkeys(record.jobs, record.created)
+                self.running |= dict.fromkeys(record.jobs, time.monotonic())
             case LogEvent.JOB_FINISHED:
                 self.finished = record.job_id, record.created
+                self.running.pop(record.job_id, None)
             case LogEvent.PROGRESS if self.finished:
                 job, now = self.finished
                 result = self.results[job]
                 words = f"{now - self.started[job]:.1f} s"
                 if identity(result) and identity(result) == self.before[result]:
                     words = "as it was"
-                self._print(job, words, f"{record.done} of {record.total}")
+                self.steps = f"{record.done} of {record.total}"
+                self._print(job, words, self.steps)
             case LogEvent.JOB_ERROR:
                 self.failed = True
+                self.running.pop(record.jobid, None)
                 self._print(record.jobid, f"not made: {self._reason(self.results[record.jobid])}")
             case LogEvent.ERROR:
                 self.errors.append(record.getMessage())
@@ -64,22 +81,40 @@ class LogHandler(LogHandlerBase):
             print(*self.errors, sep="\n", file=sys.stderr, flush=True)
         super().close()
 
+    def _running(self) -> str:
+        """Describe the jobs that run."""
+        now, jobs = time.monotonic(), []
+        for job, started in [*self.running.items()]:
+            spec = plan().freshness.build_specs.get(self.results[job])
+            if spec:
+                jobs.append(f"{spec.scene} {spec.step} ({now - started:.0f} s)")
+        if not jobs:
+            return "" if self.finished else "snakemake looks for what there is to do"
+        compiling = "" if self.finished else self.compiling
+        return f"{compiling}running: {', '.join(jobs)}; {self.steps} done"
+
     def _print(self, job: int, *words: str) -> None:
-        spec = plan().specs.get(self.results[job])
+        spec = plan().freshness.build_specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
         if step.startswith("block") and len(words) > 1:  # blocks are many: cells are counted
-            self.cells = self.cells or Cells(plan().specs, plan().outdated)
+            self.cells = self.cells or Cells(plan().freshness.build_specs, plan().outdated)
             line = self.cells.done(self.results[job])
         if line:
-            print(line.rstrip(), file=sys.stderr, flush=True)
+            self.heartbeat.print(line.rstrip())
 
     def _reason(self, result: str) -> str:
         """Return the last line of a failed job's log, or of snakemake's message."""
         words = "".join(self.errors[-1:]).splitlines()
         words = [line for line in words if line and not line.startswith("  File ")]
         full = disk_is_full(result)
-        return failure(result) or full or (words[-1] if words else "no reason is known")
+        return full or failure(result) or (words[-1] if words else "no reason is known")
+
+
+def _compiling() -> str:
+    """Say that jobs compile the kernel if no machine code is kept yet."""
+    folder = os.environ.get("NUMBA_CACHE_DIR") or ROOT / "src/pseudorigid/kernel/__pycache__"
+    return "" if any(Path(folder).glob("pseudorigid.*/*.nbc")) else "compiling, once; "
 
 
 def _end_with_parent() -> None:

@@ -77,5 +77,5 @@ def test_a_noble_number_between_two_numbers():
 
 @pytest.mark.parametrize("between", [(0.55, 0.65), (-0.4, -0.3)])
 def test_a_part_without_the_last_curve_is_refused(between):
-    with pytest.raises(ValueError, match=r"^between = .* is not allowed: no curves"):
+    with pytest.raises(ValueError, match=r"^between = .* is not allowed: begin among curves"):
         last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10)

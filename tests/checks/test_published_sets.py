@@ -2,12 +2,13 @@
 
 import hashlib
 import shutil
+import subprocess
 
 import pytest
 from runs import contents
 from verdicts import accepting, verified
 
-from pipeline.checks.published_sets import committed_state
+from pipeline.checks.published_sets import committed_state, edited_lists
 
 FIG3 = "paper_figures/fig3.png"
 
@@ -148,6 +149,33 @@ def test_a_file_is_the_committed_one_by_its_bytes(tmp_path):
         "gone": "missing",
     }.items():
         assert committed_state(tmp_path, f"figures/{name}.png") == words
+
+
+@pytest.mark.parametrize("with_git", [True, False])
+def test_a_list_that_was_edited_with_its_file_is_not_the_committed_one(tmp_path, with_git):
+    folder = tmp_path / "inside another repository" / "paper_figures"
+    folder.mkdir(parents=True)
+    sums = folder / "SHA256SUMS"
+
+    def write(text):
+        (folder / "fig2.png").write_text(text)
+        sums.write_text(f"{hashlib.sha256(text.encode()).hexdigest()}  fig2.png\n")
+
+    write("true")
+    for command in (["init", "-q"], ["add", "."], ["commit", "-q", "-m", "x"]) if with_git else ():
+        identity = ["-c", "user.name=x", "-c", "user.email=x@example.org"]
+        subprocess.run(["git", *identity, *command], cwd=tmp_path, check=True)
+
+    def state():
+        edited_lists.cache_clear()
+        return committed_state(folder.parent, "paper_figures/fig2.png")
+
+    assert state() == "identical to the committed one"
+    write("edited")
+    words = "SHA256SUMS, which is not as committed" if with_git else "the committed one"
+    assert state() == f"identical to {words}"
+    (folder / "fig2.png").write_text("true")
+    assert state() == f"differs from {words}"
 
 
 # ---- accept ----

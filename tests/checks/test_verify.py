@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from verdicts import verified
 
+from pipeline.checks.published_sets import edited_lists
 from pipeline.records import pictures
 from pseudorigid.figures.canvas.render import png
 
@@ -27,7 +28,11 @@ def test_an_intact_tree_passes_with_its_results_and_without(moved):
     assert result.stdout.splitlines()[-1] == "11 of 11 figures identical"
     assert verified(moved)[:4] == (0, {}, [], [])
     shutil.rmtree(moved.path / "results")
-    found = verified(moved)
+    bare = moved.run("verify")
+    assert bare.returncode == 1
+    assert "not computed here: run ./reproduce, or verify --committed" in bare.stdout
+    assert moved.run("verify", "--committed").returncode == 0
+    found = verified(moved, committed=True)
     assert found[:4] == (0, {}, [], [])
     assert found.lines[-2].startswith("no results here: only the committed files were checked")
 
@@ -146,12 +151,16 @@ def test_one_pixel(moved):
     spoil(moved.path / FIG3, 100, 200)
     found = verified(moved)
     (words,) = found.wrong.pop("fig3.png")
-    assert (found.wrong, found.findings) == ({}, [])
+    assert (found.wrong, found.findings, found.notes) == ({}, [], [])
     assert re.match(rf"drawing: {FIG3}: 1 of [\d,]+ pixels differs: see results/paper/diff", words)
     image = pictures.pixels(moved.path / "results" / "paper" / "differences" / "fig3.png")
     assert np.argwhere((image == (220, 0, 0)).all(axis=2)).tolist() == [[100, 200]]
     shutil.rmtree(moved.path / "results")
     assert verified(moved).wrong == {"fig3.png": [words]}
+    (moved.path / "paper_figures" / "MANIFEST.json").write_text("{}")
+    edited_lists.cache_clear()
+    note = "paper_figures/MANIFEST.json: not the committed one, see git diff"
+    assert note in verified(moved).notes
 
 
 def test_one_pixel_of_a_drawing_that_was_not_published(moved):

@@ -27,6 +27,7 @@ FILES = {
     "results/paper/logs/motion_fig3.nc.log": True,
     "results/paper/figures/.fig3.png.77.part": True,
     "results/near/logs/fig4.png.json": True,
+    "results/near/why/fig4.png.txt": True,
     "results/gone/figures/fig9.png": True,  # its variant is not in config.yaml
     "results/report/report.html": True,
     "results/article.pdf": True,
@@ -87,13 +88,14 @@ def test_generated_files_are_deleted(tmp_path):
     assert left(tree.path) == KEPT
     assert not list((tree.path / "results").rglob("*.json"))
     assert not (tree.path / "results" / "gone").exists()  # empty folders are deleted
-    assert result.stdout.startswith("deleted 14 files, ")
+    assert result.stdout.startswith("deleted 15 files, ")
     assert tree.run("clean", "--yes").stdout == "nothing to delete\n"
 
 
 def test_only_named_folders_are_cleaned(root):
     assert run(root, "near") == 0
-    assert left(root) == set(FILES) - {"results/near/logs/fig4.png.json"}
+    generated = {"results/near/logs/fig4.png.json", "results/near/why/fig4.png.txt"}
+    assert left(root) == set(FILES) - generated
     with pytest.raises(CommandLineError, match="no folder results/pape: did you mean paper"):
         run(root, "pape")
 

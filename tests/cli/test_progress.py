@@ -1,15 +1,20 @@
 """The names of results, and the line of each step of a run."""
 
 import logging
+import types
+from itertools import pairwise
 
 import pytest
-from project import SHIPPED
+from project import ROOT, SHIPPED
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
+from pipeline.checks.freshness import Freshness
+from pipeline.cli import figures
 from pipeline.cli.session import UsageError, one_line
 from pipeline.config import build_specs, load
-from pipeline.jobs import server
+from pipeline.jobs import heartbeat, stage
+from pipeline.jobs.plan import Plan
 from pipeline.records.build_spec import BuildSpec
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
@@ -39,8 +44,9 @@ def spec(path, step, config=None):
 def handler(tmp_path, monkeypatch):
     """A handler of the events of a run with two jobs: 0 makes orbits, and 1 draws them."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(heartbeat.Heartbeat, "start", lambda self: None)
     specs = {ORBITS: spec(ORBITS, "orbits"), DRAWING: spec(DRAWING, "drawing png")}
-    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, specs, set()))
+    monkeypatch.setattr(steps, "plan", lambda: Plan({}, Freshness(tmp_path, specs), set()))
     return steps.LogHandler(None, None)
 
 
@@ -74,6 +80,77 @@ def test_a_step_is_a_line_with_its_seconds_and_the_count_of_steps(handler, capsy
     ]
 
 
+def test_running_steps_are_named(handler, monkeypatch):
+    assert handler._running() == "snakemake looks for what there is to do"
+    monkeypatch.setattr(steps.time, "monotonic", lambda: 1000.0)
+    emit(handler, *begin(ORBITS, DRAWING))
+    monkeypatch.setattr(steps.time, "monotonic", lambda: 1003.0)
+    both = "running: fig2 orbits (3 s), fig2 drawing png (3 s); 0 steps done"
+    assert handler._running() == both
+    handler.compiling = "compiling, once; "
+    assert handler._running() == f"compiling, once; {both}"
+    emit(handler, *end(0, 13.5, 1))
+    assert handler._running() == "running: fig2 drawing png (3 s); 1 of 22 done"
+    emit(handler, *end(1, 14.5, 2))
+    assert handler._running() == ""
+
+
+def test_compiling_is_named_if_no_machine_code_is_kept(monkeypatch, tmp_path):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert steps._compiling() == "compiling, once; "
+    (tmp_path / "pseudorigid.kernel.loops-0").mkdir()
+    (tmp_path / "pseudorigid.kernel.loops-0/function.nbc").touch()
+    assert steps._compiling() == ""
+
+
+def test_silence_never_lasts_five_seconds(monkeypatch, capsys):
+    now, times = [0.0], []
+    monkeypatch.setattr(heartbeat.Heartbeat, "start", lambda self: None)
+
+    def wait(seconds):
+        now[0] += seconds
+        if 7.0 < now[0] < 7.15 + seconds and len(times) == 1:  # a step ends
+            times.append(now[0])
+            heart.print("step")
+        if now[0] > 60.0:
+            raise KeyboardInterrupt
+
+    clock = types.SimpleNamespace(monotonic=lambda: now[0], sleep=wait)
+    monkeypatch.setattr(heartbeat, "time", clock)
+    heart = heartbeat.Heartbeat(lambda: times.append(now[0]) or "running", waited=0.5)
+    with pytest.raises(KeyboardInterrupt):
+        heart.run()
+    assert times[0] < 3.0
+    assert max(b - a for a, b in pairwise(times)) < 5.0
+    assert min(b - a for a, b in pairwise(times)) > 4.0
+    assert capsys.readouterr().err.count("\n") == len(times) > 10
+
+
+def test_a_long_stage_reports_the_share_done_every_four_seconds(monkeypatch, capsys):
+    now = [100.0]
+    monkeypatch.setattr(stage, "time", types.SimpleNamespace(monotonic=lambda: now[0]))
+    progress = stage._progress(spec(ORBITS, "shares"))
+    for done in range(100):
+        progress(done / 100, f"{done} of 100 values")
+        now[0] += 0.5
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[:2] == ["fig2: 0%, 0 of 100 values", "fig2: 9%, 9 of 100 values"]
+    assert len(lines) == 12
+
+
+def test_the_closing_table_is_as_wide_as_the_terminal(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "60")
+    files = ["paper_figures/fig4.png", "paper_figures/fig4.svg"]
+    reason = "no elliptic orbit of period 6 at energy 0.0017 (found: hyperbolic)"
+    rows = [("fig4", file, f"cannot exist: {reason}") for file in files]
+    figures._print_table("paper_figures", rows, [])
+    _, head, *lines = capsys.readouterr().out.splitlines()
+    assert all(len(line) <= 60 for line in (head, *lines))
+    assert [line.split()[2:] for line in lines[:2]] == 2 * [["cannot", "exist"]]
+    text = " ".join(line.strip() for line in lines[2:])
+    assert text == f"{', '.join(files)}: cannot exist: {reason}"
+
+
 def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
     log.parent.mkdir(parents=True)
@@ -89,7 +166,8 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
 
 def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
     block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10})
-    monkeypatch.setattr(steps, "plan", lambda: server.Plan({}, {ORBITS: block}, {ORBITS}))
+    fresh = Freshness(ROOT, {ORBITS: block})
+    monkeypatch.setattr(steps, "plan", lambda: Plan({}, fresh, {ORBITS}))
     emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
     assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
 

@@ -30,6 +30,8 @@ TANGLE = (
      "resolution": {"distance": 0.01, "bend": 10}},
 )  # fmt: skip
 PLANE = ("sweeps", None, SWEEP)
+LONG_CUT = ("claims", "clusters", {"ball": {"k": 0.2, "g": 0.04}, "energy": 0.01, "cuts": [4, 8]})
+GRAPH, CURVES = ("proofs", "graph", {}), ("proofs", "curves", {})
 FAMILIES = ("families", "families", {"ball": {"k": 0.2, "g": 0.04}})
 SHELL = {"k": 0.3333333333333333, "g": 0.02}
 TWIST = ("proofs", "twist", {"marks": []})
@@ -51,7 +53,16 @@ def refusals(part, block):
     [
         (CLUSTERS, {"impacts": 100_001}, "impacts: 100001", "here 100000"),
         (CLUSTERS, {"orbits": 101, "impacts": 100}, "resamples: 100000", "here 99009"),
-        (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "ball.g: 1e-09", "at most 1000000"),
+        (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "energy: ", "flights up to 1000000/omega"),
+        (CLUSTERS, {"between": [0.68, 0.55]}, "between: [0.68, 0.55]", "two increasing"),
+        (CLUSTERS, {"lags": 99, "impacts": 100, "orbits": 2}, "lags: 99", "impacts - 2 = 98"),
+        (LONG_CUT, {"cuts": [4, 10]}, "cuts[1]: 10", "below 8.367, which no flight at this energy"),
+        (GRAPH, {"energy": 0.006}, "energy: 0.006", "k = 0.2 and this g, one of 0.005, 0.01"),
+        (GRAPH, {"ball": {"k": 0.3, "g": 0.04}}, "energy: 0.005", "with k = 0.2"),
+        (CURVES, {"rotation_numbers": [0.104, 0.25]}, "rotation_numbers[1]: 0.25",
+         "too close to a fraction of small integers: the nearest that are not are 0.2499 and 0.25"),
+        (CURVES, {"ball": SHELL, "energy": 0.015}, "energy: 0.015", "below 0.0138241"),
+        (FAMILIES, {"step": 0.03}, "step: 0.03", "two multiples or more in the span"),
         (CONTROL, {"shown": 0.02}, "shown: 0.02", "one of strengths: 0.01, 0.05"),
         (CONTROL, {"strengths": [0.05, 0.01]}, "strengths: ", "a rising list"),
         (CONTROL, {"impacts": 3_333_334}, "impacts: 3333334", "at most 10000000"),

@@ -1,14 +1,16 @@
 """Variants of the config: what they replace, what they keep, and what is refused."""
 
 import pytest
+import yaml
 from documents import complaints
 from project import shipped
 
 from pipeline import config
 from pipeline.config import paths
+from pipeline.config.reference import example
 
 BASE = shipped()
-NO_SCENE_FITS = {"ball": {"g": 0.095}}  # energy 0.01 is too high for it
+NO_SCENE_FITS = {"ball": {"g": 0.0995}}  # energies 0.001 and 0.01 are too high for it
 
 
 def with_variants(**variants):
@@ -91,7 +93,7 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
         ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
         ("v", {"ball": {"k": 0.01}}, ["variants.v.ball.g: 0.04", "0 < g < k = 0.01"]),
         ("v", {"energy": 0.06}, ["variants.v.energy: 0.06", "below k/2 - g = 0.06"]),
-        ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.005"]),
+        ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.0005"]),
         ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
         ("v", {"scenes": {"fig2": 3}}, ["variants.v.scenes.fig2: 3", "a mapping"]),
         ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
@@ -102,7 +104,7 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
 )
 def test_a_bad_variant_is_refused_a_line_a_mistake(name, block, parts):
     lines = complaints(shipped() | {"variants": {name: block}})
-    assert len(lines) == (6 if block == NO_SCENE_FITS else 1)
+    assert len(lines) == (7 if block == NO_SCENE_FITS else 1)
     for part in parts:
         assert part in lines[0]
 
@@ -116,3 +118,13 @@ def test_equal_stages_of_variants_are_computed_once():
     assert artifact_paths["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
     assert artifact_paths["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
     assert artifact_paths["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
+
+
+def test_a_dataset_is_shared_only_with_its_inputs():
+    """Shares of stable motion follow the families, whose levels are not among their own fields."""
+    scenes = {"map": yaml.safe_load(example("families"))}
+    finer = {"scenes": {"map": {"levels": 40}}}
+    document = {"ball": BASE["ball"], "scenes": scenes, "variants": {"finer": finer}}
+    artifact_paths = paths.artifact_paths(config.check(document)["variants"])
+    for stage in ("families", "shares"):
+        assert artifact_paths["finer", "map", stage] == f"results/finer/{stage}_map.nc"

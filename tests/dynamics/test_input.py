@@ -222,11 +222,26 @@ def test_the_section_takes_energies():
 
 
 @pytest.mark.filterwarnings("error")
+def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array():
+    long, usual = (0.0, 0.0, 1e6), BALL.start(0.5, 0.5)
+    for call in (BALL.impact, BALL.time_to_impact, lambda *state: orbit(BALL, state, 3)):
+        with pytest.raises(
+            ValueError, match=r"^a flight lasts 2\^20/omega or longer: take a larger"
+        ):
+            call(*long)
+    both = np.array([long, usual]).T
+    assert np.isnan(BALL.time_to_impact(*both)).tolist() == [True, False]
+    for keep in ("all", "last"):
+        x = orbit(BALL, both, 3, keep=keep)["x"]
+        assert np.isnan(x).any("impact" if keep == "all" else None).values.any()
+        assert np.isfinite(x.isel(orbit=1)).all()
+
+
 def test_overflow_and_the_rim_cause_no_warning():
     for size in (1e200, 1e308):
         assert BALL.energy(size, size, size) == np.inf
         for call in (BALL.reflect, BALL.impact, BALL.inverse_impact, BALL.jacobian):
-            call(size, size, size)
+            call([size], size, size)
         for call in (BALL.state, BALL.state_xy):
             with pytest.raises(ValueError, match=r"^no state with this x, "):
                 call(size, size, 1.0)

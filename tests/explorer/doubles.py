@@ -17,7 +17,7 @@ const text = array => {
   }
   return btoa(result);
 };
-Object.assign(globalThis, { kernel, floats, text }); // scripts of tests see only these
+Object.assign(globalThis, { floats, text }); // scripts of tests see only these
 """
 
 

@@ -10,6 +10,7 @@ from sections import BALL
 from small_curve import SMALL
 
 from pseudorigid import symmetric_orbits
+from pseudorigid.analyses.escape import escape
 from pseudorigid.analyses.families import families
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -27,6 +28,7 @@ AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
 SCENES = {
     "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
+    "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4]},
 }  # fmt: skip
 # A kind, the number of one of its datasets, a variable, and a change of it that must show.
 CHANGES = [
@@ -41,6 +43,8 @@ CHANGES = [
     ("curves", 0, "x", lambda v: v + 0.005),
     ("horseshoe", 1, "image_p", lambda v: 1.1 * v),
     ("graph", 0, "corner_x", lambda v: v + 0.005),
+    ("escape", 0, "distance", lambda v: v * np.linspace(1, 2, v.shape[1])),
+    ("curves", 0, "saddle_x", lambda v: v + 0.01),
     ("families", 0, "x", lambda v: v + 0.02),
     ("families", 0, "trace", lambda v: v + 0.2),
     ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
@@ -77,6 +81,7 @@ OTHERS = {
     "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
     "curves": curves,
     "horseshoe": horseshoe,
+    "escape": lambda: [escape(BALL, 0.0374, [0.0, 1e-4], 0.01, 16, 2000)],
     "graph": lambda: [
         scenes.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
     ],

@@ -6,6 +6,7 @@ import sys
 import pytest
 from project import ROOT, fresh_tree
 
+from pipeline.checks.freshness import Freshness
 from pipeline.jobs import server
 
 PROGRAMS = {
@@ -19,8 +20,10 @@ MAIN = """
 import os, subprocess, sys
 from concurrent.futures import ThreadPoolExecutor
 
+from pipeline.checks.freshness import Freshness
 from pipeline.jobs import server
 from pipeline.records.build_spec import BuildSpec
+from pipeline.records.sources import ROOT
 
 def spec(i, program, suffix):
     return BuildSpec(f"results/paper/{i}.{suffix}", "fig", "step", {}, program, None, [], [])
@@ -32,7 +35,7 @@ if __name__ == "__main__":
     count, suffix, *programs = sys.argv[1:]
     specs = [spec(i, name, suffix) for i, name in enumerate(programs * int(count))]
     specs = {each.result: each for each in specs}
-    with server.job_server(server.Plan({}, specs, set(specs))) as variables:
+    with server.job_server(Freshness(ROOT, specs), specs) as variables:
         os.environ |= variables
         with ThreadPoolExecutor(8) as pool:
             print(*pool.map(status, specs))
@@ -82,13 +85,26 @@ def test_jobs_start_as_usual_without_a_server(monkeypatch):
         raise OSError("AF_UNIX path too long")
 
     monkeypatch.setattr(server.forkserver, "ensure_running", refuse)
-    with server.job_server(server.Plan({}, {}, set())) as variables:
+    with server.job_server(Freshness(ROOT, {}), []) as variables:
         assert variables == {}
 
 
-def test_a_result_that_is_current_when_its_job_begins_is_not_made(tmp_path):
+def test_a_result_that_is_current_when_its_job_begins_is_not_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: True)
     command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "results/paper/x.nc"]
-    with server.job_server(server.Plan({}, {}, set()), lambda path: True) as variables:
+    with server.job_server(Freshness(ROOT, {}), []) as variables:
         assert subprocess.call(command, env=variables) == 0
     # A job whose server has ended fails.
     assert subprocess.call(command, env={server.ADDRESS: str(tmp_path / "none")}) == 1
+
+
+def test_a_job_whose_forking_process_was_killed_is_no_traceback(tmp_path, monkeypatch, capfd):
+    def end(context, spec):
+        raise EOFError("unexpected EOF")
+
+    monkeypatch.setattr(server, "run", end)
+    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: False)
+    command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "x"]
+    with server.job_server(Freshness(ROOT, {"x": None}), []) as variables:
+        assert subprocess.call(command, env=variables) == 1
+    assert capfd.readouterr().err == ""

@@ -35,30 +35,16 @@ def near(rng, points, reach=2):
     return np.concatenate([(bits + i).view(np.float64) for i in range(-reach, reach + 1)])
 
 
-# Doubles closest to a multiple of pi/2, over the whole range and in parts of it.
-CLOSEST = [
-    6381956970095103.0 * 2.0**797,
-    5.319372648326541e255,
-    6411027962775774.0 * 2.0**-48,
-    float.fromhex("0x1.6ac5b262ca1ffp+849"),
-    1.7976931348623157e308,
-]
-
-
 @mpmath.workdps(60)
 def angles(rng):
-    quarters = [float(n * mpmath.pi / 4) for n in [*range(1, 400), *(2**n for n in range(9, 21))]]
-    wide = [float(int(n) * mpmath.pi / 2) for n in 10.0 ** rng.uniform(6, 15, 300)]
+    quarters = [float(n * mpmath.pi / 4) for n in [*range(1, 400), *(2**n for n in range(9, 20))]]
     return np.concatenate(
         [
             rng.uniform(0, math.pi / 4, 3000),
             rng.uniform(0, 20, 5000),
             2.0 ** rng.uniform(-40, 20, 3000),
-            any_doubles(rng, 3000),
+            any_doubles(rng, 3000, 1022 + 20),
             near(rng, quarters),
-            near(rng, wide, 1),
-            near(rng, [arithmetic.WIDE, 2.0**52, 2.0**53]),
-            CLOSEST,
         ]
     )
 
@@ -98,7 +84,7 @@ def test_log_against_mpmath():
 
 
 def test_sincos_of_special_values():
-    for t in (math.nan, math.inf, -math.inf):
+    for t in (math.nan, math.inf, -math.inf, arithmetic.WIDE, -1e7, 1e300):
         assert all(math.isnan(a) for a in arithmetic.sincos(t))
     assert arithmetic.sincos(0.0) == (0.0, 1.0)
     for t in (5e-324, 1e-310, 1e-20):
@@ -124,13 +110,8 @@ def test_tails_have_no_cancellation(t):
         assert abs(cosine_tail / (c - 1 + mpf(t) ** 2 / 2) - 1) < 5e-16
 
 
-def test_quadrant_zero_means_no_reduction():
-    t = np.concatenate([2.0**20 + np.arange(200.0), 10.0 ** np.arange(7, 300)])
-    assert all(arithmetic.quadrant(a)[4] != 0.0 for a in t)
-
-
 def frozen_arguments():
-    """Return 200,000 arguments from a generator that is the same on every machine."""
+    """Return 200,000 numbers from a generator that is the same on every machine."""
     rng = np.random.default_rng(4)
     return np.concatenate(
         [
@@ -148,7 +129,8 @@ def digest(*arrays):
 
 
 def test_frozen_bits():
-    assert digest(*arithmetic.sincos_each(frozen_arguments())) == SINCOS
+    t = frozen_arguments()
+    assert digest(*arithmetic.sincos_each(t[np.abs(t) < arithmetic.WIDE])) == SINCOS
     assert digest(log_each(np.abs(frozen_arguments()))) == LOG
 
 
@@ -197,5 +179,5 @@ def test_interpreted_functions_have_the_compiled_bits():
         assert digest([scope["log"](a) for a in t.tolist()]) == digest(log_each(t))
 
 
-SINCOS = "cdad679fe1f8ca7c20355d64d0df41179c7a68646851710f407f264971cd7fad"
+SINCOS = "7ae097ee27006f39fbd63f882ae782737249f33a0e389e160140e5392db14291"
 LOG = "5bab1f155c86bdcb0e3a8bb57f2a490b22e3a3bdbe9973a2ccbca08774cc959b"

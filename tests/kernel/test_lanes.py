@@ -8,7 +8,6 @@ from sections import BALL, any_sea, sea
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import ensemble
 from pseudorigid.kernel import impact, lanes, tangents
-from pseudorigid.kernel.arithmetic import WIDE
 
 
 def vectors_of(states):
@@ -92,9 +91,8 @@ def test_states_that_leave_their_lane():
     x[27], v[27], w[27] = 0.0, 1e9, 0.0
     x[31], v[31], w[31] = 0.0, 0.0, 1e9
     x[35], v[35], w[35] = 0.1, -1e6, 2.5e6  # the first time of its march is wide
-    assert all(BALL.time_to_impact(x[i], v[i], w[i]) > WIDE for i in (31, 35))
     vectors = assert_same_bits((x, v, w), BALL, 5)
-    assert np.all(np.isfinite(vectors[:, 31])) and np.all(np.isnan(vectors[:, 11]))
+    assert np.all(np.isnan(vectors[:, [11, 31, 35]]))
     unit = 2.0**300  # its fourth power overflows
     assert_same_bits(unit * np.array(sea(60)), Ball(BALL.k, unit * BALL.g), 20)
 
@@ -113,7 +111,7 @@ def test_few_flights_leave_their_lane(monkeypatch):
         row[first : first + n] = values
     for _ in range(impacts):
         coefficients = impact.impact_coefficients(BALL.k)
-        lanes._advance.py_func(row, orbit, n, BALL.k, BALL.g, coefficients)
+        lanes.advance.py_func(row, orbit, n, BALL.k, BALL.g, coefficients)
     assert len(alone) < 0.01 * n * impacts  # the last lane of an impact is always among them
 
 

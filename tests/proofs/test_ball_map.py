@@ -18,7 +18,7 @@ from pseudorigid.proofs.enclosure.jets import Jet
 from pseudorigid.proofs.enclosure.surface import exact
 
 PAPER = Surface("1/5", "1/25", "1/100")
-COVERINGS = ("horseshoe", "entropy", "no-circle")
+COVERINGS = ("horseshoe", "entropy", "no-circle", "unstable")
 # theorems without a flight whose root is searched
 WITHOUT_FLIGHTS = ("diffeomorphism", "one-fixed-point", "fixed-point-elliptic", "twist-one-zero")
 
@@ -187,7 +187,7 @@ def test_proofs_refuse_a_map_that_skips_a_root(monkeypatch):
 
 @pytest.mark.parametrize(("error", "coverings"), [(arb(2) ** -80, False), (arb("4e-6"), True)])
 def test_proofs_refuse_a_gravity_that_is_a_little_off(error, coverings, monkeypatch):
-    """Coverings have margins: a smaller error leaves them true."""
+    """Coverings and |B| > |A| have margins: a smaller error leaves them true."""
     constants = Surface.constants
 
     def heavier(self):

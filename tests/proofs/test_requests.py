@@ -187,5 +187,8 @@ def test_the_data_of_a_proved_graph():
     ends = data["connection"].values < 0
     assert ends.sum() == 2
     assert ends.size - 2 == (data["impacts"].values - 1).sum()
-    with pytest.raises(ValueError, match="no graph is a theorem at k = 1/5"):
+    with pytest.raises(ValueError, match=r"at k = 1/5, .*: there are those at .*E/g.2 = 25/4"):
         scenes.scene_graph(BALL, 0.006)
+    scaled = scenes.scene_graph(Ball(0.2, 0.08), 0.02)
+    assert np.array_equal(scaled["corner_x"], 2.0 * data["corner_x"])
+    assert scaled["radius"] == pytest.approx(2.0 * data["radius"])

@@ -89,7 +89,8 @@ def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():
     lazy = set(proofs._MODULES)
     dynamic = {f"src/pipeline/jobs/{name}.py" for name in ("draw", "stage", "study")}
     dynamic.add("src/pseudorigid/proofs/__init__.py")
-    words = r"__doc__|getdoc|inspect|get_type_hints|__annotations__"
+    # A signature's names are in the hash.
+    words = r"__doc__|getdoc|inspect\.(?!signature)|get_type_hints|__annotations__"
     for file in sorted(files):
         text = (ROOT / file).read_text(encoding="utf-8")
         if file.endswith(".py"):

@@ -1,27 +1,20 @@
 """Links, files, commands and examples in README and docs exist and work."""
 
-import os
 import re
-import shutil
 from fnmatch import fnmatch
 
 import pytest
 import yaml
-from project import ROOT, Tree, run, shipped
+from project import ROOT
 from slowly import slowly
 
 from pipeline import config
 from pipeline.checks import datasets
 from pipeline.config import reference
-from pipeline.publication import metadata
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
-# Commands that take minutes, or packages of their own: of these only --help is run.
-LONG = ("test", "study", "benchmark", "claims", "families", "atlas", "sweep", "accept", "article")
-LONG_PARTS = ("prove --impacts", "prove --search", "prove --pictures", "variant exact", "--slurm")
-LONG_PARTS += ("--with-packages",)
 # Folders of the repository; results and .venv are left out.
 FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")
@@ -35,7 +28,7 @@ SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
 
 
 # Files that a module writes: python -m MODULE renews them.
-GENERATED = {"docs/config.md": reference} | dict.fromkeys(metadata.pages(), metadata)
+GENERATED = {"docs/config.md": reference}
 
 
 def text_of(document):
@@ -48,32 +41,11 @@ def blocks(document):
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip("\n") for block in found]
 
 
-def commands(document):
-    """The ./reproduce lines of its blocks, without comments."""
-    lines = [line for block in blocks(document) for line in block.splitlines()]
-    lines = [re.sub(r"\s+# .*", "", line).strip() for line in lines]
-    return [line for line in lines if line.startswith("./reproduce") and "..." not in line]
-
-
-def is_long(command):
-    word = [*command.split()[1:], ""][0]
-    return word in LONG or command == "./reproduce prove" or any(p in command for p in LONG_PARTS)
-
-
-def shell(script, folder, **environment):
-    return run("sh", "-c", f"({script}) 2>&1", cwd=folder, env=os.environ | environment)
-
-
 @pytest.mark.parametrize(
     ("file", "module"), [*GENERATED.items(), *slowly(("docs/data.md", datasets))]
 )
 def test_a_generated_file_is_up_to_date(file, module):
-    text = module.pages()[file] if module is metadata else module.page()
-    assert text_of(file) == text, f"renew it: python -m {module.__name__}"
-
-
-def test_the_readme_is_short():
-    assert len(text_of("README.md").splitlines()) <= 150
+    assert text_of(file) == module.page(), f"renew it: python -m {module.__name__}"
 
 
 @pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md", "docs/api.md"])
@@ -100,59 +72,6 @@ def test_named_files_exist(document):
         name = word.removeprefix("../")
         if not (name.startswith("results/") or name.endswith(".nc") or "NAME" in name):
             assert any(fnmatch(f"/{file}", f"*/{name}") for file in FILES), word
-
-
-def test_commands_are_found_in_the_documents():
-    found = {line for document in DOCUMENTS for line in commands(document)}
-    assert {"./reproduce", "./reproduce verify", "./reproduce -n", "./reproduce report"} <= found
-    long = sum(map(is_long, found))
-    assert long >= 5 and len(found) - long >= 8
-
-
-@pytest.fixture(scope="module")
-def clone(shared, accepted):
-    """A finished copy that runs with this folder's packages, as ./reproduce finds them."""
-
-    def make(folder):
-        tree = accepted.copy(folder)
-        (tree.path / ".venv").mkdir(exist_ok=True)  # compiled code may be in it
-        for name in ("bin", "lib", "lib64", "pyvenv.cfg", "stamp", "contents"):
-            (tree.path / ".venv" / name).symlink_to(ROOT / ".venv" / name)
-        (tree.path / ".venv" / "place").write_text(str(tree.path / ".venv"))
-        shutil.copy(ROOT / "CLAIMS.json", tree.path)
-        tree.write(tree.document() | {"variants": shipped()["variants"]})
-
-    return Tree(shared("a clone for the documents", make))
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not (ROOT / ".venv" / "stamp").is_file(), reason="not set up by ./reproduce")
-def test_every_command(clone):
-    """Each command runs, in the order of the documents and in one copy."""
-    for document in DOCUMENTS:
-        for written in commands(document):
-            command = f"./reproduce {written.split()[1]} --help" if is_long(written) else written
-            if written.startswith("./reproduce clean"):
-                command += " --yes"
-            result = shell(command, clone.path)
-            assert result.returncode == 0, f"{document}: {command}\n{result.stdout}"
-            assert "Traceback (most" not in result.stdout
-
-
-@pytest.mark.slow
-def test_the_script_for_ci(clone, tmp_path):
-    """The script in docs/bytes.md runs without a cache and with one; this copy is cloned."""
-    (script,) = (block for block in blocks("docs/bytes.md") if "CACHE" in block)
-    assert len(script.splitlines()) <= 10
-    line = "git clone <this repository> pseudorigid"
-    assert line in script
-    script = script.replace(line, f'cp -a "{clone.path}" pseudorigid; rm -rf pseudorigid/results')
-    for folder in ("first", "second"):
-        (tmp_path / folder).mkdir()
-        result = shell(script, tmp_path / folder, CACHE=str(tmp_path / "a cache"))
-        assert result.returncode == 0, result.stdout
-        assert "11 of 11 figures identical" in result.stdout
-    assert (tmp_path / "a cache" / "results" / "paper").is_dir()
 
 
 def test_the_python_of_the_readme():

@@ -21,8 +21,6 @@ from project import ROOT, run
 from test_matrix import CONTROLS, probe
 
 from pipeline.checks.published_sets import read_sums
-from pipeline.cli.packages import wheels
-from pipeline.cli.session import UsageError
 
 pytestmark = pytest.mark.emulated
 
@@ -63,13 +61,13 @@ def aarch64(tmp_path_factory):
     run_or_skip("apt-get", "download", *(f"{name}:arm64" for name in DEBIAN.split()), cwd=debs)
     for package in debs.iterdir():
         run_or_skip("dpkg", "-x", package, folder / "root", cwd=folder)
-    try:
-        packages = wheels.download(folder / "packages", "3.11", "aarch64")
-    except UsageError as error:
-        pytest.skip(str(error))
-    for wheel in packages:
-        if wheel.suffix == ".whl":
-            zipfile.ZipFile(wheel).extractall(folder / "site")
+    platforms = [f"--platform=manylinux_2_{glibc}_aarch64" for glibc in range(28, 4, -1)]
+    pip = [sys.executable, "-m", "pip", "download", "-q", "--no-deps", "--require-hashes"]
+    options = ["--python-version=3.11", *platforms, "--platform=manylinux2014_aarch64"]
+    lock = str(ROOT / "requirements" / "lock.txt")
+    run_or_skip(*pip, *options, "-d", str(folder / "packages"), "-r", lock, cwd=folder)
+    for wheel in (folder / "packages").glob("*.whl"):
+        zipfile.ZipFile(wheel).extractall(folder / "site")
     python = folder / "root" / "usr" / "bin" / "python3.11"
     command = ["qemu-aarch64", "-L", str(folder / "root"), str(python), "-s"]
     return command, {"PYTHONPATH": f"{ROOT / 'src'}{os.pathsep}{folder / 'site'}"}

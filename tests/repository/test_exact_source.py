@@ -10,7 +10,7 @@ from pipeline import config
 from pipeline.config import build_specs
 
 EXACT = {"prod", "sqrt", "floor", "ceil", "inf", "nan", "isnan", "isfinite", "copysign", "ulp"}
-EXACT |= {"nextafter"}
+EXACT |= {"nextafter", "pi"}
 INEXACT = re.compile(
     r"(arc)?(sin|cos|tan)h?2?|a(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p|addexp2?)?|(float_)?power|"
     r"cbrt|hypot|dot|vdot|inner|outer|matmul|tensordot|einsum|kron|convolve|correlate|polyfit|sinc|"

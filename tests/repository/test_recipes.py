@@ -1,4 +1,4 @@
-"""The recipes of CONTRIBUTING, followed in a copy: a kind or a stage needs three files."""
+"""The recipes of CONTRIBUTING, in a copy: a kind or a stage needs three files and a rule."""
 
 import numpy as np
 import pytest
@@ -67,6 +67,31 @@ def mean_flights(ball, energy, orbits):
 ROW = """
 STAGES["flights"] = Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False)
 """
+RULES = {
+    "data": '''
+
+use rule orbits as flights with:
+    """pseudorigid.dynamics.flights.mean_flights"""
+    input:
+        orbits=dataset("orbits"),
+        why=reason("results/{variant}/flights_{scene}.nc"),
+    output:
+        **made("results/{variant}/flights_{scene}.nc"),
+    log:
+        log_path("results/{variant}/flights_{scene}.nc"),
+''',
+    "figures": '''
+
+use rule draw_portrait as draw_returns with:
+    """pseudorigid.figures.kinds.returns.draw"""
+    input:
+        orbits=dataset("orbits"),
+        flights=dataset("flights"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    wildcard_constraints:
+        scene=of_kind("returns"),
+''',
+}
 SCENE = {"picture": "returns", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
 DOCUMENT = {
     "ball": {"k": 0.2, "g": 0.04},
@@ -98,12 +123,15 @@ def copy(tmp_path):
         assert not (tree.path / name).exists()
         (tree.path / name).write_text(text.lstrip())
     tree.append("pipeline/config/schema/stages.py", ROW)
+    for name, text in RULES.items():
+        with (tree.path / "workflow" / "rules" / f"{name}.smk").open("a") as file:
+            file.write(text)
     tree.warm()
     return tree
 
 
 @pytest.mark.slow
-def test_a_kind_and_a_stage_are_three_files_each(copy):
+def test_a_kind_and_a_stage_are_three_files_and_a_rule_each(copy):
     """They have data, a figure, caption, number, refusals, docs, variant and a line of verify."""
     assert rows(copy.succeed("report")) == {"paper_figures/map.png": "recomputed"}
     report = (copy.path / "results" / "report" / "report.html").read_text()

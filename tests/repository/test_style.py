@@ -55,7 +55,7 @@ def test_snakefmt():
 
 @pytest.mark.slow
 def test_snakemake_lint(tree):
-    result = tree.run("--lint")
+    result = tree.run("--", "--lint")
     assert result.returncode == 0, result.stdout
 
 

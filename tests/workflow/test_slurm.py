@@ -48,7 +48,7 @@ def begin(tree, cluster):
     profile = tree.path / "profiles" / "slurm"
     output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
     environment = tree.environment() | cluster.environment
-    return tree.start("sweep", "--profile", str(profile), *QUICK, env=environment, **output)
+    return tree.start("sweep", "--", "--profile", str(profile), *QUICK, env=environment, **output)
 
 
 def finish(process, seconds=300):

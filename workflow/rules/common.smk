@@ -1,12 +1,10 @@
 # The plan of a run, and the functions that the rules use.
 import sys
-from pathlib import Path
+from functools import cache
 
 from pipeline.config import ConfigError, build_specs, paths
-from pipeline.config.schema import study as parts
-from pipeline.config.schema.kinds import KINDS
-from pipeline.config.schema.stages import STAGES
-from pipeline.jobs import server
+from pipeline.jobs.plan import plan
+from pipeline.records.files import FileError
 from pipeline.records.record import log_path, record_path
 from pipeline.records.sources import ROOT
 from snakemake.exceptions import WorkflowError
@@ -14,38 +12,82 @@ from snakemake.exceptions import WorkflowError
 if not ROOT.samefile(workflow.basedir):
     here = f"this is {workflow.basedir}, but the code of {ROOT} runs"
     sys.exit(f"reproduce: {here}: use ./reproduce here")
+if not ROOT.samefile("."):
+    sys.exit("reproduce: --directory is not used here: copy the folder to have results elsewhere")
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    PLAN = server.plan()
-except ConfigError as error:
+    PLAN = plan()
+    if workflow.is_main_process:  # and not a job on a cluster
+        PLAN.write_reasons()
+except (ConfigError, FileError) as error:
     sys.exit(str(error))
 
-VARIANTS, SWEEPS = PLAN.config["variants"], PLAN.config["sweeps"]
+SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config["variants"]
+SWEEPS = PLAN.config["sweeps"]
 ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
+DATASETS = paths.artifact_paths(VARIANTS)
+# Seconds on one core. The longest jobs begin first, so that none of them is left over at the end,
+# when the other cores are idle.
+SECONDS = {}
 
 
-def inputs(result):
-    """Return an input function for the inputs of a result, in the order of its specification.
+def dataset(stage):
+    """Return an input function: the dataset of a scene's stage, which variants may share."""
 
-    Records decide what is outdated, not times: an input that is current counts as ancient.
-    """
+    def file(wildcards):
+        key = wildcards.variant, wildcards.scene, stage
+        if key not in DATASETS:
+            raise WorkflowError("the scene {1} of {0} has no stage {2}".format(*key))
+        return DATASETS[key]
+
+    return file
+
+
+def of_figures(stage):
+    """Return the datasets of a stage of the paper's figures whose errors the study measures."""
+    return [file for name, _, file in SPECS["results/study/needs.nc"].given if name == stage]
+
+
+def reason(result):
+    """Return an input function: why a result is outdated if it is. Records decide that, not times."""
 
     def files(wildcards):
         path = result.format(**wildcards)
-        if path not in PLAN.specs:
+        if path not in SPECS:
             raise WorkflowError(f"{path}: nothing in config.yaml asks for it")
-        used = PLAN.specs[path].inputs
-        return [path if path in PLAN.outdated else ancient(path) for path in used]
+        return PLAN.why(path)
 
     return files
 
 
-def priority(result):
-    """Return a priority function: the seconds of a long job, or of a long job that needs it."""
-    return lambda wildcards: PRIORITIES.get(result.format(**wildcards), 0)
+def made(result):
+    """Return what a job writes. It is not deleted first: the job may find that it is current."""
+    return {"result": update(result), "record": update(record_path(result))}
+
+
+@cache
+def priorities():
+    """Map results to their seconds, or to those of the longest job that needs them."""
+    return {
+        dependency: seconds
+        for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
+        if path in SPECS
+        for dependency in build_specs.with_dependencies(SPECS, [path])
+    }
+
+
+def priority(wildcards, rulename):
+    """Return the priority of a job."""
+    result = workflow.get_rule(rulename).output.result.apply_wildcards(wildcards)
+    return priorities().get(str(result), 0)
 
 
 def any_of(names):
     """Return a pattern for these names, which matches nothing if there are none."""
     return "|".join(names) or "(?!)"
+
+
+def of_kind(kind):
+    """Return a pattern for the scenes of a kind of picture."""
+    return any_of(name for name, scene in ALL.items() if scene["picture"] == kind)

@@ -6,7 +6,7 @@ from typing import Any
 from ..records.files import read_bytes, write_whole
 from . import manifest
 from .difference import UPSTREAM
-from .published_sets import SUMS, ChecksumError, committed_sets
+from .published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 
 
@@ -21,6 +21,7 @@ def accept(root: Path, checked: dict[str, Any]) -> int:
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue
         findings = inspect(root, published_set)
+        print(*findings.left_out, sep="\n", end="\n" * bool(findings.left_out))
         problem = findings.not_published(root)
         if problem is None:
             for name in published_set.measured:
@@ -48,12 +49,12 @@ def _renew(root: Path, findings: Findings) -> None:
         changes = [f"a new manifest ({error})"]
     else:
         if unchanged:
-            print(f"{folder}: nothing changed")
+            print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
             return
         changes = _changes(root, findings, committed) or ["other changes behind the same pictures"]
     manifest.write(root, folder, fresh)
     print(*changes, sep="\n")
-    files = f"{folder}/{SUMS} and {folder}/{manifest.MANIFEST}"
+    files = f"{folder}/{SUMS} and {folder}/{MANIFEST}"
     print(f"{files} renewed: {len(published_set.drawn)} figures")
 
 

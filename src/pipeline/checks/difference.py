@@ -5,14 +5,13 @@ file. The first layer that differs is the cause of differences in the layers aft
 """
 
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..config.build_specs import with_dependencies
 from ..records.artifacts import ArtifactError, load
 from ..records.differences import differing_keys, differing_origin
 from ..records.files import FileError, file_hash, obstacle
@@ -24,9 +23,6 @@ from .published_sets import PublishedSet
 
 # A difference in these layers alone does not change the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
-UNEXPLAINED = (
-    "differs from the committed one, although its config, sources and packages do not: delete it"
-)
 
 
 class Comparison:
@@ -45,35 +41,30 @@ class Comparison:
         entry = self._entry(scene)
         if name not in entry["figures"]:
             return None
-        configs = entry["config"], self.published_set.config[scene]
-        layers = self._origin(configs, entry["sources"], self.published_set.sources(scene))
-        for words in [*self._differing_datasets(scene).values()][:1]:
+        # Config, sources and environment, committed and here.
+        committed, files = dict(self.committed), self.published_set.sources(scene)
+        committed |= {"config": entry["config"]}
+        committed["sources"] = {file: committed["sources"].get(file) for file in entry["sources"]}
+        here = {"config": self.published_set.config[scene], "environment": versions()}
+        here["sources"] = {file: syntax_hash(self.root / file) for file in files}
+        layers = differing_origin(committed, here, "in the manifest", "in config.yaml")
+        if words := self._differing_dataset(scene):
             layers["data"] = words
         return layers | self._drawing_or_file(name, entry["figures"][name])
-
-    def _origin(
-        self, configs: Iterable[dict[str, Any]], before: Iterable[str], after: Iterable[str]
-    ) -> dict[str, str]:
-        """Describe differing layers of two configs, of the sources before and after, and so on."""
-        known, (then, now) = self.committed["sources"], configs
-        committed = {"config": then, "sources": {file: known.get(file) for file in before}}
-        here = {"config": now, "sources": {file: syntax_hash(self.root / file) for file in after}}
-        committed["environment"], here["environment"] = self.committed["environment"], versions()
-        return differing_origin(committed, here, "in the manifest", "in config.yaml")
 
     def _entry(self, scene: str) -> dict[str, Any]:
         """Return what the manifest has on a scene."""
         entry: dict[str, Any] = self.committed["scenes"].get(scene, {"data": {}, "figures": {}})
         return entry
 
-    def _differing_datasets(self, scene: str) -> dict[str, str]:
-        """Return dataset -> words, for those of a scene that are here and committed, and differ."""
-        committed, differing = self._entry(scene)["data"], {}
+    def _differing_dataset(self, scene: str) -> str | None:
+        """Describe the first dataset of a scene that is here and differs from the committed one."""
+        committed = self._entry(scene)["data"]
         for stage, path in self.published_set.data[scene].items():
             present = committed.get(stage) in self.committed["data"] and self.file_hash(path)
             if present and (words := self.differing_data(path, committed[stage])):
-                differing[path] = words
-        return differing
+                return words
+        return None
 
     def _drawing_or_file(self, name: str, entry: dict[str, Any]) -> dict[str, str]:
         """Return the layer drawing or file, if it differs in the published file or in results."""
@@ -112,31 +103,6 @@ class Comparison:
             except FileError:
                 return "another picture"  # and no place to show where it differs
             return f"{words}: see {image}" if saved else words
-
-    def unexplained(self) -> dict[str, str]:
-        """Return result -> words, if it differs from the committed one and nothing explains that.
-
-        Its record may say that this tree made it. That record is false.
-        """
-        results = []
-        for name, drawing in self.published_set.drawn.items():
-            scene = Path(name).stem
-            differing, figure = [*self._differing_datasets(scene)], self._entry(scene)["figures"]
-            if name in figure and self.file_hash(drawing) not in (None, figure[name]["sha256"]):
-                differing.append(drawing)
-            results += [path for path in differing if not self._explained(path, scene)]
-        return dict.fromkeys(results, UNEXPLAINED)
-
-    def _explained(self, path: str, scene: str) -> bool:
-        """Return whether what makes a result may differ from what made the committed one."""
-        build_specs = self.published_set.build_specs
-        specs = [build_specs[each] for each in with_dependencies(build_specs, [path])]
-        blocks = self._entry(scene)["config"], self.published_set.config[scene]
-        keys = {key for spec in specs for key in spec.config}
-        files = [file for spec in specs for file in spec.sources]
-        configs = ({key: block.get(key) for key in keys} for block in blocks)
-        foreign = any(used not in build_specs for spec in specs for used in spec.inputs)
-        return foreign or bool(self._origin(configs, files, files))
 
 
 def dataset_difference(root: Path, path: str, before: dict[str, Any]) -> str | None:

@@ -1,6 +1,6 @@
 """Whether results are what this tree would make, by their records and never by their times."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -30,20 +30,21 @@ class Freshness:
 
     Three cached methods take a result: `reason(path)` says why it has to be recomputed (MISSING if
     it is not there), `own_reason(path)` why even if its inputs keep their bytes, and
-    `refusal(path)` why it cannot exist. Each returns None if there is no such reason. `forged` maps
-    results that are not to be trusted, whatever their records say, to the reasons.
+    `refusal(path)` why it cannot exist. Each returns None if there is no such reason.
     """
 
-    def __init__(
-        self, root: Path, build_specs: dict[str, BuildSpec], forged: Mapping[str, str] | None = None
-    ) -> None:
-        self.root, self.build_specs, self.forged = root, build_specs, forged or {}
+    def __init__(self, root: Path, build_specs: dict[str, BuildSpec]) -> None:
+        self.root, self.build_specs = root, build_specs
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.packages = versions()
         self.own_reason = cache(self._own_reason)
         self.reason = cache(self._reason)
         self.refusal = cache(self._refusal)
+
+    def is_current_now(self, path: str) -> bool:
+        """Return whether a result whose inputs are current is current, by files read afresh."""
+        return Freshness(self.root, self.build_specs).own_reason(path) is None
 
     def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
         """Return result -> why, for those of `paths` (default: all) that have to be recomputed."""
@@ -116,7 +117,7 @@ class Freshness:
             return str(error)
         if self.digest(path) != record["output"]["sha256"]:
             return DAMAGED
-        return self._difference(record, self.build_specs[path]) or self.forged.get(path)
+        return self._difference(record, self.build_specs[path])
 
     def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
         """Return how what made a result, by its record, differs from what would make it now."""

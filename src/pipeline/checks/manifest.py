@@ -17,9 +17,15 @@ from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_published_text
+from .published_sets import (
+    MANIFEST,
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    format_sums,
+    read_published_text,
+)
 
-MANIFEST = "MANIFEST.json"
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT = 16  # hex digits of the hash of a block or an attribute
 

@@ -14,8 +14,10 @@ from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.proofs.theorems import impacts as proofs
 
 from ..config import PAPER, paths
+from ..config.build_specs import of_variants
 from ..records.artifacts import load
 from ..records.sources import ROOT
+from .freshness import Freshness
 
 Impacts = tuple[np.ndarray, ...]  # states before, states after, flight times
 
@@ -28,8 +30,12 @@ def impacts(checked: dict[str, Any]) -> int:
     Raises ValueError if a result is missing.
     """
     artifact_paths = paths.artifact_paths(checked["variants"])
+    freshness = Freshness(ROOT, of_variants(checked["variants"], [PAPER]))
     status, worst, sample = 0, 0.0, checked["prove"]["impacts"]
     for scene, block in checked["scenes"].items():
+        if why := freshness.refusal(paths.drawn(scene, "png")):
+            print(f"{scene} is left out, cannot exist: {why}")
+            continue
         k, g = (Fraction(str(block["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:

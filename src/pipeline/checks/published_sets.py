@@ -5,7 +5,8 @@ whose data are the same on every machine, and the atlas.
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,6 +17,7 @@ from ..config.schema import study as parts
 from ..config.schema.published import FOLDERS
 from ..records.build_spec import BuildSpec
 from ..records.files import file_hash, read_text
+from ..records.record import git
 
 COMMANDS = {
     PAPER: "./reproduce",
@@ -26,6 +28,7 @@ COMMANDS = {
     "sweep": "./reproduce atlas",
 }
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
+MANIFEST = "MANIFEST.json"
 IDENTICAL = "identical to the committed one"
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
@@ -80,6 +83,15 @@ class PublishedSet(NamedTuple):
         drawn = [path for name, path in self.drawn.items() if Path(name).stem == scene]
         results = [*self.data[scene].values(), *drawn]
         return sorted({file for path in results for file in self.build_specs[path].sources})
+
+    def without(self, scenes: Collection[str]) -> "PublishedSet":
+        """Return the set without some scenes."""
+        return self._replace(
+            drawn={n: path for n, path in self.drawn.items() if Path(n).stem not in scenes},
+            config={scene: block for scene, block in self.config.items() if scene not in scenes},
+            data={scene: stages for scene, stages in self.data.items() if scene not in scenes},
+            build_specs={p: s for p, s in self.build_specs.items() if s.scene not in scenes},
+        )
 
     def unlisted(self, root: Path) -> list[str]:
         """Return a line for each picture in the folder that the set does not have."""
@@ -162,7 +174,18 @@ def committed_state(root: Path, path: str) -> str:
         return "missing"
     if name not in sums:
         return "not committed"
-    return IDENTICAL if digest == sums[name] else "differs from the committed one"
+    state = IDENTICAL if digest == sums[name] else "differs from the committed one"
+    edited = f"{folder}/{SUMS}" in edited_lists(root)
+    words = f"{SUMS}, which is not as committed"
+    return state.replace("the committed one", words) if edited else state
+
+
+@cache
+def edited_lists(root: Path) -> list[str]:
+    """Return the checksum lists and manifests that differ from the last commit, if git says so."""
+    files = [f"{folder}/{name}" for folder in FOLDERS.values() for name in (SUMS, MANIFEST)]
+    names = git("diff", "--name-only", "--relative", "-z", "HEAD", "--", *files, root=root) or b""
+    return names.decode().split("\0")[:-1]
 
 
 def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:

@@ -11,11 +11,20 @@ from pathlib import Path
 from typing import Any
 
 from ..records.files import file_hash, obstacle
+from ..records.record import failure
 from . import manifest
 from .difference import UPSTREAM, Comparison
 from .freshness import MISSING, Freshness
-from .published_sets import SUMS, ChecksumError, PublishedSet, committed_sets
+from .published_sets import (
+    MANIFEST,
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    committed_sets,
+    edited_lists,
+)
 
+_UNCOMPUTED = "not computed here: run ./reproduce, or verify --committed for committed files alone"
 NEW = "new: ./reproduce accept adds it to the manifest"
 
 
@@ -28,10 +37,12 @@ class Findings:
     # Name of each published file -> differing layer -> words; None for a new file. Empty without a
     # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
-    # Result -> why its record must be false, though it fits this tree.
-    forged: dict[str, str] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
+    edited: list[str] = field(default_factory=list)  # manifest or sums that are not committed
     problems: list[str] = field(default_factory=list)  # of manifest, sums, texts, surplus files
+    left_out: list[str] = field(default_factory=list)  # lines about scenes that cannot be made
+    # A line about drawings of the paper that were not computed here, unless they are not asked for.
+    uncomputed: list[str] = field(default_factory=list)
 
     @property
     def differences(self) -> dict[str, dict[str, str]]:
@@ -47,17 +58,17 @@ class Findings:
     @property
     def notes(self) -> list[str]:
         """Lines about differences that leave the committed bytes."""
-        notes: list[tuple[str, str]] = []
+        notes = [(file, "not the committed one, see git diff") for file in self.edited]
         for name, layers in self.layers.items():
             if layers is None:
                 notes.append((name, NEW))
             elif self._harmless(name):
                 notes += [(name, f"{layer}: {words}") for layer, words in layers.items()]
-        return _grouped(notes)
+        return [*self.left_out, *_grouped(notes)]
 
     def fails(self, strict: bool = False) -> bool:
         """Return whether the tree is not as committed; notes count if `strict`."""
-        failures = self.differences or self.problems or self.outdated
+        failures = self.differences or self.problems or self.outdated or self.uncomputed
         return bool(failures or (strict and self.notes))
 
     def _harmless(self, name: str) -> bool:
@@ -73,7 +84,7 @@ class Findings:
             if why != MISSING:
                 return f"{path}: {why}"
             if not partial:
-                return f"{path} is missing"
+                return ": ".join(filter(None, [f"{path} is missing", failure(path)]))
         for name, drawing in self.published_set.drawn.items():
             published, drawn = f"{self.published_set.folder}/{name}", file_hash(root / drawing)
             if words := obstacle(root / published):
@@ -92,11 +103,13 @@ class Findings:
             yield f"{name:{width}}  {first}"
             yield from (f"{'':{width}}  {line}" for line in others)
         yield ""
-        findings = [*self.problems, *self.outdated]
+        findings = [*self.problems, *self.outdated, *self.uncomputed]
         yield from findings
         yield from (f"note: {line}" for line in self.notes)
         missing = [path for path, why in self.stale.items() if why == MISSING]
-        if missing and len(missing) == len(published_set.build_specs):
+        if self.uncomputed:
+            pass
+        elif missing and len(missing) == len(published_set.build_specs):
             rest = f"{published_set.command} makes the rest"
             yield f"no results here: only the committed files were checked ({rest})"
         elif missing:
@@ -108,31 +121,45 @@ class Findings:
         yield f"{identical} of {total} figures identical{''.join(others)}"
 
 
-def verify(root: Path, checked: dict[str, Any]) -> list[Findings]:
-    """Compare each published set of a tree with its committed state; sets without one are left."""
-    return [
-        inspect(root, published_set)
-        for published_set in committed_sets(checked)
-        if not published_set.on_request or manifest.is_present(root, published_set)
-    ]
+def verify(root: Path, checked: dict[str, Any], committed: bool = False) -> list[Findings]:
+    """Compare each published set of a tree with its committed state; sets without one are left.
+
+    With `committed`, a figure of the paper may be there without having been computed here.
+    """
+    sets = committed_sets(checked)
+    found = [inspect(root, s) for s in sets if not s.on_request or manifest.is_present(root, s)]
+    for findings in found if not committed else ():
+        if not findings.published_set.on_request:
+            drawn, stale = findings.published_set.drawn, findings.stale
+            missing = [(name, _UNCOMPUTED) for name, p in drawn.items() if stale.get(p) == MISSING]
+            findings.uncomputed = _grouped(missing)
+    return found
 
 
 def inspect(root: Path, published_set: PublishedSet) -> Findings:
     """Compare one published set of a tree with its committed state."""
+    freshness = Freshness(root, published_set.build_specs)
+    refused = {
+        Path(name).stem: why
+        for name, drawing in published_set.drawn.items()
+        if (why := freshness.refusal(drawing))
+    }
+    published_set = published_set.without(refused)
     folder, findings = published_set.folder, Findings(published_set)
+    findings.left_out = [
+        f"{name} is left out, cannot exist: {why}" for name, why in refused.items()
+    ]
+    findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
     try:
         findings.committed = committed = manifest.read(root, folder)
         comparison = Comparison(root, published_set, committed)
         findings.layers = {name: comparison.layers(name) for name in published_set.drawn}
-        # If the manifest lists a result and all that makes it is as committed, the result must be
-        # the committed one too, whatever its record says.
-        findings.forged = comparison.unexplained()
         findings.problems += _other_files(root, published_set, committed)
         if not manifest.is_listed(root, folder, committed):
-            findings.problems.append(f"{folder}/{SUMS}: is not as {manifest.MANIFEST} has it")
+            findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
     except ChecksumError as error:
         findings.problems.append(str(error))
-    findings.stale = Freshness(root, published_set.build_specs, findings.forged).outdated()
+    findings.stale = freshness.outdated(published_set.build_specs)
     return findings
 
 
@@ -143,7 +170,7 @@ def _other_files(
     for name in manifest.sums(committed):
         if name not in published_set.drawn:
             yield (
-                f"{published_set.folder}/{manifest.MANIFEST}: lists {name}, which config.yaml does "
+                f"{published_set.folder}/{MANIFEST}: lists {name}, which config.yaml does "
                 "not publish: ./reproduce accept takes it out"
             )
     yield from published_set.unlisted(root)

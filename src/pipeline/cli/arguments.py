@@ -1,7 +1,6 @@
 """The commands of ./reproduce: their arguments, their help, and refusals of mistakes.
 
-`reproduce` also runs this module before anything is installed, so it needs nothing but Python 3.6,
-and its annotations are strings.
+`reproduce` prints its help before anything is installed: only the standard library is used here.
 """
 
 import argparse
@@ -12,14 +11,17 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..records import swhid
 from ..records.names import suggestion
 
 ROOT = Path(__file__).resolve().parents[3]
-VALID_SO_FAR = 75  # exit status of `main` if no mistake was found without the packages
 USAGE_STATUS = 2
-NAMES_NOT_IN_CONFIG = ("paper", "all")
-CERTIFICATES = "src/pseudorigid/proofs/certificates"
+# Options with which snakemake makes nothing.
+_PRINTS = {
+    *("-n", "--dry-run", "--dryrun", "--dag", "--rulegraph", "--filegraph", "--d3dag", "--lint"),
+    *("-l", "--list", "--list-rules", "--lt", "--list-target-rules", "--lc", "--list-changes"),
+    *("-S", "--summary", "-D", "--detailed-summary", "-t", "--touch", "--unlock"),
+    *("-v", "--version", "-h", "--help"),
+}
 
 
 class Command:
@@ -30,29 +32,29 @@ class Command:
 
     def __init__(
         self,
-        line: "str",
-        *arguments: "tuple[str, dict[str, Any]]",
-        module: "str | None" = None,
-        details: "str" = "",
-        runs_snakemake: "bool" = False,
+        line: str,
+        *arguments: tuple[str, dict[str, Any]],
+        module: str | None = None,
+        details: str = "",
+        runs_snakemake: bool = False,
     ) -> None:
         self.line, self.arguments, self.module = line, arguments, module
         self.details, self.runs_snakemake = details, runs_snakemake
 
 
-# Options that such a command does not know go to snakemake.
+# Such a command also reads -n and --cores, and what follows -- goes to snakemake.
 SnakemakeCommand = partial(Command, runs_snakemake=True, module="figures")
 
 
-def _names(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":
+def _names(name: str, text: str) -> tuple[str, dict[str, Any]]:
     return name, {"nargs": "*", "help": text}
 
 
-def _name(name: "str", text: "str", metavar: "str | None" = None) -> "tuple[str, dict[str, Any]]":
+def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[str, Any]]:
     return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
 
 
-def _switch(name: "str", text: "str") -> "tuple[str, dict[str, Any]]":
+def _switch(name: str, text: str) -> tuple[str, dict[str, Any]]:
     return name, {"action": "store_true", "help": text}
 
 
@@ -86,14 +88,6 @@ COMMANDS = {
     ),
     "claims": SnakemakeCommand(
         "check every statement of the paper: CLAIMS.md, more_figures/claims/",
-        ("--check", {"type": int, "metavar": "ID", "help": "judge one claim only"}),
-        (
-            "--data",
-            {
-                "metavar": "[NAME=]FILE",
-                "help": "judge it by this file instead of the dataset NAME (such as fig2/orbits)",
-            },
-        ),
         module="claims",
         details=" Makes missing results first, including the sweeps.",
     ),
@@ -122,7 +116,6 @@ COMMANDS = {
         ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
         _switch("--with-packages", "add the sources and the locked packages: runs offline"),
         ("--python", {"metavar": "X.Y", "help": "of these packages; by default the present one"}),
-        ("--machine", {"metavar": "NAME", "help": "of these packages, such as aarch64"}),
         details=" The same results give the same bytes. All results must be current.",
     ),
     "article": Command(
@@ -140,9 +133,10 @@ COMMANDS = {
             },
         ),
         _switch("--strict", "exit with status 1 for notes too"),
+        _switch("--committed", "compare committed files alone: nothing has to be computed here"),
         details=" The layers are config, source, environment, data, drawing and file. The exit "
-        "status is 1 for other bytes and for results that this tree did not make; other "
-        "differences are notes.",
+        "status is 1 for other bytes, for results that this tree did not make, and for figures of "
+        "the paper that were not computed here; other differences are notes.",
     ),
     "accept": Command(
         "make the present figures the committed ones",
@@ -172,9 +166,14 @@ DEFAULT_COMMAND = SnakemakeCommand(
     _names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
     _switch("--version", "print the versions of this project and of snakemake"),
 )
-_CONFIG_OPTIONS = ("--config", "-C", "--configfile", "--configfiles")  # snakemake's
+# Command and option that an earlier version had -> what to do instead.
+_REMOVED = {
+    ("archive", "--machine"): "archive on such a machine",
+    ("claims", "--check"): "all claims are judged",
+    ("claims", "--data"): "the data of this tree are judged",
+}
 _OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
-_SNAKEMAKE = "Other options, and what follows them, go to snakemake: --cores 2, -n, --dag."
+_SNAKEMAKE = "What follows -- goes to snakemake as it is: ./reproduce fig3 -- --dag"
 
 
 class Arguments(argparse.Namespace):
@@ -183,8 +182,16 @@ class Arguments(argparse.Namespace):
     `options` are the arguments for snakemake or pytest.
     """
 
+    dry_run = False
+    cores = "all"
+
     @property
-    def checked(self) -> "dict[str, Any]":
+    def makes_nothing(self) -> bool:
+        """Whether -n was given, or an option with which snakemake prints something instead."""
+        return self.dry_run or not _PRINTS.isdisjoint(self.options)
+
+    @property
+    def checked(self) -> dict[str, Any]:
         """The checked config.yaml."""
         if "config" not in self:
             from ..config import load  # needs packages
@@ -196,20 +203,21 @@ class Arguments(argparse.Namespace):
 class _Parser(argparse.ArgumentParser):
     """A parser that reports a mistake in one line."""
 
-    def error(self, message: "str") -> "NoReturn":
+    def error(self, message: str) -> NoReturn:
         message = explain(self, message)
         _refuse(message[0].lower() + message[1:], self.prog)
 
 
-def read(arguments: "list[str]") -> "Arguments":
+def read(arguments: list[str]) -> Arguments:
     """Parse a command line; raises SystemExit after help and after a mistake."""
     first, *rest = arguments or [""]
     word = first if first in COMMANDS else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
+    for option in (argument.partition("=")[0] for argument in rest):
+        if word and (word, option) in _REMOVED:
+            _refuse(f"{word}: {option} was removed: {_REMOVED[word, option]}")
     own, options = _split(COMMANDS.get(word or "", DEFAULT_COMMAND), rest if word else arguments)
-    if not word and {"-h", "--help"} & set(own):
-        _refuse_unknown("figure", [name for name in own if not name.startswith("-")])
     args = _parser(word).parse_args(own, Arguments())
     if word == "help":
         if args.word not in (None, *COMMANDS):
@@ -218,88 +226,61 @@ def read(arguments: "list[str]") -> "Arguments":
     if not word and args.version:
         print(_versions())
         sys.exit(0)
-    names = [option.partition("=")[0] for option in options]
-    if "--offline" in names:
-        _refuse("--offline DIR comes first: ./reproduce --offline DIR ...")
-    if set(names) & set(_CONFIG_OPTIONS):
-        _refuse("--config and --configfile are not used here: edit config.yaml")
     args.word, args.options = word, options
     return args
 
 
-def main(arguments: "list[str]") -> "int":
-    """Answer what needs no packages, otherwise return VALID_SO_FAR.
-
-    A name that occurs nowhere in the text of config.yaml is refused.
-    """
-    args = read(arguments)
-    for argument in ("variant", "a", "b", "sweep", "figure", "theorem"):
-        names = getattr(args, argument, None) or []
-        _refuse_unknown(argument, [names] if isinstance(names, str) else names, args.word)
-    return VALID_SO_FAR
-
-
-def _refuse_unknown(argument: "str", names: "list[str]", word: "str | None" = None) -> "None":
-    """Refuse the first name that does not occur in config.yaml, or is no theorem for `prove`."""
-    config = ROOT / "config.yaml"
-    if not config.is_file():  # reading a FIFO could wait for ever
-        return
-    try:
-        text = config.read_text(encoding="utf-8", errors="replace")
-    except OSError:  # reported when the config is loaded
-        return
-    words, keys = re.findall(r"[\w-]+", text), re.findall(r"^ *([\w-]+):", text, re.MULTILINE)
-    known, near = [*words, *NAMES_NOT_IN_CONFIG], keys if word else [*keys, *COMMANDS]
-    if word == "prove":
-        known = near = [file.stem for file in (ROOT / CERTIFICATES).glob("*.toml")]
-    kinds = {"a": "variant", "b": "variant", "figure": "figure" if word else "command or figure"}
-    for name in names:
-        if "/" not in name and name not in known:
-            _refuse(f"no {kinds.get(argument, argument)} {name}{hint(name, near)}")
-
-
-def explain(parser: "argparse.ArgumentParser", message: "str") -> "str":
+def explain(parser: argparse.ArgumentParser, message: str) -> str:
     """Return a parser's message, with suggestions if it is about an unknown argument."""
     unknown = message.partition("unrecognized arguments: ")[2]
     if not unknown:
         return message
     first = unknown.split()[0]
+    if first.partition("=")[0] == "--offline":
+        return "--offline DIR comes first: ./reproduce --offline DIR ..."
     if first.startswith("-"):
         first = first.partition("=")[0]
     known = [name for action in parser._actions for name in action.option_strings]
-    return f"no argument {first}{hint(first, known)}"
+    owners = [name for name, command in COMMANDS.items() if first in dict(command.arguments)]
+    after = ": options of snakemake follow --" if "--cores" in known and first[0] == "-" else ""
+    after = f": {owners[0]} has it" if owners and first[0] == "-" else after
+    return f"no argument {first}{hint(first, known) or after}"
 
 
-def hint(name: "str", known: "Iterable[str]") -> "str":
+def hint(name: str, known: Iterable[str]) -> str:
     """End of a message about an unknown name: the nearest known names, if there are any."""
     question = suggestion(name, known)
     return f": {question}" if question else ""
 
 
-def _refuse(message: "str", program: "str" = "./reproduce") -> "NoReturn":
+def _refuse(message: str, program: str = "./reproduce") -> NoReturn:
     print(f"{program.replace('./', '', 1)}: {message}", file=sys.stderr)
     sys.exit(USAGE_STATUS)
 
 
-def _split(command: "Command", arguments: "list[str]") -> "tuple[list[str], list[str]]":
-    """Separate a command's own names and flags from the options for snakemake."""
+def _split(command: Command, arguments: list[str]) -> tuple[list[str], list[str]]:
+    """Return a command's own flags and then its names, and the options for snakemake after --."""
     if not command.runs_snakemake:
         return arguments, []
-    # Flag -> number of arguments that it takes.
-    sizes = {name: int("action" not in how) for name, how in command.arguments if name[0] == "-"}
-    sizes.update({"-h": 0, "--help": 0, "--version": 0})
-    own, options, rest = [], [], list(arguments)  # type: list[str], list[str], list[str]
-    while rest and not rest[0].startswith("-"):
-        own.append(rest.pop(0))
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    valued = {name for name, how in command.arguments if name[0] == "-" and "action" not in how}
+    valued |= {"-c", "--cores"}
+    flags, names, rest = [], [], arguments[:end]  # type: list[str], list[str], list[str]
     while rest:
-        name, equals, _ = rest[0].partition("=")
-        size = 1 if equals else 1 + sizes.get(name, 0)
-        (own if name in sizes else options).extend(rest[:size])
+        size = 2 if rest[0] in valued else 1
+        (flags if rest[0].startswith("-") else names).extend(rest[:size])
         del rest[:size]
-    return own, options
+    return flags + names, arguments[end + 1 :]
 
 
-def _parser(name: "str | None") -> "_Parser":
+def _number_of_cores(text: str) -> str:
+    """Return a number of cores or `all` as snakemake reads it."""
+    if re.fullmatch("all|[1-9][0-9]{0,5}", text):
+        return text
+    raise argparse.ArgumentTypeError(f"{text!r} is not allowed: expected 1 or more, or all")
+
+
+def _parser(name: str | None) -> _Parser:
     command = COMMANDS.get(name or "", DEFAULT_COMMAND)
     if name:
         line = f"{command.line[0].upper()}{command.line[1:]}.{command.details}"
@@ -315,6 +296,13 @@ def _parser(name: "str | None") -> "_Parser":
         parser.epilog = "\n".join(["commands:", *lines, "", details, _OFFLINE, _SNAKEMAKE])
     for key, how in command.arguments:
         parser.add_argument(key, **how)
+    if command.runs_snakemake:
+        text = "print what would be made, and make nothing"
+        parser.add_argument("-n", "--dry-run", "--dryrun", action="store_true", help=text)
+        text = "processor cores to use; by default all"
+        parser.add_argument(
+            "-c", "--cores", type=_number_of_cores, default="all", metavar="N", help=text
+        )
     usage = parser.format_usage().partition(": ")[2].strip()
     for metavar in [how["metavar"] for key, how in command.arguments if key in REQUIRED]:
         usage = usage.replace(f"[{metavar}]", str(metavar))
@@ -322,13 +310,11 @@ def _parser(name: "str | None") -> "_Parser":
     return parser
 
 
-def _versions() -> "str":
-    def search(pattern: "str", file: "str") -> "str":
+def _versions() -> str:
+    def search(pattern: str, file: str) -> str:
         text = (ROOT / file).read_text(encoding="utf-8")
         return str(re.findall(pattern, text, re.MULTILINE)[0])
 
     ours = search(r'^version = "(.+)"', "pyproject.toml")
     snakemake = search("^snakemake==([^ ;]+)", "requirements/lock.txt")
-    lines = [f"pseudorigid {ours}, snakemake {snakemake}"]
-    lines += [f"{identifier}  {what}" for what, identifier in swhid.identifiers(ROOT)]
-    return "\n".join(lines)
+    return f"pseudorigid {ours}, snakemake {snakemake}"

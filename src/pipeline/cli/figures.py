@@ -1,7 +1,10 @@
 """Make the figures of a variant, publish them, and print what became of each."""
 
 import filecmp
+import shutil
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import PurePath
 from typing import Any
 
@@ -16,7 +19,8 @@ from ..records.files import FileError, identity, obstacle, read_bytes, write_who
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import running
-from .session import CommandLineError
+from .arguments import Arguments
+from .session import CommandLineError, print_error
 
 Wanted = dict[str, str]  # file, where users find it -> its drawing in results
 
@@ -29,17 +33,24 @@ def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None
 
 
 def of_scenes(checked: dict[str, Any], variant: str, names: Sequence[str] = ()) -> Wanted:
-    """Return the files of the named scenes of a variant, of all without names."""
-    require_known("figure", names, list(checked["variants"][variant]))
-    figures = paths.figures(checked["variants"], variant).items()
-    return {path: made[-1] for path, (scene, made) in figures if not names or scene in names}
+    """Return the files of the named scenes of a variant, of all without names.
+
+    They include a file of each scene that the variant leaves out.
+    """
+    files = {
+        p: (s, made[-1]) for p, (s, made) in paths.figures(checked["variants"], variant).items()
+    }
+    for scene in checked["left_out"].get(variant, ()):
+        files[paths.drawn(scene, "png", variant)] = scene, paths.drawn(scene, "png", variant)
+    require_known("figure", names, [*dict.fromkeys(scene for scene, _ in files.values())])
+    return {path: drawn for path, (scene, drawn) in files.items() if not names or scene in names}
 
 
 def make(
     checked: dict[str, Any],
     group: str,
     wanted: Wanted,
-    options: list[str],
+    args: Arguments,
     data: Iterable[str] = (),
     brief: bool = False,
 ) -> int:
@@ -48,9 +59,12 @@ def make(
     A figure whose periodic orbit does not exist is left out, and the others are made; the status is
     1 only if it should have been published. `group` is a variant, "study" or "sweep". Further
     results to make are `data`, which the table leaves out, as it does files that were current if it
-    is `brief`. `options` are those for snakemake.
+    is `brief`. `args` say what snakemake does.
     """
     variants, folder = checked["variants"], FOLDERS.get(group)
+    reasons = checked["left_out"].get(group, {})
+    left_out = {path: PurePath(path).stem for path in wanted if PurePath(path).stem in reasons}
+    wanted = {path: drawing for path, drawing in wanted.items() if path not in left_out}
     results = [*wanted.values(), *data]
     specs = build_specs.of_variants(variants)
     if set(results) - set(specs):
@@ -62,8 +76,9 @@ def make(
         return {name: block for name, block in variants.get(group, {}).items() if name in scenes}
 
     notes = [*_hidden(blocks(wanted.values()))]
-    status = running.make(checked, Freshness(ROOT, specs), results, options)
-    if running.is_dry_run(options) or status == running.INTERRUPTED:
+    status = running.make(Freshness(ROOT, specs), results, args) if results else 0
+    if args.makes_nothing or status == running.INTERRUPTED:
+        notes += [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
         print(*notes, sep="\n", end="\n" * bool(notes))
         return status
     freshness = Freshness(ROOT, specs)
@@ -71,14 +86,14 @@ def make(
     refused = {path for path in outdated if freshness.refusal(path)}
     if refused and refused == outdated.keys():
         status = int(bool(folder))
+    elif outdated:
+        status = status or 1
+        print_error(_not_made([path for path in outdated if path not in refused], len(results)))
     states = {}
     for path, drawing in wanted.items():
         state = "recomputed"
         if drawing in refused:
             state = outdated[drawing]
-            for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
-                if not obstacle(ROOT / old):
-                    (ROOT / old).unlink(missing_ok=True)
         elif drawing in outdated:
             state = _failed(with_dependencies(specs, [drawing]), outdated[drawing])
         elif identity(drawing) == before[drawing]:
@@ -96,9 +111,21 @@ def make(
         for path, state in states.items()
         if not (brief and state == "current")
     ]
+    rows += [(name, path, reasons[name]) for path, name in left_out.items()]
+    for drawing in (*(refused & {*wanted.values()}), *left_out):
+        for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
+            if not obstacle(ROOT / old):
+                (ROOT / old).unlink(missing_ok=True)
     if rows:
         _print_table(folder, rows, notes)
     return status
+
+
+def _not_made(paths: list[str], total: int) -> str:
+    """Say how many of the results that were asked for are missing or outdated after a run."""
+    more = f" and {len(paths) - 3} more" if len(paths) > 3 else ""
+    names = ", ".join(PurePath(path).name for path in paths[:3])
+    return f"{len(paths)} of {total} results not made, or not current: {names}{more}"
 
 
 def _failed(upstream: list[str], reason: str) -> str:
@@ -112,15 +139,21 @@ def _print_table(
     folder: str | None, states: Iterable[tuple[str, str, str]], notes: Iterable[str]
 ) -> None:
     """Print scene and state of each file, compared with the commit in a `folder`, and notes."""
-    rows = []
+    rows, reasons = [], dict[str, list[str]]()
     for scene, path, state in states:
         size = compared = ""
         if state in ("current", "recomputed"):
             size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB"
             compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
-        rows.append((scene, path, size, state, compared))
+        if ": " in state:
+            reasons.setdefault(state, []).append(path)
+        rows.append((scene, path, size, state.partition(": ")[0], compared))
     head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
-    print("", *columns([head, *rows]), *notes, sep="\n")
+    width = shutil.get_terminal_size((10**6, 24)).columns  # without a terminal, lines stay whole
+    wrap = partial(textwrap.wrap, width=width, subsequent_indent="  ", break_long_words=False)
+    found = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
+    lines = [line for note in (*found, *notes) for line in wrap(note)]
+    print("", *columns([head, *rows]), *lines, sep="\n")
 
 
 def _publish(drawings: dict[str, str]) -> dict[str, str]:

@@ -10,6 +10,23 @@ from . import arguments
 
 def main(words: list[str]) -> int:
     """Run the command that the words name, by default `figures`, and return the exit status."""
+    try:
+        try:
+            return _run(words)
+        finally:
+            sys.stdout.flush()  # an error that comes at the end of the process cannot be reported
+    except BrokenPipeError:  # the reader has ended, for instance `| head`
+        reason = None
+    except OSError as error:
+        reason = f"{error.filename or 'cannot write to stdout'}: {error.strerror}"
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if reason:
+        print(f"reproduce: {reason}", file=sys.stderr)
+    return 1
+
+
+def _run(words: list[str]) -> int:
+    """Run a command, and report errors that are meant for users."""
     args = arguments.read(words)
     # These imports take long: mistakes in the words are reported first.
     from ..config import ConfigError
@@ -18,7 +35,11 @@ def main(words: list[str]) -> int:
     from ..records.sources import ROOT
     from .session import UsageError, print_error, set_environment
 
-    args.start = Path.cwd()
+    try:
+        args.start = Path.cwd()
+    except FileNotFoundError:
+        print_error("the current folder was deleted: go to another one")
+        return 1
     os.chdir(ROOT)
     set_environment()
     command = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
@@ -33,8 +54,6 @@ def main(words: list[str]) -> int:
     except (UsageError, FileError, ChangedError) as error:
         print_error(str(error))
         return getattr(error, "status", 1)
-    except BrokenPipeError:  # the reader has ended, for instance `| head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
         return 130
     return 1

@@ -1,99 +1,39 @@
-"""Run snakemake: read its options, and make the outdated results."""
+"""Run snakemake on the outdated results."""
 
-import argparse
 import os
-import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import nullcontext, suppress
-from functools import cache
-from typing import Any, NoReturn
+from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
+from typing import Any
 
-import yaml
-
-from ..checks.freshness import DAMAGED, MISSING, Freshness
+from ..checks.freshness import DAMAGED, Freshness
 from ..config.build_specs import with_dependencies
-from ..jobs import server
-from ..records.files import obstacle
+from ..jobs.server import job_server
+from ..records.files import disk_is_full, obstacle
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
-from .arguments import explain
-from .session import CommandLineError, UsageError, interruptible, print_error
+from .arguments import Arguments
+from .session import UsageError, interruptible, print_error
 
 INTERRUPTED = 130
-# Options that would run another workflow or folder, and what to do instead.
-_REFUSED = {
-    "directory": "results are made in the folder of ./reproduce: copy it to have them elsewhere",
-    "snakefile": "the Snakefile of this folder is run",
-}
 # Reasons to make a result again that a user is told of, since nobody edited anything.
 _REPORTED = ("its record", "no record", DAMAGED)
-# Options with which snakemake makes nothing.
-_DRY_RUN_OPTIONS = (
-    *("dryrun", "dag", "rulegraph", "filegraph", "d3dag", "lint", "summary", "detailed_summary"),
-    *("touch", "list_rules", "list_target_rules", "list_changes", "unlock"),
+# Those of profiles/default: snakemake prints a line if it reads them there. ./reproduce has its own
+# lock; a killed snakemake would leave one that stops the next run.
+OPTIONS = (
+    *("--workflow-profile", "none", "--nolock", "--rerun-incomplete", "--keep-going"),
+    *("--keep-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy"),
 )
-# The options of most runs, which are read without importing snakemake: that takes long.
-_USUAL = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
-_USUAL.add_argument("-n", "--dry-run", "--dryrun", action="store_true", dest="dryrun")
-_USUAL.add_argument("-c", "--cores")
-_USUAL.add_argument("-j", "--jobs")
-_USUAL.add_argument("targets", nargs="*")
-_USUAL.set_defaults(special=False)
+
+_LOGGER = ("--logger", "reproduce")
 
 
-@cache
-def _snakemakes_parser() -> argparse.ArgumentParser:
-    """Return snakemake's parser, which raises CommandLineError."""
-    from snakemake.cli import get_argument_parser
-
-    parser: argparse.ArgumentParser = get_argument_parser()
-
-    def refuse(message: str) -> NoReturn:
-        raise CommandLineError(explain(parser, message))
-
-    parser.error = refuse  # type: ignore[method-assign]
-    return parser
-
-
-def options_of(arguments: list[str]) -> argparse.Namespace:
-    """Parse options of snakemake; CommandLineError if they are wrong or not used here.
-
-    The attribute `special` says whether there are others than -n and the number of cores.
-    """
-    with suppress(argparse.ArgumentError):  # snakemake's parser then reports the mistake
-        options, others = _USUAL.parse_known_args(arguments)
-        numbers = f"{options.cores} {options.jobs}"
-        if not others and re.fullmatch("(None|all|[1-9][0-9]*) (None|[1-9][0-9]*)", numbers):
-            return options
-    from snakemake.exceptions import CliException, WorkflowError
-
-    try:
-        options = _snakemakes_parser().parse_args(arguments)
-    except (CliException, WorkflowError, ValueError) as error:  # wrong values, as in --cores x
-        raise CommandLineError(" ".join(str(error).split())) from None
-    for name, instead in _REFUSED.items():
-        if getattr(options, name):
-            raise CommandLineError(f"--{name} is not used here: {instead}")
-    options.special = True
-    return options
-
-
-def is_dry_run(arguments: list[str]) -> bool:
-    """Whether snakemake makes nothing with these options."""
-    options = options_of(arguments)
-    return any(getattr(options, name, None) for name in _DRY_RUN_OPTIONS)
-
-
-def make(
-    checked: dict[str, Any], freshness: Freshness, wanted: Iterable[str], arguments: list[str]
-) -> int:
+def make(freshness: Freshness, wanted: Iterable[str], args: Arguments) -> int:
     """Make the results `wanted` that are outdated, and return snakemake's exit status.
 
-    Results that are known not to exist are left out. `arguments` are options for snakemake; `-n`
-    alone is answered without it.
+    Results that are known not to exist are left out. `-n` alone is answered without snakemake.
     """
     paths = with_dependencies(
         freshness.build_specs, [path for path in wanted if not freshness.refusal(path)]
@@ -105,26 +45,23 @@ def make(
                 raise UsageError(f"{file}: {words}")
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
-    options = options_of(arguments)
-    if options.dryrun and not options.special:
+    if args.dry_run and not args.options:
         print(*freshness.plan(paths), sep="\n")
         return 0
-    if not outdated and not options.special:
+    if not outdated and not args.options:
         return 0
+    if words := disk_is_full(ROOT):
+        raise UsageError(words)
     _require_folders(outdated)
-    specs = freshness.build_specs
-
-    # If an input keeps its bytes, what was made from it stays current: that is decided when the
-    # job begins. With special options, snakemake decides.
-    def current(path: str) -> bool:
-        return not options.special and Freshness(ROOT, specs).own_reason(path) is None
-
-    forced = [path for path, reason in outdated.items() if reason != MISSING]
-    # ./reproduce has its own lock: a killed snakemake would leave one that stops the next run.
-    command = [sys.executable, "-P", "-m", "snakemake", *_profile()]
-    command += ["--forcerun", *forced] if forced else []
-    command += ["--nolock", "--workflow-profile", "none", *(paths if options.special else outdated)]
-    return _run(command, arguments, server.Plan(checked, specs, set(outdated)), current)
+    command = [sys.executable, "-P", "-m", "snakemake", *OPTIONS, "--cores", args.cores]
+    command += ["--dry-run"] if args.dry_run else []
+    if args.makes_nothing:  # its reader may close the pipe, as `head` does
+        result = subprocess.run([*command, *args.options, "--", *paths], stdout=-1, check=False)
+        sys.stdout.write(result.stdout.decode(errors="replace"))
+        return result.returncode
+    if args.options:  # jobs may run on other machines, which have no job server
+        return _run([*command, *_LOGGER, *args.options, "--", *paths])
+    return _run([*command, *_LOGGER, "--", *outdated], job_server(freshness, outdated))
 
 
 def _require_folders(results: Iterable[str]) -> None:
@@ -136,27 +73,13 @@ def _require_folders(results: Iterable[str]) -> None:
             raise UsageError(f"{name}: a file stands in a folder's place, move it away")
 
 
-def _run(
-    command: list[str], arguments: list[str], run: server.Plan, current: Callable[[str], bool]
-) -> int:
-    """Run snakemake with further arguments and return its exit status."""
-    options = options_of(arguments)
-    if options.cores is None and options.jobs is None:
-        command += ["--cores", "all"]
-    if is_dry_run(arguments):
-        result = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, check=False)
-        sys.stdout.write(result.stdout.decode(errors="replace"))
-        return result.returncode
-    if not any(getattr(options, name, None) for name in ("logger", "quiet", "verbose")):
-        command += ["--logger", "reproduce"]
-    # On a cluster, each job is a snakemake of its own on another machine.
-    executor = getattr(options, "executor", None)
-    remote = bool(getattr(options, "profile", None)) or executor not in (None, "local")
+def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | None = None) -> int:
+    """Run snakemake with a job server, or without one where jobs may run on other machines."""
     no_server: dict[str, str] = {}
-    with interruptible(end=not remote) as caught:
+    with interruptible(end=server is not None) as caught:
         try:
-            with nullcontext(no_server) if remote else server.job_server(run, current) as variables:
-                status = _wait([*command, *arguments], os.environ | variables, remote)
+            with server or nullcontext(no_server) as variables:
+                status = _wait(command, os.environ | variables, server is None)
         except KeyboardInterrupt:
             if not caught:
                 raise
@@ -184,11 +107,3 @@ def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
                 child.send_signal(signal.SIGINT)
                 child.wait()
             raise
-
-
-def _profile() -> Iterator[str]:
-    """Yield the options of profiles/default; snakemake would print that it uses a profile."""
-    text = (ROOT / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
-    for name, value in yaml.safe_load(text).items():
-        values = [value] if isinstance(value, str) else value
-        yield from (f"--{name}", *([] if value is True else values))

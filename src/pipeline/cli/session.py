@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
@@ -91,6 +92,7 @@ def interruptible(end: bool = True) -> Iterator[list[int]]:
 
     def stop(number: int, frame: FrameType | None) -> None:
         caught.append(number)
+        warnings.simplefilter("ignore")  # multiprocessing warns that its processes were killed
         for each in numbers:
             signal.signal(each, signal.SIG_IGN)
         if end:

@@ -51,14 +51,16 @@ def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
     """Map (variant, scene, stage) to the path of the stage's dataset.
 
     A variant shares a scene's dataset with the first variant that gives this scene the same
-    parameters. Scenes of other names never share, so that an added scene changes no path.
+    parameters and inputs. Scenes of other names never share, so that an added scene changes no
+    path.
     """
     first_paths: dict[tuple[str, str, str], str] = {}
-    dataset_paths = {}
+    dataset_paths: dict[tuple[str, str, str], str] = {}
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
             for stage, parameters in stages(block).items():
-                key = scene, stage, json.dumps(parameters, sort_keys=True)
+                used = [dataset_paths[variant, scene, name] for name in STAGES[stage].inputs]
+                key = scene, stage, json.dumps([parameters, used], sort_keys=True)
                 path = first_paths.setdefault(key, f"results/{variant}/{stage}_{scene}.nc")
                 dataset_paths[variant, scene, stage] = path
     return dataset_paths

@@ -14,7 +14,8 @@ from . import atlas
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 _PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
-NO_SECTION = ("control", "families")  # kinds of picture without a section of the impact map
+# Kinds of picture without a section of the impact map.
+NO_SECTION = ("control", "escape", "families")
 
 
 def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:

@@ -17,11 +17,12 @@ from .. import config
 from ..config.schema.fields import YamlMapping
 from ..records.files import write_whole
 from ..records.sources import ROOT
-from . import data, kernel
+from . import data
+from .compiled import build
 
 COPY = "docs/explorer.html"
 WEB = Path(__file__).with_name("web")
-# Scripts beside the kernel of both, those of the worker, and of the page, in their order.
+# Scripts of both, those of the worker, and of the page, in their order.
 BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "worker.js")
 APP = (
@@ -31,14 +32,14 @@ APP = (
 
 
 def render(checked: YamlMapping, root: Path = ROOT) -> str:
-    """Return the page; raises TranslationError for a construct of the kernel not translated."""
+    """Return the page."""
     kernel_script = kernel_scripts()
     worker_script, app_script = (_minified("application/javascript", p) for p in (WORKER, APP))
     style = _minified("text/css", ("style.css",))
     policy = "; ".join(
         [
             "default-src 'none'",
-            f"script-src {_source(kernel_script)} {_source(app_script)}",
+            f"script-src 'wasm-unsafe-eval' {_source(kernel_script)} {_source(app_script)}",
             f"style-src {_source(style)}",
             "worker-src blob:",
             "img-src data: blob:",
@@ -65,8 +66,9 @@ def render(checked: YamlMapping, root: Path = ROOT) -> str:
 
 
 def kernel_scripts() -> str:
-    """Return the script that computes, in the page and in its worker, as people may read it."""
-    return "\n".join([kernel.javascript(), *map(script, BOTH)])
+    """Return the script that computes, in the page and in its worker."""
+    module = base64.b64encode(build.current_module()).decode()
+    return "\n".join([f'const KERNEL = "{module}";', *map(script, BOTH)])
 
 
 def script(name: str) -> str:

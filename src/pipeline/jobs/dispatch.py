@@ -36,7 +36,7 @@ def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
             import_module(f"pipeline.jobs.{spec.program}").make(spec)
     except Exception as error:
         message = " ".join(str(error).split())
-        if not isinstance(error, ValueError):  # the messages of ValueErrors are for users
+        if not isinstance(error, (ValueError, MemoryError)):  # whose messages are for users
             message = f"{type(error).__name__}: {message} (traceback in {log})"
         last_line = f"pseudorigid: {spec.scene}: {message}"
         with suppress(OSError, ValueError):  # the disk may be full

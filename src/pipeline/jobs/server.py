@@ -1,67 +1,40 @@
 """The job server of a run: it forks a process for each job.
 
 A new Python takes longer to load packages than most jobs take to compute, so the server loads them
-once. `workflow/scripts/make.py` asks it for a result, and the Snakefile asks it for the plan.
-Without ./reproduce, a plain snakemake has no server and starts a new Python for each job.
+once. `workflow/scripts/make.py` asks it for a result. Without ./reproduce, a plain snakemake has no
+server and starts a new Python for each job.
 """
 
 import multiprocessing
 import os
-import pickle
 import signal
-import socket
 import socketserver
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from functools import cache
 from multiprocessing import forkserver
 from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING
 
 from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
 from ..records.record import log_path
 from . import dispatch
 
+if TYPE_CHECKING:  # jobs, and an installation, load this module without the config's
+    from ..checks.freshness import Freshness
+
 ADDRESS = "PSEUDORIGID_JOBS"  # the variable that holds the path of the server's socket
-_PLAN = "plan"  # the Snakefile's request
 # Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
 _LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")
 THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THREADS"]
 
 
-class Plan(NamedTuple):
-    """The checked config, the build specification of each result, and the outdated results."""
-
-    config: dict[str, Any]
-    specs: dict[str, BuildSpec]
-    outdated: set[str]
-
-
-@cache
-def plan() -> Plan:
-    """Plan of this run, from the server if there is one; ConfigError if config.yaml is wrong."""
-    if address := os.environ.get(ADDRESS):
-        with socket.socket(socket.AF_UNIX) as server:
-            server.connect(address)
-            server.sendall(f"{_PLAN}\n".encode())
-            with server.makefile("rb") as answer:
-                return Plan(*pickle.load(answer))
-    from ..checks.freshness import Freshness
-    from ..config import build_specs, load
-    from ..records.sources import ROOT
-
-    config = load(ROOT / "config.yaml")
-    specs = build_specs.of_all(config)
-    return Plan(config, specs, set(Freshness(ROOT, specs).outdated()))
-
-
 def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
-    """Make a result in a process of its own, and return whether it was made."""
+    """Make a result in a process of its own, and return whether it is current afterwards."""
     # The exit status is no answer: multiprocessing may lose it if other threads start jobs.
     receiver, answer = context.Pipe(duplex=False)
     job = context.Process(target=dispatch.make, args=(spec, answer))
@@ -86,24 +59,21 @@ class _Server(socketserver.ThreadingUnixStreamServer):
 
 
 @contextmanager
-def job_server(
-    plan: Plan, current: Callable[[str], bool] = lambda path: False
-) -> Iterator[dict[str, str]]:
-    """Serve the jobs of a run while the body runs.
+def job_server(freshness: "Freshness", outdated: Iterable[str]) -> Iterator[dict[str, str]]:
+    """Serve the jobs that make the `outdated` results of a run while the body runs.
 
     Yields the environment variables with which snakemake finds the server; none if no server could
-    be started. `current` says, when a job begins, whether its result is current and stays.
+    be started.
     """
 
     class Handler(socketserver.StreamRequestHandler):
         def handle(self) -> None:
-            with suppress(OSError):  # the client may have been killed
-                request = self.rfile.readline().decode().rstrip("\n")
-                if request == _PLAN:
-                    self.wfile.write(pickle.dumps(tuple(plan)))
-                else:
-                    made = current(request) or run(jobs, plan.specs[request])
-                    self.wfile.write(b"1" if made else b"0")
+            # The client may have been killed, or the process that forks jobs.
+            with suppress(OSError, EOFError):
+                path = self.rfile.readline().decode().rstrip("\n")
+                current = freshness.is_current_now(path)
+                made = current or run(jobs, freshness.build_specs[path])
+                self.wfile.write(b"1" if made else b"0")
 
     jobs = multiprocessing.get_context("forkserver")
     with ExitStack() as stack:
@@ -111,7 +81,7 @@ def job_server(
             folder = stack.enter_context(tempfile.TemporaryDirectory())
             address = f"{folder}/jobs"
             server = stack.enter_context(_Server(address, Handler))
-            _start_forkserver(plan)
+            _start_forkserver(any(path.endswith(".nc") for path in outdated))
         except OSError:
             yield {}  # the temporary folder is full, or its name is too long for a socket
             return
@@ -120,9 +90,9 @@ def job_server(
         server.shutdown()
 
 
-def _start_forkserver(plan: Plan) -> None:
-    """Start the process that forks jobs; it imports what the outdated results need."""
-    wanted = "data" if any(path.endswith(".nc") for path in plan.outdated) else ""
+def _start_forkserver(data: bool) -> None:
+    """Start the process that forks jobs; it imports what drawings need, or also what `data` do."""
+    wanted = "data" if data else ""
     before = dict(os.environ)
     os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": wanted})
     # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
@@ -139,4 +109,9 @@ def _start_forkserver(plan: Plan) -> None:
 
 if __name__ == "__main__":
     (_result,) = sys.argv[1:]
-    sys.exit(not run(multiprocessing.get_context("spawn"), plan().specs[_result]))
+    from .plan import plan
+
+    _freshness = plan().freshness
+    _current = _freshness.is_current_now(_result)
+    _context = multiprocessing.get_context("spawn")
+    sys.exit(not (_current or run(_context, _freshness.build_specs[_result])))

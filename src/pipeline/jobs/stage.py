@@ -1,28 +1,27 @@
 """Compute a stage of a scene."""
 
+import inspect
 import sys
+import time
 from collections.abc import Callable
 from importlib import import_module
 
 from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ensemble import ImpactMap
 
 from ..records import artifacts
 from ..records.build_spec import BuildSpec
-from ..records.stage_call import compute_stage
-
-# Stages that keep finished parts, so that a killed run goes on.
-RESUMED = {"families"}
 
 
 def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
-    """Return a function by which a long stage reports the share that is done, every 5 %."""
+    """Return a function by which a long stage reports the share that is done, every 4 s."""
     reported = 0.0
 
     def progress(share: float, text: str) -> None:
         nonlocal reported
-        if share >= reported:
+        if time.monotonic() > reported + 4.0:
             print(f"{spec.scene}: {share:.0%}, {text}", file=sys.stderr, flush=True)
-            reported = share + 0.05
+            reported = time.monotonic()
 
     return progress
 
@@ -33,12 +32,17 @@ def make(spec: BuildSpec) -> None:
     function = getattr(import_module(module), name)
     method, ball = block.get("method", {}), Ball(**block["ball"])
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
-    if spec.step in RESUMED or "exact" in method:
+    taken = inspect.signature(function).parameters
+    if "progress" in taken:
         fields["progress"] = _progress(spec)
-    if spec.step in RESUMED:
+    if "folder" in taken:  # keeps finished parts, so that a killed run goes on
         fields["folder"] = f"{spec.result}.part"
     inputs = [artifacts.load(path) for path in spec.inputs]
-    dataset = compute_stage(function, ball, block["energy"], inputs, fields, method)
+    if "scan" in method:
+        ball = Ball(ball.k, ball.g, map=ImpactMap((method["scan"], method["tolerance"])))
+    dataset = function(ball, block["energy"], *inputs, **fields)
+    if "scan" in method:
+        dataset.attrs |= {"impacts": ball.map.impacts, "impacts_missed": ball.map.missed}
     attributes = {"stage": spec.step, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
     title = artifacts.title_of(function)
     artifacts.save(dataset, spec.result, block, **attributes, title=title)

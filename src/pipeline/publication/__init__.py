@@ -1,1 +1,1 @@
-"""What a publication needs: metadata files, packages for a run without a network, an article."""
+"""What a publication needs: archives, an article."""

@@ -14,8 +14,7 @@ import tarfile
 import tempfile
 from collections.abc import Collection, Iterator
 from contextlib import suppress
-from pathlib import Path, PurePosixPath
-from typing import IO
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -31,7 +30,6 @@ from ..records.artifacts import ArtifactError, load
 from ..records.files import FileError, file_hash, read_bytes
 from ..records.pictures import PictureError, difference
 from ..records.record import SHAPE, git, read_record, record_path
-from . import crate
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -71,26 +69,34 @@ def write(
         raise ArchiveError(f"{path} is a folder")
     if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
-    refuse_unpublished(root, checked)
+    left_out = refuse_unpublished(root, checked)
+    print(*left_out, sep="\n", end="\n" * bool(left_out))
     archived = contents(root, checked, packages)
     with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
         for name, data in archived.items():
-            entry = tarfile.TarInfo.frombuf(_header(name, len(data)), "utf-8", "strict")
+            entry = tarfile.TarInfo(f"{TOP}/{name}")
+            entry.size, entry.mode = len(data), 0o755 if name in _EXECUTABLES else 0o644
             tar.addfile(entry, io.BytesIO(data))
     return str(file_hash(path))
 
 
-def refuse_unpublished(root: Path, checked: YamlMapping) -> None:
+def refuse_unpublished(root: Path, checked: YamlMapping) -> list[str]:
     """Raise ArchiveError for a result that is not current, or a file that is not the committed one.
 
-    Figures and data of claims, families, proofs, study and atlas may be missing.
+    Figures and data of claims, families, proofs, study and atlas may be missing. Returns a line for
+    each scene that cannot be made.
     """
+    left_out = []
     for findings in verify.verify(root, checked):
         published_set = findings.published_set
         if problem := findings.not_published(root, partial=published_set.on_request):
             raise ArchiveError(f"{problem}: run {published_set.command}")
+        if unlisted := published_set.unlisted(root):
+            raise ArchiveError(unlisted[0])  # which accept does not mend
         if problems := [*findings.problems, *_uncommitted(findings)]:
             raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
+        left_out += findings.left_out
+    return left_out
 
 
 def _uncommitted(findings: verify.Findings) -> Iterator[str]:
@@ -106,14 +112,14 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
     archived = {f"{PACKAGES}/{_short(file.name)}": read_bytes(file) for file in packages}
     datasets: list[str] = []
     paths = _sources(root) if archived else []
-    paths += ["config.yaml", crate.WORKFLOW, "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
+    paths += ["config.yaml", "Snakefile", "LICENSE", "CITATION.cff", LEDGER, LEDGER_DATA]
     for pattern in ("workflow/rules/*.smk", f"{CERTIFICATES}/*.toml"):
         paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
     for published_set in published_sets.committed_sets(checked):
         paths += published_set.texts
         if not manifest.is_present(root, published_set):
             continue
-        names = [*read_sums(root, published_set.folder), SUMS, manifest.MANIFEST]
+        names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]
         data = sorted({path for stages in published_set.data.values() for path in stages.values()})
         present = [path for path in data if (root / path).is_file()]
@@ -130,8 +136,6 @@ def contents(root: Path, checked: YamlMapping, packages: Collection[Path] = ()) 
     more, about = _WITH_PACKAGES if packages else "", _ABOUT_TEXT.read_text(encoding="utf-8")
     about = about.format(certificates=CERTIFICATES, sets=", ".join(datasets), packages=more)
     archived[ABOUT] = about.encode()
-    archived = dict(sorted(archived.items()))
-    archived[crate.FILE] = crate.crate(archived)
     archived = dict(sorted(archived.items()))
     sums = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
     return archived | {SUMS: format_sums(sums).encode()}
@@ -156,18 +160,15 @@ def _public_record(root: Path, path: str) -> bytes:
 
 
 def read(path: Path | str) -> Contents:
-    """Return the files of an archive, each checked by its sum. Nothing is written.
-
-    Only what `write` writes is accepted: regular files with plain names, and no byte besides.
-    """
+    """Return the regular files of an archive, each checked by its sum. Nothing is written."""
     if os.path.exists(path) and not os.path.isfile(path):
         raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
-        with files.open_regular(path) as file:
-            archived = _members(file)
+        with files.open_regular(path) as file, tarfile.open(fileobj=file, mode="r:") as tar:
+            archived = {entry.name.removeprefix(f"{TOP}/"): _content(tar, entry) for entry in tar}
     except FileError as error:
         raise ArchiveError(str(error)) from None
-    except (tarfile.TarError, OSError, ValueError) as error:
+    except (tarfile.TarError, OSError, ValueError, MemoryError) as error:
         raise ArchiveError(f"{path}: no archive, or damaged: {error}") from None
     if SUMS not in archived:
         raise ArchiveError(f"{path}: not made by ./reproduce archive, or damaged: no {SUMS}")
@@ -176,45 +177,21 @@ def read(path: Path | str) -> Contents:
         if name not in archived or hashlib.sha256(archived[name]).hexdigest() != sums.get(name):
             shown = name if name in archived else repr(name)  # a listed name may be any text
             raise ArchiveError(f"{path}: damaged: {shown} does not fit {SUMS}")
-        if any(str(folder) in archived for folder in PurePosixPath(name).parents):
-            raise ArchiveError(f"{path}: damaged: a folder of {name!r} is a file too")
     return archived
 
 
-def _members(file: IO[bytes]) -> Contents:
-    """Return the files of a tar, each of whose headers is checked before its file is read."""
-    archived: Contents = {}
-    total = os.fstat(file.fileno()).st_size
-    while (header := file.read(tarfile.BLOCKSIZE)).strip(b"\0"):
-        entry = tarfile.TarInfo.frombuf(header, "utf-8", "strict")
-        name = entry.name.removeprefix(f"{TOP}/")
-        try:
-            ours = _is_plain(name) and _header(name, entry.size) == header
-        except ValueError:  # a number or name that this format cannot have
-            ours = False
-        if not ours or name in archived:
-            raise tarfile.TarError(f"./reproduce archive did not write {entry.name!r:.100}")
-        if entry.size > total - file.tell():
-            raise tarfile.TarError(f"{entry.name!r} says that it has {entry.size:,} bytes")
-        archived[name] = file.read(entry.size)
-        if file.read(-entry.size % tarfile.BLOCKSIZE).strip(b"\0"):
-            raise tarfile.TarError(f"there are bytes between {entry.name!r} and the next file")
-    end = file.tell() - len(header) + 2 * tarfile.BLOCKSIZE
-    if total != end + -end % tarfile.RECORDSIZE or file.read().strip(b"\0"):
-        raise tarfile.TarError("it is cut off, or there are bytes after its end")
-    return archived
+def _content(tar: tarfile.TarFile, entry: tarfile.TarInfo) -> bytes:
+    """Return the bytes of a regular file with a plain name."""
+    plain = entry.type == tarfile.REGTYPE and not entry.issparse() and _is_plain(entry.name)
+    file = tar.extractfile(entry) if plain else None
+    if file is None:
+        raise tarfile.TarError(f"./reproduce archive did not write {entry.name!r:.100}")
+    return file.read()
 
 
 def _is_plain(name: str) -> bool:
     """Return whether a path from elsewhere stays below the folder that it starts from."""
     return name.isprintable() and not {"", ".", ".."} & {*name.split("/")}
-
-
-def _header(name: str, size: int) -> bytes:
-    """Return the tar block before a file; raise ValueError for a name or size that is too long."""
-    entry = tarfile.TarInfo(f"{TOP}/{name}")
-    entry.size, entry.mode = size, 0o755 if name in _EXECUTABLES else 0o644
-    return entry.tobuf(tarfile.USTAR_FORMAT, "utf-8", "strict")
 
 
 def _short(name: str) -> str:
@@ -262,7 +239,7 @@ def compare(root: Path, checked: YamlMapping, path: Path) -> int:
         ours |= {name: read_bytes(root / name) for name in _sources(root)}
     for name in [name for name in theirs if name.startswith(f"{PACKAGES}/")]:
         del theirs[name]  # their hashes are in requirements/
-    for name in (SUMS, ABOUT, crate.FILE):  # these list the datasets that exist
+    for name in (SUMS, ABOUT):  # these list the datasets that exist
         ours.pop(name, None)
         theirs.pop(name, None)
     names = sorted({*ours, *theirs})
@@ -270,7 +247,7 @@ def compare(root: Path, checked: YamlMapping, path: Path) -> int:
     width, sets = max(map(len, names)), published_sets.committed_sets(checked)
     with tempfile.TemporaryDirectory() as folder:
         for name in ours.keys() & theirs.keys():  # `_layers` compares files
-            if ours[name] != theirs[name] or name.endswith(f"/{manifest.MANIFEST}"):
+            if ours[name] != theirs[name] or name.endswith(f"/{published_sets.MANIFEST}"):
                 files.write_whole(Path(folder, name), theirs[name])
         for name in names:
             state = "identical" if ours.get(name) == theirs.get(name) else "differs"

@@ -1,13 +1,10 @@
-"""Suggest the name that was probably meant by an unknown one.
-
-The command line uses this before anything is installed, so it must run under Python 3.6.
-"""
+"""Suggest the name that was probably meant by an unknown one."""
 
 import difflib
 from collections.abc import Iterable
 
 
-def suggestion(name: "object", known: "Iterable[str]") -> "str":
+def suggestion(name: object, known: Iterable[str]) -> str:
     """Ask whether the nearest known names were meant; empty if none is near.
 
     Several names are suggested only if they are equally near.
@@ -18,5 +15,4 @@ def suggestion(name: "object", known: "Iterable[str]") -> "str":
     best = sorted(other for other in near if ratios[other] == max(ratios.values()))
     if not best:
         return ""
-    names = " or ".join(filter(None, [", ".join(best[:-1]), best[-1]]))
-    return "did you mean " + names + "?"
+    return f"did you mean {' or '.join(filter(None, [', '.join(best[:-1]), best[-1]]))}?"

@@ -27,7 +27,7 @@ SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
 PACKAGES = (
     *("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4"),
-    *("numba", "numpy", "pyparsing", "python-flint", "xarray"),
+    *("numba", "numpy", "pyparsing", "python-flint", "scipy", "xarray"),
 )
 
 
@@ -39,16 +39,16 @@ class ChangedError(ValueError):
     """A file that changed while something was made from it: one line."""
 
 
-def _beside(folder: str, suffix: str, result: str | os.PathLike[str]) -> str:
+def beside(folder: str, suffix: str, result: str | os.PathLike[str]) -> str:
     """Return the path of a result's file in another folder of its variant."""
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
 # Functions of a result that return a path; both are relative to the root.
-record_path = partial(_beside, "provenance", "json")
-refusal_path = partial(_beside, "logs", "json")  # of the record that says why it cannot exist
-log_path = partial(_beside, "logs", "log")  # of the job that failed to make it
+record_path = partial(beside, "provenance", "json")
+refusal_path = partial(beside, "logs", "json")  # of the record that says why it cannot exist
+log_path = partial(beside, "logs", "log")  # of the job that failed to make it
 
 
 def failure(result: str | os.PathLike[str]) -> str | None:
@@ -78,9 +78,10 @@ def read_record(root: Path, path: str) -> dict[str, Any]:
 def recorded(spec: BuildSpec) -> Iterator[None]:
     """Write the record of a result once the body has made it; the current folder is the root.
 
-    A ValueError with the attribute `lasting` says that the result cannot exist. It is recorded
-    instead, so that the job is not repeated before its config, sources or inputs change. If a
-    source or an input changed since it was loaded, ChangedError is raised and no record written.
+    A ValueError of a scene's stage or drawing says that the result cannot exist; one of a subclass,
+    such as FileError, only if it has the attribute `lasting`. It is recorded instead, so that the
+    job is not repeated before its config, sources or inputs change. If a source or an input changed
+    since it was loaded, ChangedError is raised and no record written.
     """
     source_hashes = {path: file_hash(path) for path in sorted(spec.sources)}
     commit, dirty = _commit()
@@ -98,7 +99,8 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        if getattr(error, "lasting", False):
+        of_scene = type(error) is ValueError and spec.program in ("stage", "draw")
+        if getattr(error, "lasting", of_scene):
             require_unchanged(source_hashes | record["inputs"])
             _write(refusal_path(spec.result), record, {"sha256": None, "refused": str(error)})
         raise

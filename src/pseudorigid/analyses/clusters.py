@@ -123,7 +123,12 @@ def _row(out, k, cut, lags, resampled) -> tuple:
     begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
     fewest = min(impacts.size for impacts in begun)
     if fewest < lags + 2:
-        raise ValueError(f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters")
+        most = np.sort(out[:, 1:, 3])[:, -(lags + 2) :].min()
+        raise ValueError(
+            f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters, fewer than "
+            f"lags + 2 = {lags + 2}: give a cut below {math.floor(1000.0 * most) / 1000.0:g}, "
+            "fewer lags or more impacts"
+        )
     first = [chart(k, *row[at, :3].T) for row, at in zip(out, begun, strict=True)]
     periods, lengths = [], []
     for at, tau in zip(begun, out[:, 1:, 3], strict=True):

@@ -1,12 +1,16 @@
 """A control: which orbits stay regular if the map keeps area, is reversible, both, or neither.
 
-The impact map is changed a little after, and before, each impact, by the maps of `perturbed_map`.
+The impact map is changed a little after, and before, each impact, by the maps of `perturbed_map`:
+for each of two forms of change, with each of the four sets of properties.
 Starts are spread uniformly over the section, the same for all maps. Each orbit has one of three
 classes, by two growths from the middle of the second quarter of its impacts to the middle of the
 last: of a tangent vector and of an area, as logarithms. An orbit is chaotic if the first exceeds
 GROWTH_THRESHOLD; else it is a spiral if the second does so in size; else it is regular. The first
-quarter, a transient, counts for nothing. A growth per impact is seen only if it exceeds about twice
-the threshold divided by the number of impacts, so shares are kept for four numbers of them.
+quarter, a transient, counts for nothing. Spirals are captured by attracting orbits. In a map with
+the reversor a regular orbit is symmetric if it comes close to the mirror image of its start: curves
+around symmetric points are their own mirror images, or mirror images of each other. A growth per
+impact is seen only if it exceeds about twice the threshold divided by the number of impacts, so
+shares are kept for four numbers of them.
 """
 
 import math
@@ -19,7 +23,18 @@ from ..dynamics.periodic import symmetric_orbits
 from ..dynamics.variables import RADIUS, NoOrbitError, chart, described, of_type, states_of
 from ..kernel.arithmetic import log, sincos
 from ..kernel.compiled import jit
-from .perturbed_map import DA, DB, KEPT, MAPS, PerturbedMap, apply, perturbed_map, propagate
+from .perturbed_map import (
+    DA,
+    DB,
+    KEPT,
+    MAPS,
+    MIRROR_A,
+    NEAREST,
+    PerturbedMap,
+    apply,
+    perturbed_map,
+    propagate,
+)
 from .regularity import GROWTH_THRESHOLD
 from .sea import half_axes, section_points
 
@@ -29,6 +44,9 @@ _LENGTHS = 4  # numbers of impacts at which orbits are classified, each twice th
 _RING, _DISTANCE, _RING_IMPACTS = 32, 1e-4, 120
 _STEPS, _NEWTON, _CLOSED, _NEAR = 8, 30, 1e-13, 0.05  # continuation of a periodic point
 _PROBES, _MIRRORS = 200, 36  # points and mirror lines for which reversors are tried
+_MIRRORED = (
+    0.02  # section radii from its start's mirror image, within which a symmetric orbit comes
+)
 _Z95 = 1.959964  # standard deviations that hold 95 %
 _FEW = 50  # a mean over less than one in so many orbits is not of a class, but of what is left
 _NONE = np.empty((2, 0, 0))
@@ -64,19 +82,27 @@ def control(
                 continue
             grown = _growths(perturbed_map(ball, energy, name, level), points, lengths)
             rows[name, level] = _statistics(*grown, lengths[-1], resampled)
-    shares, intervals, means = (
+    shares, intervals, means, symmetric, wander = (
         np.array([[rows[name, level][part] for level in levels] for name in MAPS])
-        for part in range(3)
+        for part in range(5)
     )
+    # Without the reversor, orbits have no mirror images.
+    symmetric[[not reversible for *_, reversible in MAPS.values()], 1:] = math.nan
     cells = ("map", "strength")
     data = {
-        "map": ("map", list(MAPS), "which of the map's properties the perturbed map keeps"),
+        "map": (
+            "map",
+            list(MAPS),
+            "form of the change, and which of the map's properties it keeps",
+        ),
         "class": ("class", list(CLASSES), "class of an orbit"),
         "strength": ("strength", levels, "strength of the change"),
         "length": ("length", lengths, "number of impacts"),
         "class_share": ((*cells, "length", "class"), shares, "share of starts of a class"),
         "class_low": ((*cells, "length", "class"), intervals[..., 0], _SHARE + "from"),
         "class_high": ((*cells, "length", "class"), intervals[..., 1], _SHARE + "to"),
+        "symmetric": (cells, symmetric, "share of starts of regular, symmetric orbits"),
+        "wander": ((*cells, "length"), wander, _WANDER),
     }
     for i, (name, meaning) in enumerate(_MEANS.items()):
         for j, (end, text) in enumerate(_INTERVAL.items()):
@@ -97,6 +123,7 @@ _MEANS = {
     "contraction": "mean logarithm of the determinant an impact, on chaotic orbits",
     "attraction": "mean logarithm of the determinant an impact, on spirals",
 }
+_WANDER = "standard deviation over chaotic orbits of an area's growth, a logarithm"
 _DEFECT = "median of |S F S F z - z|, least over the reversors S tried"
 
 
@@ -109,19 +136,22 @@ def _disk(ball: Ball, energy: float, x: np.ndarray, y: np.ndarray) -> np.ndarray
 def _begin(points: np.ndarray) -> np.ndarray:
     """Return rows of orbits for `propagate`, from points (2, n)."""
     rows = np.zeros((KEPT, points.shape[1]))
-    rows[:2], rows[DA], rows[DB] = points, 0.5, 0.5
+    rows[:2], rows[DA], rows[DB], rows[NEAREST] = points, 0.5, 0.5, math.inf
+    rows[MIRROR_A : MIRROR_A + 2] = points[0], -points[1]
     return rows
 
 
 def _growths(
     perturbed: PerturbedMap, points: np.ndarray, lengths: list[int], out: np.ndarray = _NONE
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return growths of tangent vectors and of areas (length, n)."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return growths of tangent vectors and of areas (length, n), and which are symmetric."""
     windows = np.array([(at, n // 4) for n in lengths for at in (n // 4, n - n // 4)])
     grown, area = (np.zeros((len(windows), points.shape[1])) for _ in range(2))
-    propagate(_begin(points), *perturbed, max(lengths), windows, grown, area, out)
+    rows = _begin(points)
+    propagate(rows, *perturbed, max(lengths), windows, grown, area, out)
     grown, area = grown / windows[:, 1:], area / windows[:, 1:]
-    return grown[1::2] - grown[::2], area[1::2] - area[::2]
+    symmetric = rows[NEAREST] < _MIRRORED * _MIRRORED
+    return grown[1::2] - grown[::2], area[1::2] - area[::2], symmetric
 
 
 def classes(grown: np.ndarray, area: np.ndarray) -> np.ndarray:
@@ -130,8 +160,12 @@ def classes(grown: np.ndarray, area: np.ndarray) -> np.ndarray:
     return np.where(grown < GROWTH_THRESHOLD, spiral, 2)
 
 
-def _statistics(grown, area, impacts, resampled):
-    """Return shares (length, class), their intervals (2, length, class), and means (_MEANS, 3)."""
+def _statistics(grown, area, symmetric, impacts, resampled):
+    """Return shares (length, class), intervals, means (_MEANS, 3), symmetric share, and wander.
+
+    The intervals are an array (length, class, 2). If a map keeps any smooth area, the growth of an
+    area along an orbit is bounded, and so is its standard deviation, the wander (length).
+    """
     kinds = classes(grown, area)
     counts = np.stack([np.sum(kinds == i, axis=1) for i in range(len(CLASSES))], axis=1)
     total = kinds.shape[1]
@@ -141,7 +175,10 @@ def _statistics(grown, area, impacts, resampled):
         _interval(rate, kinds[-1] == kind, resampled)
         for rate, kind in ((growth, 2), (contraction, 2), (contraction, 1))
     ]
-    return counts / total, intervals, means
+    wander = np.full(len(kinds), math.nan)
+    if np.sum(kinds[-1] == 2) >= max(total // _FEW, 1):
+        wander = np.std(area[:, kinds[-1] == 2], axis=1)
+    return counts / total, intervals, means, np.mean(symmetric & (kinds[-1] == 0)), wander
 
 
 def _wilson(count: int, total: int) -> tuple[float, float]:
@@ -323,10 +360,10 @@ def _pictures(ball, energy, starts, shown, impacts, drawn) -> dict:
     """Return orbits of P and of each map at one strength, with their classes."""
     points = np.stack([starts, np.zeros(starts.size)])
     kept, kinds = [], []
-    for name, strength in (("both", 0.0), *((name, shown) for name in MAPS)):
+    for name, strength in ((next(iter(MAPS)), 0.0), *((name, shown) for name in MAPS)):
         perturbed = perturbed_map(ball, energy, name, strength)
         out = np.empty((2, starts.size, impacts))
-        grown, area = _growths(perturbed, points, [impacts], out)
+        grown, area, _ = _growths(perturbed, points, [impacts], out)
         kept.append(out[:, :, :drawn])
         kinds.append(classes(grown[0], area[0]))
     dims = ("panel", "start", "impact")

@@ -3,7 +3,7 @@
 import json
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -153,6 +153,10 @@ def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
             f"{before}time" if before else "total_time": (dim, times, "total time", TIME),
         }
 
+    def whole(values: Iterable[int]) -> np.ndarray:
+        """Return whole numbers as an array, which has their type even if it is empty."""
+        return np.fromiter(values, dtype=np.int64)
+
     def of_ends(values: list) -> tuple:
         """Return dims and values of a variable of the ends."""
         return ("family", "side"), np.array(values).reshape(-1, 2)
@@ -175,12 +179,12 @@ def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
         ),
         "type": ("point", _types(traces), "type of stability"),
         **of_points("event", marks, "event_"),
-        "event_family": ("event", [f.number for f, _ in events], "family of the event"),
-        "event_kind": ("event", [event.kind for _, event in events], _EVENT),
-        "event_turns": ("event", [e.turns for _, e in events], "p of a resonance p/q, else 1"),
+        "event_family": ("event", whole(f.number for f, _ in events), "family of the event"),
+        "event_kind": ("event", np.array([e.kind for _, e in events], dtype=str), _EVENT),
+        "event_turns": ("event", whole(e.turns for _, e in events), "p of a resonance p/q, else 1"),
         "event_order": (
             "event",
-            [event.order for _, event in events],
+            whole(event.order for _, event in events),
             "period of the branches over that of the family",
         ),
         "event_point": (

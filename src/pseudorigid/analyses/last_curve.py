@@ -91,7 +91,7 @@ def edge_nobles(ball: Ball, energy: float, between: tuple[float, float]) -> list
     locked = np.any(np.abs(turns - np.rint(turns * periods) / periods) < LOCKED, axis=0)
     (curves,) = np.nonzero(good & ~locked)
     if curves.size < _CURVES_BACK or good[curves[-1] :].all():
-        reason = "no curves around the fixed point and sea beyond them are seen there"
+        reason = "begin among curves around the fixed point and end in the sea, or give nobles"
         raise ValueError(f"between = {list(between)} is not allowed: {reason}")
     last, back = turns[curves[-1]], turns[curves[-_CURVES_BACK]]
     return [noble_between(last, back), noble_between(last, 2.0 * last - back)]

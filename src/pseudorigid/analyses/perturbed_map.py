@@ -2,19 +2,25 @@
 
 Points are (a, b) in the unit disk: a = (x - centre)/radius, b = y/(sqrt(k (1 + k)) radius). In them
 P keeps da db, and its reversor is R(a, b) = (a, -b). With z = a + i b and a strength eps, which is
-about the largest displacement of a point, the changes are
+within a factor of two the largest displacement of a point, changes are made of two maps of the disk
+onto itself:
 
-    twist     A(z) = p + (z - p) (1 + i t)/(1 - i t),    p = i/4,  t = 4 eps (1 - |z - p|^2/r^2)^6
+    twist     A(z) = p + (z - p) (1 + i t)/(1 - i t),    t = m eps (1 - |z - p|^2/r^2)^6
               for |z - p| < r = 3/4, elsewhere A(z) = z
-    Moebius   M(z) = (z + c)/(1 + conj(c) z),            c = eps (3 + 4 i)/5
-    squeeze   D(z) = a + i (1 - eps) b
+    Moebius   M(z) = (z + c)/(1 + conj(c) z)
 
 A turns circles around p, each by its own angle 2 atan t, so that it keeps area; it has five
-continuous derivatives. M is analytic, with det DM = ((1 - eps^2)/|1 + conj(c) z|^2)^2. Both map the
-disk onto itself and are the identity at eps = 0. D maps the disk into itself, det DD = 1 - eps.
-The inverses are those with -t and -c. R A^-1 R is the twist about conj(p), by the same angles, and
-R M^-1 R is M with -conj(c) for c. Neither is A^-1, A, M^-1 or M: without that, T P would have the
-reversor T R, or P' would only be P in other coordinates.
+continuous derivatives. There are three forms of change:
+
+    twist     A with p = (-4 + 3 i)/20 and m = 4
+    stir      A with p = (-3 + 4 i)/20 and m = 2 after A with p = (-4 - 3 i)/20 and m = -2
+    shift     M with c = eps (3 + 4 i)/5, det DM = ((1 - |c|^2)/|1 + conj(c) z|^2)^2
+
+The first two keep area as they are. As M^-1 T M with c = (-3 + 4 i)/10 they also turn circles,
+because M maps circles to circles, but not concentric ones: they do not keep area. This c is one of
+those for which the change of area does not cancel along curves, so that spirals are fast where no
+property is kept. The shift has no counterpart that keeps area. Inverses have -m for m or -c for c.
+For no T is R T R = T^-1 or T: else T P had the reversor T R, or P' were P in other coordinates.
 
 T P (R T^-1 R) is reversible under R for every T, because R P R = P^-1:
 
@@ -32,20 +38,41 @@ from ..kernel.compiled import jit
 from ..kernel.impact import impact_coefficients
 from ..kernel.tangents import GROUP, V, W, X, advance_chunk, allocate_buffers, push_tangent
 
-_IDENTITY, _TWIST, _MOEBIUS, _SQUEEZE = range(4)
-_CENTRE, _RADIUS = (0.0, 0.25), 0.75  # of the twist's circles; the largest touches the rim
-_TURN = 4.0  # t/eps at the centre: the largest displacement is 1.03 eps
-_DIRECTION = 0.6, 0.8  # of c
+_RADIUS = 0.75  # of the twists' circles; the largest touch the rim
+_FRAME = -0.3, 0.4, 0.0  # c of the twists that do not keep area
+_SHIFT = 0.6, 0.8, 0.0  # c/eps of the shift
 _LEAST = 1e-30  # of 1 - a^2 - b^2, where a point is on the rim to rounding
 # Rows of an orbit's data: the point, a tangent vector, the logarithm of the factors by which that
-# was divided, and the logarithm of the determinant of the map's iterates.
-A, B, DA, DB, GROWN, AREA, KEPT = range(7)
+# was divided, the logarithm of the determinant of the map's iterates, the mirror image of the start
+# under R, and the square of the orbit's least distance from it.
+A, B, DA, DB, GROWN, AREA, MIRROR_A, MIRROR_B, NEAREST, KEPT = range(10)
+# Form of a change -> (p, m) of its twists, of which a shift has none.
+FORMS = {
+    "twist": [(-0.2, 0.15, 4.0)],
+    "stir": [(-0.2, -0.15, -2.0), (-0.15, 0.2, 2.0)],
+    "shift": [],
+}
+# What a map keeps of its properties -> whether it keeps area, and whether it has the reversor R.
+PROPERTIES = {
+    "both": (True, True),
+    "area": (True, False),
+    "reversor": (False, True),
+    "neither": (False, False),
+}
+# Name of a map -> the form of its change, and what it keeps.
+MAPS = {
+    f"{form} {kept}": (form, *has)
+    for form, twists in FORMS.items()
+    for kept, has in PROPERTIES.items()
+    if twists or not has[0]
+}
 
 
 class PerturbedMap(NamedTuple):
     """The map T P S of one ball and energy, with g = 1, for changes S before P and T after it.
 
-    A change is a row (kind, its two parameters, eps), of which the compiled functions take two.
+    A change is an array (4, 3): c of a first M, (p, m eps) of two twists, and c of a last M, or
+    zeros for the identity. `changes` holds S and T.
     """
 
     k: float
@@ -54,74 +81,83 @@ class PerturbedMap(NamedTuple):
     changes: np.ndarray
 
 
-# Name of a map -> the changes before and after P, as signs of the parameters' second and first
-# components: "mirrored" is R T^-1 R for the T after P.
-MAPS = {
-    "both": ("mirrored twist", "twist"),
-    "area": ("", "twist"),
-    "reversor": ("mirrored Moebius", "Moebius"),
-    "neither": ("", "Moebius"),
-    "damped": ("", "squeeze"),
-}
-
-
-def change(name: str, strength: float) -> np.ndarray:
-    """Return the row of a change: kind, two parameters, and its strength.
-
-    `name` is "", "twist", "Moebius" or "squeeze", or "mirrored twist" or "mirrored Moebius" for
-    R T^-1 R.
-    """
-    side = -1.0 if name.startswith("mirrored ") else 1.0
-    match name.removeprefix("mirrored "):
-        case "twist":
-            row = _TWIST, _CENTRE[0], side * _CENTRE[1], strength
-        case "Moebius":
-            row = _MOEBIUS, side * _DIRECTION[0] * strength, _DIRECTION[1] * strength, strength
-        case "squeeze":
-            row = _SQUEEZE, 0.0, 0.0, strength
-        case _:
-            row = _IDENTITY, 0.0, 0.0, 0.0
-    return np.array(row, dtype=float)
+def change(form: str, keeps_area: bool, strength: float, mirrored: bool = False) -> np.ndarray:
+    """Return a change T as an array (4, 3), or R T^-1 R if `mirrored`."""
+    rows = np.zeros((4, 3))
+    for i, twist in enumerate(FORMS[form], start=1):
+        rows[i] = np.array(twist) * (1.0, 1.0, strength)
+    if not FORMS[form]:
+        rows[0] = np.array(_SHIFT) * strength
+    elif strength > 0.0 and not keeps_area:
+        rows[0] = _FRAME
+        rows[3] -= rows[0]
+    if mirrored:  # R turns twists the other way, and so does the inverse
+        rows = rows[::-1] * np.array([(-1.0, 1.0, 0.0), *[(1.0, -1.0, 1.0)] * 2, (-1.0, 1.0, 0.0)])
+    return rows
 
 
 def perturbed_map(ball: Ball, energy: float, name: str, strength: float) -> PerturbedMap:
     """Return one of MAPS at a strength, from 0 (the impact map itself) to below 1."""
     centre, radius = Ball(ball.k, 1.0).section(energy / (ball.g * ball.g))
-    changes = np.stack([change(part, strength) for part in MAPS[name]])
+    form, keeps_area, reversible = MAPS[name]
+    before = change(form, keeps_area, strength if reversible else 0.0, mirrored=True)
+    changes = np.stack([before, change(form, keeps_area, strength)])
     return PerturbedMap(ball.k, centre, radius, changes)
 
 
 @jit
-def apply(row, a, b):
-    """Return the image of (a, b) under the change of a row, and its four derivatives by rows."""
-    kind, first, second, strength = row[0], row[1], row[2], row[3]
-    if kind == _TWIST:
-        u, v = a - first, b - second
-        rest = 1.0 - (u * u + v * v) / (_RADIUS * _RADIUS)
-        if rest <= 0.0:
-            return a, b, 1.0, 0.0, 0.0, 1.0
-        square = rest * rest
-        t = _TURN * strength * (square * square * square)
-        scale = 1.0 / (1.0 + t * t)
-        cosine, sine = (1.0 - t * t) * scale, 2.0 * t * scale
-        p, q = cosine * u - sine * v, sine * u + cosine * v
-        # the angle's derivative along u is `slope` u, that along v `slope` v
-        slope = (-24.0 * _TURN / (_RADIUS * _RADIUS)) * strength * scale * (square * square * rest)
-        du, dv = slope * u, slope * v
-        slopes = cosine - q * du, -sine - q * dv, sine + p * du, cosine + p * dv
-        return first + p, second + q, *slopes
-    if kind == _MOEBIUS:
-        # the denominator 1 + conj(c) z, and 1/denominator
-        p, q = 1.0 + (first * a + second * b), first * b - second * a
-        size = p * p + q * q
-        u, v = a + first, b + second
-        factor = (1.0 - (first * first + second * second)) / (size * size)
-        real, imaginary = factor * (p * p - q * q), -2.0 * factor * (p * q)
-        p, q = (u * p + v * q) / size, (v * p - u * q) / size
-        return p, q, real, -imaginary, imaginary, real
-    if kind == _SQUEEZE:
-        return a, (1.0 - strength) * b, 1.0, 0.0, 0.0, 1.0 - strength
-    return a, b, 1.0, 0.0, 0.0, 1.0
+def _twist(first, second, turn, a, b):
+    """Return the image of (a, b) under A with p and m eps, and its derivatives by rows."""
+    u, v = a - first, b - second
+    rest = 1.0 - (u * u + v * v) / (_RADIUS * _RADIUS)
+    if rest <= 0.0 or turn == 0.0:
+        return a, b, (1.0, 0.0, 0.0, 1.0)
+    square = rest * rest
+    t = turn * (square * square * square)
+    scale = 1.0 / (1.0 + t * t)
+    cosine, sine = (1.0 - t * t) * scale, 2.0 * t * scale
+    p, q = cosine * u - sine * v, sine * u + cosine * v
+    # the angle's derivative along u is `slope` u, that along v `slope` v
+    slope = (-24.0 / (_RADIUS * _RADIUS)) * turn * scale * (square * square * rest)
+    du, dv = slope * u, slope * v
+    slopes = cosine - q * du, -sine - q * dv, sine + p * du, cosine + p * dv
+    return first + p, second + q, slopes
+
+
+@jit
+def _moebius(first, second, a, b):
+    """Return the image of (a, b) under M, and its derivatives by rows."""
+    if first == 0.0 == second:
+        return a, b, (1.0, 0.0, 0.0, 1.0)
+    # the denominator 1 + conj(c) z, and 1/denominator
+    p, q = 1.0 + (first * a + second * b), first * b - second * a
+    size = p * p + q * q
+    u, v = a + first, b + second
+    factor = (1.0 - (first * first + second * second)) / (size * size)
+    real, imaginary = factor * (p * p - q * q), -2.0 * factor * (p * q)
+    p, q = (u * p + v * q) / size, (v * p - u * q) / size
+    return p, q, (real, -imaginary, imaginary, real)
+
+
+@jit
+def _product(m, n):
+    """Return the product of two matrices (2, 2), given by rows."""
+    first = m[0] * n[0] + m[1] * n[2], m[0] * n[1] + m[1] * n[3]
+    return first[0], first[1], m[2] * n[0] + m[3] * n[2], m[2] * n[1] + m[3] * n[3]
+
+
+@jit
+def apply(change, a, b):
+    """Return the image of (a, b) under a change, and its four derivatives by rows."""
+    slopes = 1.0, 0.0, 0.0, 1.0
+    for i in range(4):
+        first, second = change[i, 0], change[i, 1]
+        if i in (1, 2):
+            a, b, more = _twist(first, second, change[i, 2], a, b)
+        else:
+            a, b, more = _moebius(first, second, a, b)
+        slopes = _product(more, slopes)
+    return a, b, slopes[0], slopes[1], slopes[2], slopes[3]
 
 
 @jit
@@ -158,6 +194,8 @@ def _after(rows, first, n, k, centre, radius, change, states, flights, tangents)
         da, db = dx / radius, (dv - k * dw) / high
         a, b, aa, ab, ba, bb = apply(change, a, b)
         rows[A, j], rows[B, j] = a, b
+        u, v = a - rows[MIRROR_A, j], b - rows[MIRROR_B, j]
+        rows[NEAREST, j] = min(rows[NEAREST, j], u * u + v * v)
         rows[DA, j], rows[DB, j] = aa * da + ab * db, ba * da + bb * db
         tangents[3, i] *= aa * bb - ab * ba
 

@@ -6,10 +6,11 @@ import xarray as xr
 from ..dynamics import fixed_point
 from ..dynamics.ball import Ball
 from ..dynamics.tangent_orbits import begin, propagate_with_tangent, weight
-from ..dynamics.variables import ENERGY, RADIUS, described, variables
+from ..dynamics.variables import ENERGY, RADIUS, described, states_of, variables
 from .regularity import regular
 
 LOCKED = 3e-9  # turns an impact; rotation numbers as near to a fraction are taken for it
+_LEAST_IMPACTS = 2000  # behind a verdict on an orbit
 _MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports
 _ORBITS = {
     "place": ("start along y = 0, in section radii from the centre", RADIUS),
@@ -92,6 +93,21 @@ def turns_and_growth(k, states, centre, expected, impacts) -> tuple[np.ndarray, 
     propagate_with_tangent(orbits, k, 0, impacts, turning, growing, turned, growth)
     exponent = (growth[1] - growth[0]) / (quarter * (impacts - 2.0 * quarter))
     return turned[0] / weight(impacts), exponent
+
+
+def chaotic_orbits(ball: dict[str, float], orbits: xr.Dataset) -> list[int]:
+    """Return the indices of the orbits of a dataset of `scene_orbits` that are chaotic.
+
+    An orbit with few impacts is followed further, since its growth tells little.
+    """
+    sizes, found = orbits["row_size"].values, []
+    states = np.array(states_of(orbits)) / ball["g"]
+    for index, first in enumerate((np.cumsum(sizes) - sizes).tolist()):
+        impacts = max(int(sizes[index]), _LEAST_IMPACTS)
+        _, exponent = turns_and_growth(ball["k"], states[:, [first]], 0.0, np.nan, impacts)
+        if not regular(exponent, impacts)[0]:
+            found.append(index)
+    return found
 
 
 def island(dataset: xr.Dataset, row: int) -> int:

@@ -40,7 +40,10 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
     chaotic = so_far[-1].max(axis=-1) > regular_bound(length)
     if not chaotic.any():
-        raise ValueError(f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic")
+        raise ValueError(
+            f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
+            "give more orbits, longer ones or another energy"
+        )
     lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
     islands = ball.start(starts, energy)
     regular = [lyapunov_spectrum(ball, islands, int(n), 1)["exponent"].values[0] for n in lengths]

@@ -28,9 +28,11 @@ class Ball:
     A state (x, xdot, udot) is taken just before an impact, where u = -x; x points downwards. States
     lie on the section xdot + udot >= 0, eq. (22). Energies are in m omega^2 R^2, eqs. (15)-(20).
     Methods take scalars or arrays that broadcast. They return floats for scalars, and otherwise
-    arrays of the broadcast shape. Each element has the bits of the scalar call, and is NaN where an
-    argument is not finite. `help(pseudorigid)` says what counts as a number. Two balls are equal if
-    they have equal k and g and their maps find impacts in the same way.
+    arrays of the broadcast shape. Each element has the bits of the scalar call. It is NaN where an
+    argument is not finite, and after a flight of 2^20/omega or longer (about 2 sqrt(2E + g^2/k)/g
+    is the longest one); for scalars such a flight is an error. `help(pseudorigid)` says what counts
+    as a number. Two balls are equal if they have equal k and g and their maps find impacts in the
+    same way.
 
     Parameters
     ----------
@@ -44,7 +46,8 @@ class Ball:
     Raises
     ------
     ValueError
-        k or g is out of range. Methods raise it for a state with xdot + udot < 0.
+        k or g is out of range. Methods raise it for a state with xdot + udot < 0, and `impact` for
+        one state whose flight is too long.
 
     References
     ----------
@@ -169,7 +172,9 @@ class Ball:
         ball only touches the floor, tau is defined to the square root of a rounding.
         """
         state = self.on_section(x, xdot, udot)
-        return tuple(_plain(a.reshape(state[0].shape)) for a in self.after(state))
+        after = [_plain(a.reshape(state[0].shape)) for a in self.after(state)]
+        require_short_flights(state, after)
+        return tuple(after)
 
     def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
@@ -243,6 +248,12 @@ class Ball:
         x, xdot, udot, tau = columns
         self.map.steps(x, xdot, udot, self.k, self.g, impacts, tau, out)
         return columns, out
+
+
+def require_short_flights(state: Arrays, after: Iterable[ArrayLike]) -> None:
+    """Raise ValueError if the flights after one state, which is finite, end in NaN."""
+    if not state[0].shape and np.isfinite(state[0]) and any(np.isnan(a) for a in after):
+        raise ValueError("a flight lasts 2^20/omega or longer: take a larger g or a lower energy")
 
 
 def _plain(array: Any) -> Any:

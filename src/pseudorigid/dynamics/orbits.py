@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from .ball import Ball
+from .ball import Ball, require_short_flights
 from .inputs import not_allowed, one_of, state_of, whole_number
 from .starts import start_state, start_variables
 from .variables import attributes_of, orbit_dims, variables
@@ -37,8 +37,8 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     Raises
     ------
     ValueError
-        A state has xdot + udot < 0, `impacts` is below 1 or needs too much memory, or `keep` is
-        another word.
+        A state has xdot + udot < 0, a single state's flight lasts 2^20/omega or longer, `impacts`
+        is below 1 or needs too much memory, or `keep` is another word.
 
     Examples
     --------
@@ -58,12 +58,14 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     dims = orbit_dims(shape)
     if keep == "last":
         values = [a.reshape(shape) for a in ball.after(state, impacts)]
+        require_short_flights(state, values)
         return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
     try:
         out = ball.history(state, impacts)
     except (MemoryError, ValueError):
         raise not_allowed("impacts", impacts, "fewer, or keep='last': memory is short") from None
     values = [a.reshape(impacts, *shape) for a in out.T]
+    require_short_flights(state, [value[-1] for value in values])
     return xr.Dataset(
         variables(("impact", *dims), values),
         coords={"impact": _impact("impact", np.arange(1, impacts + 1))},

@@ -2,7 +2,8 @@
 
 The C library's sin, cos and log differ in the last bit between processors and versions, and a
 chaotic orbit turns one bit into a difference of order one within about 130 impacts. The functions
-here are within 0.8 ulp of the exact value for every finite argument.
+here are within 0.8 ulp of the exact value: sine and cosine below 2^20 radians, the logarithm for
+every finite argument.
 """
 
 import math
@@ -19,7 +20,7 @@ _HALF_PI_4 = float.fromhex("0x1.b839a252049c1p-104")
 _TWO_OVER_PI = float.fromhex("0x1.45f306dc9c883p-1")
 _ROUND = 1.5 * 2.0**52  # adding and subtracting this rounds to the nearest integer
 _HALVE = 1.5 * 2.0**26  # adding and subtracting this keeps 26 bits of a number below 1
-WIDE = 2.0**20  # larger angles, in radians, are reduced with integers
+WIDE = 2.0**20  # radians; sine and cosine of larger angles are NaN
 
 # Minimax polynomials for (sin r - r)/r^3 and (cos r - 1 + z/2)/z^2 in z = r^2 on |r| <= pi/4. The
 # first coefficients are -1/6 and 1/24 rounded, which keeps the tails accurate for short flights.
@@ -49,19 +50,6 @@ _LN2_HI = float.fromhex("0x1.62e42fee00000p-1")
 _LN2_LO = float.fromhex("0x1.a39ef35793c76p-33")
 _SQRT_HALF = float.fromhex("0x1.6a09e667f3bcdp-1")
 
-# Binary digits of 2/pi, 24 in each entry, after 48 zeros.
-_DIGITS = np.array(
-    [
-        0x000000, 0x000000, 0xA2F983, 0x6E4E44, 0x1529FC, 0x2757D1, 0xF534DD, 0xC0DB62, 0x95993C,
-        0x439041, 0xFE5163, 0xABDEBB, 0xC561B7, 0x246E3A, 0x424DD2, 0xE00649, 0x2EEA09, 0xD1921C,
-        0xFE1DEB, 0x1CB129, 0xA73EE8, 0x8235F5, 0x2EBB44, 0x84E99C, 0x7026B4, 0x5F7E41, 0x3991D6,
-        0x398353, 0x39F49C, 0x845F8B, 0xBDF928, 0x3B1FF8, 0x97FFDE, 0x05980F, 0xEF2F11, 0x8B5A0A,
-        0x6D1F6D, 0x367ECF, 0x27CB09, 0xB74F46, 0x3F669E, 0x5FEA2D, 0x7527BA, 0xC7EBE5, 0xF17B3D,
-        0x0739F7, 0x8A5292, 0xEA6BFB, 0x5FB11F, 0x8D5D08, 0x560330, 0x46FC7B,
-    ],
-    dtype=np.int64,
-)  # fmt: skip
-
 
 @jit
 def _reduce(t):
@@ -75,64 +63,6 @@ def _reduce(t):
     r = y - w3
     low = (((y - r) - w3) + e) - n * _HALF_PI_4
     return r, low, n
-
-
-@jit
-def _reduce_wide(t):
-    """Return (r, low, n modulo 4) as `_reduce` for any finite t > 0, by exact digits of 2/pi."""
-    bits = np.float64(t).view(np.int64)
-    mantissa = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000
-    exponent = (bits >> 52) - 1075
-    m0 = mantissa & 0xFFFFFF
-    m1 = (mantissa >> 24) & 0xFFFFFF
-    m2 = mantissa >> 48
-    # Use eight entries, from the first digit whose product with t is not a multiple of 4.
-    first = exponent + 46
-    entry = first // 24
-    shift = 24 - first % 24
-    carry = 0
-    d0 = 0
-    d1 = 0
-    hi = 0.0
-    lo = 0.0
-    n = 0
-    product = np.zeros(8, np.int64)
-    for i in range(7, -1, -1):
-        d2 = (((_DIGITS[entry + i] << 24) | _DIGITS[entry + i + 1]) >> shift) & 0xFFFFFF
-        carry += m0 * d2 + m1 * d1 + m2 * d0
-        product[i] = carry & 0xFFFFFF
-        carry >>= 24
-        d0 = d1
-        d1 = d2
-    n = product[0] >> 22
-    product[0] &= 0x3FFFFF
-    if product[0] & 0x200000:  # beyond one half: count down from the next quadrant
-        n += 1
-        product[0] -= 0x400000
-    scale = 2.0**-22
-    for i in range(8):
-        c = product[i] * scale
-        s = hi + c
-        v = s - hi
-        lo += (hi - (s - v)) + (c - v)
-        hi = s
-        scale *= 2.0**-24
-    s = hi + lo
-    lo = (hi - s) + lo
-    hi = s
-    # Multiply hi + lo by pi/2. hi is split in two so that its products with 33-bit parts are exact.
-    c = 134217729.0 * hi
-    top = c - (c - hi)
-    rest = hi - top
-    part = 134217729.0 * _HALF_PI_1
-    big = part - (part - _HALF_PI_1)
-    small = _HALF_PI_1 - big
-    r = hi * _HALF_PI_1
-    low = ((top * big - r) + top * small + rest * big) + rest * small
-    low += hi * _HALF_PI_2 + lo * _HALF_PI_1
-    s = r + low
-    low = (r - s) + low
-    return s, low, float(n + 4)  # not 0, because the tails are not those of t
 
 
 @jit
@@ -161,16 +91,11 @@ def narrow_quadrant(t):
 def quadrant(t):
     """Return sin r, cos r, sin r - r, cos r - 1 + r^2/2 and n, for t = r + n pi/2, |r| <= pi/4.
 
-    n is a float. All but n are NaN where t is not finite.
+    n is a float. All but n are NaN unless |t| < WIDE.
     """
     if abs(t) < WIDE:
         return narrow_quadrant(t)
-    if not abs(t) < math.inf:
-        return math.nan, math.nan, math.nan, math.nan, 0.0
-    r, low, n = _reduce_wide(abs(t))
-    if t < 0.0:
-        r, low, n = -r, -low, -n
-    return *_kernel(r, low), n
+    return math.nan, math.nan, math.nan, math.nan, 0.0
 
 
 @jit
@@ -187,10 +112,10 @@ def quarter_turns(a, b, n):
 
 @jit
 def sincos(t):
-    """Return sine and cosine of an angle in radians, each within 0.8 ulp; NaN if it is not finite.
+    """Return sine and cosine of an angle |t| < WIDE in radians, each within 0.8 ulp, else NaN.
 
-    Below WIDE the argument is reduced as in Cody and Waite, Software Manual for the Elementary
-    Functions (1980), above it as in Payne and Hanek, SIGNUM Newsletter 18 (1983).
+    The argument is reduced as in Cody and Waite, Software Manual for the Elementary Functions
+    (1980).
     """
     sine, cosine, _, _, n = quadrant(t)
     cosine, sine = quarter_turns(cosine, sine, n)

@@ -17,7 +17,7 @@ first root and the only one within reach. docs/method.md has the proofs.
 
 import math
 
-from .arithmetic import quadrant, quarter_turns
+from .arithmetic import WIDE, quadrant, quarter_turns
 from .compiled import jit
 
 # Evaluations of the gap in one flight beyond which something is wrong; 2 or 3 are usual.
@@ -188,7 +188,8 @@ def rotated(p, q, h):
 def _first_impact(x, b, c, s, g):
     amplitude = amplitude_bound(x, c)
     t = first_step(x, c, s, g, amplitude)
-    if g + x > 0.0 and amplitude * t <= _SLACK * (g + x):  # t is tau to a rounding, or 0
+    if g + x > 0.0 and amplitude * t <= _SLACK * (g + x) and t < WIDE:
+        # t is tau to a rounding, or 0
         p, q = rotated(x, c, t)
         return t, p, q, 0
     if s < _NO_SPEED * amplitude:  # it changes tau by less than 1e-70
@@ -241,7 +242,7 @@ def _first_impact(x, b, c, s, g):
         h = -df / ddf
         p, q = rotated(p, q, h)
         return t + h, p, q, evaluations
-    return t, p, q, evaluations
+    return t if t < WIDE else math.nan, p, q, evaluations
 
 
 @jit
@@ -250,8 +251,9 @@ def first_impact(x, b, c, s, g):
 
     s = -(b + c) is the contact speed before the impact; rounding may make it negative, which counts
     as 0. Returns tau (1/omega), the position P(tau), udot Q(tau) and the number of evaluations of
-    the gap. tau is 0 where the ball does not leave the floor, and NaN for input that is not finite.
-    Raises ArithmeticError for a flight of more than MOST_EVALUATIONS evaluations.
+    the gap. tau is 0 where the ball does not leave the floor. All but the number are NaN for input
+    that is not finite, and for a flight that lasts 2^20/omega or longer. Raises ArithmeticError
+    for a flight of more than MOST_EVALUATIONS evaluations.
     """
     size = abs(x) + abs(b) + abs(c) + abs(s) + g
     s = max(s, 0.0)

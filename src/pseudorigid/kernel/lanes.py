@@ -197,7 +197,7 @@ def _step_alone(lanes, orbit, i, k, g, coefficients):
 
 
 @jit
-def _advance(lanes, orbit, n, k, g, coefficients):
+def advance(lanes, orbit, n, k, g, coefficients):
     """Advance n orbits by one impact. `orbit` (LANES,) is overwritten by the orbit of each lane."""
     for i in range(n):
         orbit[i] = i
@@ -234,7 +234,7 @@ def steps(x, v, w, k, g, impacts, tau, out):
         for i in range(n):
             lanes[X + i], lanes[V + i], lanes[W + i] = x[first + i], v[first + i], w[first + i]
         for m in range(impacts):
-            _advance(lanes, orbit, n, k, g, coefficients)
+            advance(lanes, orbit, n, k, g, coefficients)
             if out.size > 0:
                 for i in range(n):
                     j = first + i

@@ -9,7 +9,7 @@ has the bits that it has alone.
 import numpy as np
 
 from . import lanes
-from .arithmetic import WIDE, narrow_quadrant, quadrant
+from .arithmetic import narrow_quadrant
 from .compiled import jit
 from .impact import flight_derivatives, impact_coefficients, rebound, steps, tangent
 
@@ -42,15 +42,13 @@ def advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder):
         missed = steps(x, v, w, k, g, impacts, np.empty(n), out, root_finder)
     coefficients = impact_coefficients(k)
     for j in range(impacts):
-        if not _derive(states, flights, j * GROUP, n, k, g, coefficients):
-            _derive_wide(states, flights, j * GROUP, n, k, g, coefficients)
+        _derive(states, flights, j * GROUP, n, k, g, coefficients)
     return missed
 
 
 @jit
 def _derive(states, flights, row, n, k, g, coefficients):
-    """Compute the derivatives of a row of flights, and return whether all times are below WIDE."""
-    wide = 0
+    """Compute the derivatives of a row of flights."""
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
         at = row + i
@@ -59,20 +57,6 @@ def _derive(states, flights, row, n, k, g, coefficients):
         flight = flight_derivatives(states[X + at], b, c, s, g, tau, narrow_quadrant(tau))
         flights[SINE + at], flights[COSINE + at] = flight[0], flight[1]
         flights[TAU_X + at], flights[TAU_S + at], flights[TAU_C + at] = flight[2:]
-        wide += 0 if tau < WIDE else 1
-    return wide == 0
-
-
-@jit
-def _derive_wide(states, flights, row, n, k, g, coefficients):
-    """Compute the derivatives of those flights of a row whose time is not below WIDE."""
-    for i in range(row, row + n):
-        tau = states[TAU + GROUP + i]
-        if not tau < WIDE:
-            b, c, s = rebound(states[V + i], states[W + i], k, coefficients)
-            flight = flight_derivatives(states[X + i], b, c, s, g, tau, quadrant(tau))
-            flights[SINE + i], flights[COSINE + i] = flight[0], flight[1]
-            flights[TAU_X + i], flights[TAU_S + i], flights[TAU_C + i] = flight[2:]
 
 
 @jit

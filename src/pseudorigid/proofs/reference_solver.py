@@ -99,7 +99,8 @@ def impact_errors(
 
         def error(state=row[:3], computed=row[3:]):
             proved = _impact(*map(ball_of, ball), *map(arb, state))
-            return max(abs(a - b).upper() for a, b in zip(proved, computed, strict=True))
+            errors = [abs(a - b).upper() for a, b in zip(proved, computed, strict=True)]
+            return max(errors) if all(it.is_finite() for it in errors) else arb("inf")
 
         if (largest := _decided(error, _IMPACT_BITS)) is not None:
             bounds[i] = np.nextafter(float(largest), np.inf)

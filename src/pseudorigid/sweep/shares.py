@@ -147,6 +147,8 @@ def shares(
     step: float,
     starts: int,
     impacts: int,
+    *,
+    progress: Callable[[float, str], None] | None = None,
 ) -> xr.Dataset:
     """Compute the regular share along E or k, the chains in it, and causes of its extrema.
 
@@ -166,6 +168,8 @@ def shares(
         Distance between two values, which are its multiples.
     starts, impacts : int
         As for `sweep.cell.cell`.
+    progress : callable, optional
+        Called with the share of values done and a text.
 
     Returns
     -------
@@ -192,7 +196,10 @@ def shares(
     unit, low, high = (Fraction(str(value)) for value in (step, *span))
     rows, counts, beyond, rotations = [], [], [], []
     resonances = _resonances(families)
-    for i in range(-int(-low // unit), int(high // unit) + 1):
+    numbers = range(-int(-low // unit), int(high // unit) + 1)
+    for done, i in enumerate(numbers):
+        if progress is not None:
+            progress(done / len(numbers), f"{done} of {len(numbers)} values")
         value = unit * i
         level = value if parameter == "energy" else Fraction(str(energy))
         this = ball if parameter == "energy" else Ball(float(value), ball.g)

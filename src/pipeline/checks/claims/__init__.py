@@ -13,7 +13,7 @@ import xarray as xr
 from pydantic import TypeAdapter
 
 from . import chaos, model, periodic, schema
-from .schema import Verdict
+from .schema import UNCHECKED, Verdict
 
 # MODULE.FUNCTION -> each public function of the modules with checks.
 CHECKS = {
@@ -57,6 +57,11 @@ def read_json(text: str) -> list[Verdict]:
     return _ROWS.validate_json(text, strict=True)
 
 
+def checkable(verdicts: Iterable[Verdict]) -> int:
+    """Return the number of statements that can be checked."""
+    return sum(row.verdict != UNCHECKED for row in verdicts)
+
+
 def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
     """Return verdict word -> its rows by number, in the order of CLAIMS.md: corrections first."""
     rows = sorted(verdicts, key=lambda row: row.number)
@@ -66,7 +71,9 @@ def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
 def render(verdicts: list[Verdict]) -> str:
     """Return the text of CLAIMS.md."""
     tables = by_verdict(verdicts)
-    lines = [DOCUMENT.head, f"The verdicts on {len(verdicts)} statements, and what each needs:", ""]
+    count = checkable(verdicts)
+    rest = f"{count} checkable statements, and on {len(verdicts) - count} more"
+    lines = [DOCUMENT.head, f"The verdicts on {rest}, and what each needs:", ""]
     lines += ["| verdict | rows | what it needs |", 3 * "|---" + "|"]
     lines += [f"| {word} | {len(tables[word])} | {needs} |" for word, needs in VERDICTS.items()]
     lines.append("")

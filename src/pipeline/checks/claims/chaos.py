@@ -19,6 +19,7 @@ from .schema import (
     Outcome,
     Series,
     enclosed,
+    entropy_bound,
     formula,
     outcome_of,
     regular_share,
@@ -85,8 +86,9 @@ def _orbits(spread: xr.Dataset) -> dict[str, int]:
 def sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters, beside the horseshoes."""
     word, numbers, _ = connected(spread)
-    crossings = {"crossings": all(proved.values())}
-    return Outcome(FALSE if word == FALSE else UNDECIDED, numbers | crossings)
+    crossings = {"crossings": proved["horseshoe-inner"] and proved["horseshoe-outer"]}
+    known = numbers | crossings | entropy_bound(proved)
+    return Outcome(FALSE if word == FALSE else UNDECIDED, known)
 
 
 def vanish(spread: xr.Dataset) -> Outcome:
@@ -118,12 +120,13 @@ def independent(spread: xr.Dataset) -> Outcome:
     return outcome_of(alike, furthest=furthest, **ends, **_orbits(spread))
 
 
-def chaotic_nature(spread: xr.Dataset) -> Outcome:
+def chaotic_nature(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Compare the exponents of chaotic orbits with the bound for regular ones of their length."""
     impacts, least = _impacts(spread), _largest_exponents(spread).min()
     bound = regular_bound(impacts)
     positive = least > CHAOTIC_EXPONENT_RATIO * bound
-    return outcome_of(positive, least=least, impacts=impacts, bound=bound, **_orbits(spread))
+    numbers = {"least": least, "impacts": impacts, "bound": bound}
+    return outcome_of(positive, **numbers, **_orbits(spread), **entropy_bound(proved))
 
 
 def figure_7(lyapunov: xr.Dataset) -> Outcome:
@@ -176,11 +179,11 @@ def depends_on_energy(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     shares = [regular_share(line, 0, energy / unit) for energy in ENERGIES]
     shares = [share | {"energy": share["energy"] * unit} for share in shares]
     numbers = {"low": least, "high": most, "shares": shares, "curves": enclosed(proved)}
-    numbers["closed"] = bool(numbers["curves"])
+    numbers |= {"closed": bool(numbers["curves"]), "unstable": proved["unstable"]}
     return outcome_of(least < 0.5 * most, **numbers, width=_widest(line))
 
 
-def destroyed(line: xr.Dataset) -> Outcome:
+def destroyed(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Find where the regular share rises with the energy by more than its intervals."""
     share, low, high = (line[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
     falls, rises = share[-1] < 0.5 * share[0], _rises(share, low, high)
@@ -191,7 +194,7 @@ def destroyed(line: xr.Dataset) -> Outcome:
     ]
     numbers = {"first": share[0], "last": share[-1], "rows": rows, "rises": bool(rises)}
     word = FALSE if not falls else CORRECTED if rises else HOLDS
-    return Outcome(word, numbers | {"width": _widest(line)})
+    return Outcome(word, numbers | {"width": _widest(line)} | dict(proved))
 
 
 def _widest(line: xr.Dataset) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid.analyses.branches import branch_stretching, half_turns, trace_by_differences
+from pseudorigid.analyses.perturbed_map import FORMS, PROPERTIES
 from pseudorigid.analyses.regularity import regular
 from pseudorigid.analyses.rotation import island, plateaus
 from pseudorigid.dynamics.ball import Ball
@@ -17,11 +18,13 @@ from pseudorigid.dynamics.variables import chart, states_of
 
 from .schema import (
     CORRECTED,
+    FALSE,
     HOLDS,
     PROVED,
     UNDECIDED,
     Outcome,
     Series,
+    bounds_of,
     enclosed,
     formula,
     outcome_of,
@@ -39,6 +42,9 @@ REMAINS, LOST = 0.5, 0.2
 # A reversor reverses a map if it misses by less than this, in section radii; none of those tried
 # does if all miss by more than this part of the strength.
 REVERSED, NOT_REVERSED = 1e-9, 0.1
+# The growth of areas wanders if its standard deviation grows by this factor from the shortest to
+# the longest runs, which are eight times as long, to more than this part of the strength.
+WANDERS, LEAST_WANDER = 2.0, 0.1
 TURNS_BACK = 0.1  # share of steps against the trend from which on the rotation number turns back
 
 
@@ -56,9 +62,12 @@ def period_six(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
         name = "rotation_number" if kind == "elliptic" else "multiplier"
         number = orbits[name].values[i]
         rows.append({"type": kind, "name": name.replace("_", " "), "number": number})
-    exist = all(proved.values())
+    # The paper's two sets are there; a correction says that there are more.
     both = {"elliptic", "hyperbolic"} <= {*types}
-    return outcome_of(both, count=len(types), orbits=rows, exist=exist)
+    word = FALSE if not both else CORRECTED if len(types) > 2 else HOLDS
+    exist = all(proved[f"six-{kind}"] for kind in ("elliptic", "hyperbolic", "inverse"))
+    born = proved["six-birth"] and proved["six-inverse-birth"]
+    return Outcome(word, {"count": len(types), "orbits": rows, "exist": exist, "born": born})
 
 
 def in_between(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
@@ -156,7 +165,7 @@ def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
         return Outcome(UNDECIDED, case="no_break_up")
     numbers, period = residues["rotation"].values, int(residues["period"].values[:, -1].min())
     inside, outside = numbers[gone].min(), numbers[broken].max()
-    ends = {"inside": inside, "outside": outside}
+    ends = {"inside": inside, "outside": outside, "circle": proved["no-circle"]}
     return Outcome(HOLDS, ends | {"period": period, "curves": enclosed(proved)})
 
 
@@ -179,7 +188,9 @@ def smale_birkhoff(jumps: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     if not all(proved.values()):
         return Outcome(UNDECIDED, case="unproved")
     if jumps["length"].values[0] > 0.0:
-        return Outcome(CORRECTED, {"energy": jumps["energy"].values[0]})
+        bounds = bounds_of("horseshoe-smooth")
+        numbers = {"energy": jumps["energy"].values[0], "period": bounds["period"]}
+        return Outcome(CORRECTED, numbers | {"smooth": float(bounds["surface"].energy)})
     return Outcome(PROVED, case="smooth")
 
 
@@ -212,6 +223,8 @@ def no_twist_map(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     numbers = {"turns": bool(turning), "energies": turning, "monotone": min(counts[0]) == 0}
     numbers |= {"energy": energies[0], "evidence": proved["twist-fixed-point"]}
     numbers |= {"zero": proved["twist-zero"], "once": proved["twist-one-zero"]}
+    everywhere = "unstable", "twist-one-zero", "twist-zero"
+    numbers |= {"unstable": all(proved[name] for name in everywhere)}
     return Outcome(HOLDS if turning else UNDECIDED, numbers)
 
 
@@ -223,33 +236,63 @@ def _rises_and_falls(rotation: xr.Dataset, row: int) -> tuple[int, int]:
     return int(np.sum(steps > ROTATION_ACCURACY)), int(np.sum(steps < -ROTATION_ACCURACY))
 
 
-def conjecture(algebra: xr.Dataset, control: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
-    """Compare the regular shares of maps that keep area or the reversor with those that keep none.
+def conjecture(
+    algebra: xr.Dataset, control: xr.Dataset, low: xr.Dataset, proved: Mapping[str, bool]
+) -> Outcome:
+    """Compare the regular shares of maps that keep area, the reversor, both or neither.
 
-    The two properties are separate at strengths at which the regular share remains with either
-    alone and goes with neither, and at which the map with the reversor alone has attracting orbits.
+    The two properties are separate if at both energies, for each form of change, the regular share
+    remains with either alone and goes with neither, and if for some form the map with the reversor
+    alone keeps no area at all.
     """
-    last = control.isel(length=-1)
-    regular = {
-        end: last[f"class_{end}"].sel({"class": "regular"}) for end in ("share", "low", "high")
-    }
-    attracted = last["class_low"].sel({"class": "spiral", "map": "reversor"}).values
-    itself = float(regular["share"].values[0, 0])
-    remains = regular["low"].sel(map=["area", "reversor"]).values.min(axis=0) > REMAINS * itself
-    neither = regular["high"].sel(map=["neither", "damped"]).values.max(axis=0)
-    defect = last["defect"].sel(map=["area", "reversor"]).values
-    strength = last["strength"].values
-    reversed_ = (defect[1] < REVERSED) & (defect[0] > NOT_REVERSED * strength)
-    chosen = (strength > 0.0) & remains & (neither < LOST * itself) & (attracted > 0.0) & reversed_
-    if not (chosen.any() and formula(algebra, "area", "reversible")[1]):
+    rows = [_control_row(data, form) for data in (control, low) for form in FORMS]
+    unkept = [row for row in rows if row["unkept"]]
+    everywhere = len({row["energy"] for row in rows} - {row["energy"] for row in unkept}) == 0
+    separate = everywhere and all(row["separate"] for row in rows)
+    if not (separate and formula(algebra, "area", "reversible")[1]):
         return Outcome(UNDECIDED, case="mixed")
-    numbers: dict[str, Any] = {"strengths": Series(strength[chosen]), "itself": itself}
-    numbers |= {
-        name: Series(regular["share"].sel(map=name).values[chosen]) for name in ("area", "reversor")
-    }
-    reach = 0.5 * (regular["high"] - regular["low"]).sel(map=["area", "reversor"]).values
-    numbers |= {"neither": neither[chosen].max(), "error": reach[:, chosen].max()}
+    numbers: dict[str, Any] = {"strength": control.attrs["shown"], "unkept": unkept}
+    numbers["same"] = [row for row in rows if len(row["shares"]) == len(PROPERTIES)]
+    numbers["shift"] = [row for row in rows if len(row["shares"]) < len(PROPERTIES)]
+    numbers["unchanged"] = numbers["shift"]  # one row for each energy
+    numbers["captured"] = [each for row in rows for each in row["captured"]]
+    numbers |= {name: max(row[name] for row in rows) for name in ("others", "error")}
     return Outcome(CORRECTED, numbers | {"known": all(proved.values())})
+
+
+def _control_row(control: xr.Dataset, form: str) -> dict[str, Any]:
+    """Return the shares for one form of change at the strength that is shown, and what they say."""
+    strength, energy = (float(control.attrs[name]) for name in ("shown", "energy"))
+    kept = [name for name in PROPERTIES if f"{form} {name}" in control["map"]]
+    rows = control.sel(strength=strength, map=[f"{form} {name}" for name in kept])
+    share, low, high = (rows[f"class_{end}"].isel(length=-1) for end in ("share", "low", "high"))
+    regular = {end.name: end.sel({"class": "regular"}).values for end in (share, low, high)}
+    itself = float(control["class_share"].sel({"class": "regular"})[0, 0, -1])
+    alone = [kept.index(name) for name in ("area", "reversor") if name in kept]
+    defect = dict(zip(kept, rows["defect"].values, strict=True))
+    separate = regular["class_low"][alone].min() > REMAINS * itself
+    separate &= regular["class_high"][-1] < LOST * itself and defect["reversor"] < REVERSED
+    separate &= defect.get("area", np.inf) > NOT_REVERSED * strength
+    # If any area is kept, no orbit attracts, and areas grow by bounded factors along all others.
+    attracted = share.sel({"class": "spiral"}).values
+    captured = [
+        {"attracted": value, "form": form, "kept": name, "energy": energy}
+        for name, value in zip(kept, attracted, strict=True)
+        if value > 0.0
+    ]
+    wander = rows["wander"].values[kept.index("reversor")]
+    unkept = low.sel({"class": "spiral"}).values[kept.index("reversor")] > 0.0
+    return {
+        "form": form,
+        "energy": energy,
+        "itself": itself,
+        "shares": Series(regular["class_share"]),
+        "separate": bool(separate),
+        "captured": captured,
+        "unkept": bool(unkept or wander[-1] > max(WANDERS * wander[0], strength * LEAST_WANDER)),
+        "others": np.nanmax(regular["class_share"] - rows["symmetric"].values),
+        "error": 0.5 * np.max(regular["class_high"] - regular["class_low"]),
+    }
 
 
 def kam(proved: Mapping[str, bool]) -> Outcome:

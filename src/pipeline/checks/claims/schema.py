@@ -17,9 +17,11 @@ from ...config.schema.stages import STAGES
 from ...config.validation.words import dotted
 from ...records.names import suggestion
 
-VerdictWord = Literal["does not hold", "holds with a correction", "undecided", "proved", "holds"]
+VerdictWord = Literal[
+    "does not hold", "holds with a correction", "undecided", "proved", "holds", "not checkable"
+]
 VERDICT_WORDS = get_args(VerdictWord)
-FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS = VERDICT_WORDS
+FALSE, CORRECTED, UNDECIDED, PROVED, HOLDS, UNCHECKED = VERDICT_WORDS
 
 Text = Annotated[str, Field(min_length=1)]
 
@@ -232,20 +234,31 @@ def numbers_of(algebra: xr.Dataset) -> dict[str, float]:
     return dict(zip(algebra["formula"].values.tolist(), algebra["value"].values, strict=True))
 
 
+def bounds_of(theorem: str) -> Mapping[str, Any]:
+    """Return the bounds in the statement of a theorem."""
+    from pseudorigid.proofs import THEOREMS
+
+    bounds: Mapping[str, Any] = THEOREMS[theorem].bounds
+    return bounds
+
+
 def enclosed(proved: Mapping[str, bool]) -> list[dict[str, Any]]:
     """Return what the invariant curves among the proved theorems enclose, one row for each.
 
     `share` is a lower bound, of the section, that the theorem states for the disc inside one curve;
     `period` is the number of such discs.
     """
-    from pseudorigid.proofs import THEOREMS
-
-    bounds = [THEOREMS[name].bounds for name, known in proved.items() if known]
+    bounds = [bounds_of(name) for name, known in proved.items() if known]
     return [
         {"share": float(b["share"]), "energy": float(b["surface"].energy), "period": b["period"]}
         for b in bounds
         if "share" in b
     ]
+
+
+def entropy_bound(proved: Mapping[str, bool]) -> dict[str, Any]:
+    """Return whether the theorem `entropy` is proved, and its bound, in nats per impact."""
+    return {"entropy": proved["entropy"], "entropy_bound": float(bounds_of("entropy")["entropy"])}
 
 
 def regular_share(sweep: xr.Dataset, row: int, energy: float) -> dict[str, float]:

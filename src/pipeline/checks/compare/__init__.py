@@ -12,27 +12,32 @@ import xarray as xr
 from ...config import paths
 from ...config.build_specs import of_variants
 from ...config.schema.fields import YamlMapping
+from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
+from ...records.pictures import pixels
 from ..freshness import CURRENT, Freshness
 from . import cycles, picture, summaries
 
 
-def compare(
-    root: Path, variants: paths.Variants, names: Sequence[str], scenes: Sequence[str]
-) -> None:
+def compare(root: Path, checked: YamlMapping, names: Sequence[str], scenes: Sequence[str]) -> None:
     """Print what differs between two variants and save their figures side by side."""
+    variants, left_out = checked["variants"], checked["left_out"]
     files = paths.artifact_paths(variants)
     freshness = Freshness(root, of_variants(variants, names))
     print(" | ".join(names))
     print(f"(a periodic orbit further than {cycles.REACH:g} section radii away counts as another)")
     for scene in scenes:
-        blocks = [variants[name][scene] for name in names]
+        blocks = [variants[name][scene] for name in names if scene in variants[name]]
+        both = len(blocks) == len(names)
         drawings = {name: paths.drawn(scene, "png", name) for name in names}
-        states = {name: freshness.state(path) for name, path in drawings.items()}
-        lines = [*_config_differences(*blocks)]
+        states = {
+            name: freshness.state(path) if scene in variants[name] else left_out[name][scene]
+            for name, path in drawings.items()
+        }
+        lines = [*_config_differences(*blocks)] if both else []
         lines += [f"{name}: {state}" for name, state in states.items() if state != CURRENT]
-        for stage in paths.stages(blocks[0]):
+        for stage in paths.stages(blocks[0]) if both else ():
             results = [files[name, scene, stage] for name in names]
             if all(freshness.state(result) == CURRENT for result in results):
                 first, second = (load(root / result) for result in results)
@@ -40,9 +45,15 @@ def compare(
                 lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
         image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
         if CURRENT in states.values():
-            present = {n: root / p if states[n] == CURRENT else None for n, p in drawings.items()}
-            picture.side_by_side(present, image)
-            lines.append(f"side by side: {image.relative_to(root)}")
+            present = {n: pixels(root / p) for n, p in drawings.items() if states[n] == CURRENT}
+            axes = ""
+            if len(present) == 2:
+                stages = KINDS[blocks[0]["picture"]].stages
+                data = [[load(root / files[n, scene, stage]) for stage in stages] for n in names]
+                images, axes = picture.on_same_axes(blocks, data)
+                present = dict(zip(names, images, strict=True))
+            picture.side_by_side({name: present.get(name) for name in names}, image)
+            lines.append(f"side by side{axes}: {image.relative_to(root)}")
         else:
             with suppress(OSError):
                 image.unlink()  # left by an earlier comparison

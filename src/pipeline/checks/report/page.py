@@ -13,7 +13,6 @@ import jinja2
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
 from ...explorer.data import address
-from ...records import swhid
 from ...records.files import read_bytes, read_text
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
@@ -58,7 +57,6 @@ def render(root: Path, checked: dict[str, Any]) -> str:
             name: sorted(str(file.relative_to(results)) for file in results.glob(pattern))
             for name, pattern in _OTHERS.items()
         },
-        identifiers=swhid.identifiers(root),
     )
 
 
@@ -79,11 +77,11 @@ def _image(file: Path) -> Picture:
 
 class _Page:
     def __init__(self, root: Path, checked: dict[str, Any]) -> None:
-        self.root, self.variants = root, checked["variants"]
+        self.root, self.variants, self.left_out = root, checked["variants"], checked["left_out"]
         self.artifact_paths = paths.artifact_paths(self.variants)
         self.sets = [inspect(root, each) for each in committed_sets(checked)]
         specs = build_specs.of_variants(self.variants)
-        self.freshness = Freshness(root, specs, self.sets[0].forged)  # of the paper
+        self.freshness = Freshness(root, specs)
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def variant(self, name: str) -> list[Picture]:
@@ -98,6 +96,9 @@ class _Page:
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
                 numbers = self._measured(name, scene) | {"file": _file(self.root, name, drawing)}
                 pictures.append(picture | self._made(drawing, data) | numbers)
+        for scene, reason in self.left_out.get(name, {}).items():
+            picture = _described(f"{name}-{scene}", name, scene, self.variants[PAPER][scene])
+            pictures.append(picture | {"missing": reason})
         return pictures
 
     def on_request(self) -> list[tuple[str, list[Picture]]]:

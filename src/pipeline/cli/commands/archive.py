@@ -14,10 +14,10 @@ FOLDER = "results/archive"
 def run(args: Arguments) -> int:
     """Write the archive; all results must be present and current."""
     here = ".".join(platform.python_version_tuple()[:2])
-    python, machine = args.python or here, args.machine or platform.machine()
-    if (args.python or args.machine) and not args.with_packages:
-        raise CommandLineError("archive: --python and --machine need --with-packages")
-    name = f"-python{python}-{machine}" if args.with_packages else ""
+    python = args.python or here
+    if args.python and not args.with_packages:
+        raise CommandLineError("archive: --python needs --with-packages")
+    name = f"-python{python}-{platform.machine()}" if args.with_packages else ""
     file = args.file or f"{FOLDER}/pseudorigid{name}.tar"
     path = (args.start if args.file else ROOT) / file
     with locked(), interruptible(), one_line("archive: ", archive.ArchiveError):
@@ -25,7 +25,7 @@ def run(args: Arguments) -> int:
         if args.with_packages:
             archive.refuse_unpublished(ROOT, args.checked)  # before the download
             folder = ROOT / FOLDER / f"packages{name}"
-            packages = wheels.download(folder, python, args.machine)
+            packages = wheels.download(folder, python)
         digest = archive.write(ROOT, args.checked, path, packages)
     print(f"{digest}  {file}  {path.stat().st_size / 1e6:.1f} MB")
     return 0

@@ -1,7 +1,7 @@
 """./reproduce article: set the replication article from the results."""
 
 from ...config.paths import ARTICLE
-from ...publication import archive, metadata
+from ...publication import archive, citation
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from ..arguments import Arguments
@@ -23,6 +23,6 @@ def run(args: Arguments) -> int:
         pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
         write_whole(ROOT / ARTICLE, pdf)
     print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")
-    for words in metadata.missing(metadata.citation()):
-        print(f"{metadata.TO_FILL_IN} in {metadata.CITATION}: {words}")
+    for words in citation.missing(citation.read()):
+        print(f"to be filled in in {citation.CITATION}: {words}")
     return 0

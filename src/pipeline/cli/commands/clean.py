@@ -20,6 +20,7 @@ _OTHER_FILES = (
     "*/differences/*.png",
     "*/logs/*.log",
     "*/logs/*.json",
+    "*/why/*.txt",
     "*/.*.part",
     "*/*/.*.part",
     "*/*.nc.part/*",

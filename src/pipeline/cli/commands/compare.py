@@ -19,14 +19,14 @@ def run(args: Arguments) -> int:
     with locked():
         for name in names:
             files = figures.of_scenes(args.checked, name, scenes)
-            made = figures.make(args.checked, name, files, args.options, brief=True)
+            made = figures.make(args.checked, name, files, args, brief=True)
             status = made or status
             if status == running.INTERRUPTED:
                 return status
-        if not running.is_dry_run(args.options):
+        if not args.makes_nothing:
             from ...checks.compare import compare
 
             print()
             with interruptible(), one_line():
-                compare(ROOT, variants, names, scenes)
+                compare(ROOT, args.checked, names, scenes)
     return status

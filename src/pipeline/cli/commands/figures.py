@@ -22,7 +22,7 @@ def run(args: Arguments) -> int:
     selected, status = _SELECT.get(args.word, _named)(args), 0
     with locked():
         for group, (files, data) in selected.items():
-            status = figures.make(args.checked, group, files, args.options, data) or status
+            status = figures.make(args.checked, group, files, args, data) or status
             if status == running.INTERRUPTED:
                 break
     return status
@@ -30,10 +30,7 @@ def run(args: Arguments) -> int:
 
 def _named(args: Arguments) -> Selected:
     """Select every figure of the paper, or the named figures and files."""
-    _find(args, args.figure)  # reports misspelt names before errors in snakemake's options
-    targets = running.options_of(args.options).targets
-    args.options = [option for option in args.options if option not in targets]
-    found = _find(args, [*args.figure, *targets] or ["all"])
+    found = _find(args, args.figure or ["all"])
     return {group: (files, []) for group, files in found.items()}
 
 
@@ -63,6 +60,8 @@ def _find(args: Arguments, names: list[str]) -> dict[str, figures.Wanted]:
             if "/" in name:
                 known_files = [*results, *published[config.PAPER]]
                 raise CommandLineError(f"no such file is made: {name}{hint(name, known_files)}")
+            if name in COMMANDS:
+                raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
             scenes = [scene for group in published for scene in variants[group]]
             meant = hint(name, [*scenes, *COMMANDS]) or ": the figures are " + ", ".join(scenes)
             raise CommandLineError(f"no command or figure {name}{meant}")
@@ -92,7 +91,7 @@ def _study(args: Arguments) -> Selected:
 
     Charts of measured times stay in results/ until `accept`.
     """
-    if not running.is_dry_run(args.options):
+    if not args.makes_nothing:
         add_packages("study")
     files = {}
     for chart, (part, *_) in study.CHARTS.items():

@@ -34,6 +34,8 @@ def run(args: Arguments) -> int:
         files: dict[str, list[str]] = {}
         for _, upstream in paths.figures(variants, name).values():
             files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
+        for scene, reason in args.checked["left_out"][name].items():
+            files.setdefault(reason, []).append(f"{scene}.png")
         rows += [(name, state, " ".join(files[state])) for state in files]
     _print("./reproduce variant NAME", rows)
     return 0

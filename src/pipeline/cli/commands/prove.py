@@ -1,10 +1,15 @@
 """./reproduce prove: check each theorem from its certificate."""
 
-from ...records.files import write_whole
+from contextlib import ExitStack
+
+from ...jobs.heartbeat import Heartbeat
+from ...records.files import replacing
 from ...records.sources import ROOT
 from .. import figures
-from ..arguments import CERTIFICATES, Arguments, hint
-from ..session import CommandLineError, interruptible, locked, one_line, print_error
+from ..arguments import Arguments, hint
+from ..session import CommandLineError, UsageError, interruptible, locked, one_line, print_error
+
+CERTIFICATES = "src/pseudorigid/proofs/certificates"
 
 
 def run(args: Arguments) -> int:
@@ -16,13 +21,14 @@ def run(args: Arguments) -> int:
     if args.pictures:
         with locked():
             wanted = figures.of_scenes(args.checked, "proofs")
-            return figures.make(args.checked, "proofs", wanted, [])
+            return figures.make(args.checked, "proofs", wanted, args)
     if args.impacts:
         from ...checks.proved_impacts import impacts
 
         with locked(), interruptible(), one_line():
             return int(impacts(args.checked))
     from pseudorigid.proofs import THEOREMS, search_certificate
+    from pseudorigid.proofs.enclosure.flight import NotProvedError
 
     for name in args.theorem:
         if name not in THEOREMS:
@@ -31,13 +37,28 @@ def run(args: Arguments) -> int:
     files = {
         name: f"{CERTIFICATES}/{THEOREMS[name].certificate}" for name in args.theorem or THEOREMS
     }
-    for name, file in files.items() if args.search else ():
+    found, checked = dict[str, str](), list[str]()
+
+    def progress() -> str:
+        searched = f"{len(found)} of {len(files)} certificates found, " if args.search else ""
+        return f"{searched}{len(checked)} of {len(files)} theorems checked"
+
+    Heartbeat(progress)
+    for name in files if args.search else ():
         print_error(f"searching for a certificate of {name}")
-        write_whole(ROOT / file, search_certificate(name))
+        prefix = f"no certificate of {name}: "
+        with one_line(prefix), one_line(prefix, NotProvedError):
+            found[name] = search_certificate(name)
     status = 0
     for name in files:
-        result = THEOREMS[name].check()
+        result = THEOREMS[name].check(found.get(name))
         print(result.line(), flush=True)
+        checked.append(name)
         status |= result.verdict != "proved"
-    print("", *dict.fromkeys(files.values()), sep="\n", flush=True)
+    if found and status:
+        raise UsageError("the certificates are left as they were: a new one is not proved")
+    with ExitStack() as replaced:  # all of them, once each is proved and written
+        for name, text in found.items():
+            replaced.enter_context(replacing(ROOT / files[name])).write_text(text)
+    print("", *files.values(), sep="\n", flush=True)
     return status

@@ -15,8 +15,8 @@ def run(args: Arguments) -> int:
     """Make missing results, then the page."""
     with locked():
         files = figures.of_scenes(args.checked, PAPER)
-        status = figures.make(args.checked, PAPER, files, args.options)
-        if running.is_dry_run(args.options) or status == running.INTERRUPTED:
+        status = figures.make(args.checked, PAPER, files, args)
+        if args.makes_nothing or status == running.INTERRUPTED:
             return status
         from ...checks.report import page
 

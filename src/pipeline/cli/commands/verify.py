@@ -13,7 +13,7 @@ def run(args: Arguments) -> int:
         from ...checks.verify import verify
 
         status = 0
-        for findings in verify(ROOT, args.checked):
+        for findings in verify(ROOT, args.checked, args.committed):
             print(*findings.report(), sep="\n")
             status |= findings.fails(args.strict)
         return int(status)

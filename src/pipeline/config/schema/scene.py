@@ -19,6 +19,8 @@ if TYPE_CHECKING:  # importing xarray takes longer than checking a config
 
 Dataset: TypeAlias = "xarray.Dataset"
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
+# 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.
+LONGEST_FLIGHT = 1_000_000
 SectionAxes = dict[Literal["x", "xdot", "udot"], fields.Axis]
 
 
@@ -104,15 +106,16 @@ class OfOrbits(Scene):
 
 
 class OfChaoticOrbits(OfOrbits):
-    """A scene of orbits, some of which are drawn as chaotic."""
+    """A scene of orbits, of which the chaotic ones are drawn in grey."""
 
     sea: Annotated[
         list[Annotated[int, fields.whole(0, fields.LARGEST)]],
         allowed("a list of places in starts, counted from 0, none of them twice"),
         Predicate(fields.distinct),
     ] = []
-    """Places in `starts`, counted from 0, of the chaotic orbits. They are drawn first and in a grey
-    of their own, so that the regular orbits stand out."""
+    """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. It changes no
+    picture: those whose tangent vectors grow exponentially are called chaotic, whatever stands
+    here. They are drawn first and in a grey of their own, so that regular orbits stand out."""
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
@@ -153,8 +156,10 @@ class OfSea(Scene):
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that all impacts fit into memory."""
+        """Check that the starts are in order, and that all impacts fit into memory."""
         yield from super().cross_field_errors(block)
+        if not block["between"][0] < block["between"][1]:
+            yield ("between",), block["between"], "two increasing fractions"
         yield from bounded(block, "orbits", "impacts", "impacts in all")
 
 
@@ -189,7 +194,8 @@ class OfManifolds(OfPeriodicOrbit):
     """Stability of the periodic orbit, which must be a saddle to have manifolds. It selects among
     the orbits of the period."""
     resolution: fields.Resolution
-    """How finely the manifolds are traced. A finer resolution takes more time and more memory."""
+    """How finely the manifolds are traced. A finer resolution takes more time and more memory. A
+    run says if the branches would have too many points."""
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
@@ -302,9 +308,10 @@ def _impacts_of_each(block: YamlMapping) -> list[int]:
 
 
 def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
-    """Yield the energies at which there is no motion, or at which the ball could flatten."""
+    """Yield energies without motion, with flights too long, or at which the ball could flatten."""
     k, g = (exact(block["ball"][name]) for name in "kg")
     lowest, highest = -g * g / (2 * k), k / 2 - g
+    long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
     energies: dict[tuple[str | int, ...], float] = {("energy",): block["energy"]}
     lists = ["energies", "span"] if block.get("parameter") == "energy" else ["energies"]
     for name in lists:
@@ -316,6 +323,8 @@ def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
         elif not exact(energy) < highest:
             bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
             yield place, energy, f"a number below {bound}"
+        elif not exact(energy) <= long:
+            yield place, energy, f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"
 
 
 def _start_errors(

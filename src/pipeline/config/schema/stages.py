@@ -55,6 +55,7 @@ STAGES = {
             "flux": "period distance grid between orbits impacts",
             "last_curve": "nobles convergents between impacts drawn",
             "families": "parameter span period levels",
+            "escape": "beside distance orbits impacts",
             "control": "strengths orbits impacts period starts shown drawn resamples seed",
         }.items()
     },

@@ -39,12 +39,17 @@ def check(document: object) -> YamlMapping:
     """Return the complete config of a parsed YAML document: ball, scenes, variants, sweeps, prove.
 
     The variants are mappings name -> scene -> block; the first of them are the paper itself and the
-    scenes that are drawn on request. Raises ConfigError with a line for each mistake.
+    scenes that are drawn on request. `left_out` maps other variants to the scenes that they cannot
+    have, with the reasons. Raises ConfigError with a line for each mistake.
     """
     lines = mistakes(Document, document, ())
     given = complete(Document, document if isinstance(document, dict) else {})
     given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
     ball = None if mistakes(BallBlock, given.get("ball"), ()) else given["ball"]
+    if ball and not ball["g"] < ball["k"]:
+        lines.append(refusal(("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"))
+        ball = None
+    left_out: dict[str, dict[str, str]] = {}
     derived: dict[str, YamlMapping] = {variant: {} for variant in PUBLISHED}
     for variant, blocks in derived.items():
         key = "scenes" if variant == PAPER else variant
@@ -56,7 +61,7 @@ def check(document: object) -> YamlMapping:
             if variant != PAPER and name in given.get("scenes", {}):
                 lines.append(refusal((key,), name, "a name that no scene of the paper has"))
     for name, block in given["variants"].items() if not lines else ():
-        derived[name], variant_lines = scenes.derive(given, name, block)
+        derived[name], left_out[name], variant_lines = scenes.derive(given, name, block)
         lines += variant_lines
     grids = {}
     for name, block in given["sweeps"].items():
@@ -72,4 +77,4 @@ def check(document: object) -> YamlMapping:
     if lines:
         raise ConfigError(*dict.fromkeys(lines))
     parts = {"scenes": derived[PAPER], "variants": derived, "sweeps": grids}
-    return {"ball": ball, **parts, "prove": given["prove"]}
+    return {"ball": ball, **parts, "left_out": left_out, "prove": given["prove"]}

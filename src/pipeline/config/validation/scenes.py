@@ -1,12 +1,12 @@
 """Validation of scenes, and of variants: the paper's scenes with some values replaced.
 
 The values that a variant gives for all scenes (ball, energy, method) replace those of the scenes.
-The fields that it gives for one scene are merged into the result. Its `scale` L is applied at the
-end: g is multiplied by L and energies by L^2; bounds are checked before that.
+The fields that it gives for one scene are merged into the result. A scene that cannot have the
+values is left out. The variant's `scale` L is applied at the end: g is multiplied by L and energies
+by L^2; bounds are checked before that.
 """
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 from ..schema.fields import YamlMapping
@@ -25,12 +25,10 @@ def checked(
     given: object,
     ball: YamlMapping | None,
     place: Place,
-    origins: Mapping[int | str, Place] | None = None,
 ) -> tuple[YamlMapping, list[str]]:
     """Return a scene's complete block and a line for each mistake; with mistakes the block is {}.
 
-    `ball` is the ball of a scene without one, or None if it has mistakes itself. `origins` maps
-    fields that were written elsewhere to the places where their mistakes should be reported.
+    `ball` is the ball of a scene without one, or None if it has mistakes itself.
     """
     if not isinstance(given, dict):
         return {}, [refusal(place, given, "a mapping that begins with picture")]
@@ -44,36 +42,60 @@ def checked(
     if ball is None or (lines and not has_types(kind, given)):
         return {}, lines
     block = complete(kind, {"ball": ball} | given)
-    places = ({} if "ball" in given else {"ball": ("ball",)}) | dict(origins or {})
-    for (field, *inner), value, allowed in kind.cross_field_errors(block):
-        lines.append(refusal((*places.get(field, (*place, field)), *inner), value, allowed))
+    for where, value, allowed in kind.cross_field_errors(block):
+        lines.append(refusal((*place, *where), value, allowed))
     return ({}, lines) if lines else (block, [])
 
 
-def derive(document: YamlMapping, name: str, given: YamlMapping) -> tuple[YamlMapping, list[str]]:
-    """Return the scenes of a variant, and a line for each mistake between fields."""
+def derive(
+    document: YamlMapping, name: str, given: YamlMapping
+) -> tuple[YamlMapping, dict[str, str], list[str]]:
+    """Return the scenes of a variant, why others are left out, and a line for each mistake.
+
+    A scene is left out if the values that the variant gives for all scenes do not suit it. It is a
+    mistake if they suit no scene, or if what the variant gives for the scene itself is wrong.
+    """
     place = ("variants", name)
     if name in RESERVED:
-        return {}, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
+        return {}, {}, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
     lines: list[str] = []
     changes = given.get("scenes", {})
     for scene, change in changes.items():
         lines += _change_mistakes(document["scenes"], scene, change, (*place, "scenes", scene))
     if lines:
-        return {}, lines
-    scenes = {}
-    for scene, block in document["scenes"].items():
-        change = changes.get(scene, {})
-        derived = _derived({"ball": document["ball"]} | block, given, change)
-        replaced = {"ball"} | (given.keys() & set(_OF_ALL_SCENES))
-        origins = {key: (*place, key) for key in replaced - change.keys()}
-        where = (*place, "scenes", scene)
-        scenes[scene], mistaken = checked(derived, derived["ball"], where, origins)
-        lines += mistaken
+        return {}, {}, lines
+    scenes, left_out = {}, {}
+    mistaken: dict[str, list[str]] = {}  # line -> the scenes that the value does not suit
+    unsuitable: dict[str, list[str]] = {}
+    for scene, given_block in document["scenes"].items():
+        change, where = changes.get(scene, {}), (*place, "scenes", scene)
+        block = {"ball": document["ball"]} | given_block
+        derived = _derived(block, given, change)
+        kind = KINDS[derived["picture"]]
+        wrong = mistakes(kind, derived, where)
+        lines += wrong
+        if wrong and not has_types(kind, derived):
+            continue
+        scenes[scene] = complete(kind, derived)
+        errors = [*kind.cross_field_errors(scenes[scene])]
+        # What the variant gives for the scene itself is wrong where it is, and where all was well.
+        others = complete(kind, _derived(block, given, {}))
+        excused = {at[0] for at, *_ in kind.cross_field_errors(others)} - change.keys()
+        own = [error for error in errors if error[0][0] not in excused]
+        for at, value, allowed in own or errors:
+            shared = at[0] in given and at[0] not in change
+            line = refusal((*(place if shared else where), *at), value, allowed)
+            (mistaken if own else unsuitable).setdefault(line, []).extend([scene] * shared)
+        if errors and not own:
+            left_out[scene] = f"left out: {refusal(*errors[0])}"
+            del scenes[scene]
+    if not scenes:
+        mistaken |= unsuitable
+    lines += [f"{line}, for {', '.join(for_)}" if for_ else line for line, for_ in mistaken.items()]
     scale = given.get("scale", 1)
     if lines or scale == 1:
-        return scenes, lines
-    return {scene: _scaled(block, scale) for scene, block in scenes.items()}, []
+        return scenes, left_out, lines
+    return {scene: _scaled(block, scale) for scene, block in scenes.items()}, left_out, []
 
 
 def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> YamlMapping:

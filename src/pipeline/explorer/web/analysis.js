@@ -212,7 +212,7 @@ const analysis = (() => {
     const square = g * g * cosine * cosine + k * (2 * energy - g * g * theta * theta);
     if (!(square >= 0)) return null;
     const a = (g * cosine + sign * Math.sqrt(square)) / k;
-    const [v, w] = geometry.rebound(k, -g * theta, -a * Math.sin(theta));
+    const [v, w] = pseudorigid.afterImpact(k, -g * theta, -a * Math.sin(theta));
     if (!(v + w >= 0)) return null;
     const state = [a * cosine, v, w];
     iterate(k, g, state, 1);
@@ -224,8 +224,9 @@ const analysis = (() => {
       const state = line.start(parameter);
       return state ? line.defect(iterate(k, g, state, Math.floor(period / 2))) : NaN;
     };
+    const values = defects(k, g, line, Math.floor(period / 2));
     const found = [];
-    for (const ends of signChanges(value, line.parameters)) {
+    for (const ends of signChanges(value, line.parameters, values)) {
       const [low, high] = ends.map((parameter) => {
         const state = line.start(parameter);
         return state ? [state, gapOf(k, g, state, period)] : [null, Infinity];
@@ -236,9 +237,18 @@ const analysis = (() => {
     return found;
   }
 
+  /** The defects at all parameters of a line, NaN beyond its ends; the orbits advance together. */
+  function defects(k, g, line, impacts) {
+    const starts = line.parameters.map(line.start);
+    const column = (i) => Float64Array.from(starts, (state) => (state ? state[i] : NaN));
+    const states = { x: column(0), xdot: column(1), udot: column(2), tau: column(0) };
+    pseudorigid.iterateMany(k, g, states, impacts);
+    const { x, xdot, udot } = states;
+    return starts.map((state, i) => (state ? line.defect([x[i], xdot[i], udot[i]]) : NaN));
+  }
+
   /** The ends, neighbouring doubles, of each sign change; values are NaN beyond a line's ends. */
-  function signChanges(value, parameters) {
-    const values = parameters.map(value);
+  function signChanges(value, parameters, values) {
     const changes = [];
     for (let i = 0; i + 1 < parameters.length; i++) {
       let [low, high] = [parameters[i], parameters[i + 1]];

@@ -44,12 +44,6 @@ const geometry = {
     return { x: centre + p * radius, y: q * height };
   },
 
-  /** Velocities after the impact, eq. (25): for drawing, not for orbits. */
-  rebound(k, v, w) {
-    const e = (2 * (v + w)) / (1 + k);
-    return [v - k * e, w - e];
-  },
-
   /** The largest number in (0, end) up to which `below` holds. */
   root(below, end) {
     let low = 0;

@@ -1,11 +1,34 @@
-// The interface `pseudorigid` of the page and of its worker: loops over the translated kernel.
+// The interface `pseudorigid` of the page and of its worker: calls of the compiled kernel.
 //
-// Lengths are in R, times in 1/omega, energies in m omega^2 R^2. A state (x, xdot, udot) is taken
-// just before an impact. Where a coordinate is not finite, all results are NaN, as in Python. Bad
-// arguments throw a RangeError whose message is one line for the user.
+// KERNEL is the WebAssembly module, in base64. Lengths are in R, times in 1/omega, energies in
+// m omega^2 R^2. A state (x, xdot, udot) is taken just before an impact. Where a coordinate is not
+// finite, all results are NaN, as in Python. Bad arguments throw a RangeError whose message is one
+// line for the user.
 globalThis.pseudorigid = (() => {
   "use strict";
-  const out = kernel.$out;
+  const CHUNK = 8192; // impacts in a call that writes rows
+  const LANES = 264; // orbits that advance together, as in kernel/lanes.py
+  // Addresses in the module's memory: its stack ends where the results of numba's functions begin.
+  const RESULT = 65536;
+  const STATE = RESULT + 64;
+  const OUT = STATE + 8 * 24;
+  const ROWS = OUT + 64;
+  const LANE_ROWS = ROWS + 8 * 5 * CHUNK;
+  const ORDER = LANE_ROWS + 8 * 30 * LANES;
+  const PAGE = 65536; // bytes of a page of memory
+  const memory = new WebAssembly.Memory({ initial: Math.ceil((ORDER + 8 * LANES) / PAGE) });
+  const doubles = new Float64Array(memory.buffer);
+  const at = (address, count) => doubles.subarray(address / 8, address / 8 + count);
+  const state = at(STATE, 24), out = at(OUT, 4);
+  const module = new WebAssembly.Module(Uint8Array.from(atob(KERNEL), c => c.charCodeAt(0)));
+  const stack = new WebAssembly.Global({ value: "i32", mutable: true }, RESULT);
+  const imports = { env: { __linear_memory: memory, __stack_pointer: stack } };
+  const kernel = new WebAssembly.Instance(module, imports).exports;
+
+  // Call a function of the kernel; numba passes the places of a result and of an exception first.
+  function call(name, ...args) {
+    if (kernel[name](RESULT, RESULT + 8, ...args)) throw new Error("the kernel found no impact");
+  }
 
   function refuse(name, value, allowed) {
     throw new RangeError(`${name} = ${value} is not allowed: ${allowed}`);
@@ -22,21 +45,18 @@ globalThis.pseudorigid = (() => {
     }
   }
 
-  // Return the coefficients of the impact law, as the kernel wants them.
-  function coefficientsOf(k) {
-    kernel.impact_coefficients(k);
-    return [out[0], out[1]];
-  }
-
-  // Return the state, all NaN where one coordinate is not finite.
-  function checkedState(x, xdot, udot) {
-    if (!(Number.isFinite(x) && Number.isFinite(xdot) && Number.isFinite(udot))) {
-      return [NaN, NaN, NaN];
-    }
-    if (xdot < -udot) {
+  // Store a state, all NaN where one coordinate is not finite.
+  function store(x, xdot, udot) {
+    const finite = Number.isFinite(x) && Number.isFinite(xdot) && Number.isFinite(udot);
+    if (finite && xdot < -udot) {
       throw new RangeError("a state just before an impact has xdot + udot >= 0, eq. (22)");
     }
-    return [x, xdot, udot];
+    state.set(finite ? [x, xdot, udot] : [NaN, NaN, NaN]);
+  }
+
+  // Copy rows of the kernel to arrays, from their entry `first` on.
+  function copyRows(arrays, first, count) {
+    arrays.forEach((array, i) => array.set(at(ROWS + 8 * i * count, count), first));
   }
 
   // Advance a state by `impacts`. Entry i of each array belongs to impact i: the state just before
@@ -44,19 +64,12 @@ globalThis.pseudorigid = (() => {
   function history(k, g, x, xdot, udot, impacts) {
     checkBall(k, g);
     checkImpacts(impacts);
-    [x, xdot, udot] = checkedState(x, xdot, udot);
-    const [high, low] = coefficientsOf(k);
+    store(x, xdot, udot);
     const orbit = emptyOrbit(impacts);
-    const { x: xs, xdot: xdots, udot: udots, tau: taus } = orbit;
-    for (let i = 0; i < impacts; i += 1) {
-      kernel.step(x, xdot, udot, k, g, high, low);
-      x = out[0];
-      xdot = out[1];
-      udot = out[2];
-      xs[i] = x;
-      xdots[i] = xdot;
-      udots[i] = udot;
-      taus[i] = out[3];
+    for (let done = 0; done < impacts; done += CHUNK) {
+      const count = Math.min(CHUNK, impacts - done);
+      call("history", STATE, k, g, count, 1, ROWS);
+      copyRows(Object.values(orbit), done, count);
     }
     return orbit;
   }
@@ -68,64 +81,70 @@ globalThis.pseudorigid = (() => {
 
   // Advance a state by `impacts`, and write the last state and flight time to `result` (4).
   function iterate(k, g, x, xdot, udot, impacts, result) {
-    if (k !== lastK) [lastK, lastCoefficients] = [k, coefficientsOf(k)];
-    const high = lastCoefficients[0], low = lastCoefficients[1];
-    for (let i = 0; i < impacts; i += 1) {
-      kernel.step(x, xdot, udot, k, g, high, low);
-      x = out[0];
-      xdot = out[1];
-      udot = out[2];
-    }
-    result[0] = x;
-    result[1] = xdot;
-    result[2] = udot;
-    result[3] = out[3];
+    state[0] = x;
+    state[1] = xdot;
+    state[2] = udot;
+    call("history", STATE, k, g, impacts, 0, ROWS);
+    for (let i = 0; i < 4; i += 1) result[i] = state[i];
   }
-  let lastK = NaN, lastCoefficients = [];
+
+  // Advance many states in place, {x, xdot, udot, tau} of arrays, with the bits of `iterate`.
+  function iterateMany(k, g, states, impacts) {
+    const arrays = [states.x, states.xdot, states.udot, states.tau];
+    for (let first = 0; first < states.x.length; first += LANES) {
+      const count = Math.min(LANES, states.x.length - first);
+      const rows = arrays.map((_, i) => at(LANE_ROWS + 8 * i * LANES, count));
+      rows.forEach((row, i) => row.set(arrays[i].subarray(first, first + count)));
+      call("history_in_lanes", LANE_ROWS, ORDER, count, k, g, impacts);
+      rows.forEach((row, i) => arrays[i].set(row, first));
+    }
+  }
 
   // Return the state and flight time of the next impact.
   function step(k, g, x, xdot, udot) {
     checkBall(k, g);
-    const [high, low] = coefficientsOf(k);
-    kernel.step(...checkedState(x, xdot, udot), k, g, high, low);
-    return [out[0], out[1], out[2], out[3]];
+    store(x, xdot, udot);
+    call("history", STATE, k, g, 1, 0, ROWS);
+    return [...state.subarray(0, 4)];
   }
 
   // Return the image of a state under the reversor R. Backwards orbits are R history(R start).
   function reverse(k, x, xdot, udot) {
-    const [high, low] = coefficientsOf(k);
-    kernel.reflect(...checkedState(x, xdot, udot), k, high, low);
-    return [out[0], out[1], out[2]];
+    store(x, xdot, udot);
+    call("reverse", STATE, k);
+    return [...state.subarray(0, 3)];
   }
 
-  function checkEnergy(k, g, energy) {
-    const square = kernel.radius_squared(k, g, energy);
-    if (!(square >= 0 && square < Infinity)) {
-      const lowest = -g * g / (2 * k);
-      refuse("energy", energy, `finite, at least ${Number(lowest.toPrecision(6))}`);
-    }
+  // Return the velocities just after an impact, eq. (25).
+  function afterImpact(k, xdot, udot) {
+    state.set([0, xdot, udot]);
+    call("after_impact", STATE, k);
+    return [state[1], state[2]];
   }
 
   // Return the state on y = 0 at a fraction of the section's radius, from -1 to 1.
   function start(k, g, energy, fraction) {
     checkBall(k, g);
-    checkEnergy(k, g, energy);
+    call("start", STATE, k, g, energy, fraction);
+    if (!(state[3] >= 0 && state[3] < Infinity)) {
+      const lowest = -g * g / (2 * k);
+      refuse("energy", energy, `finite, at least ${Number(lowest.toPrecision(6))}`);
+    }
     if (!(Math.abs(fraction) <= 1)) {
       throw new RangeError("a start is a fraction of the section's radius, from -1 to 1");
     }
-    kernel.start(k, g, energy, fraction);
-    return [out[0], out[1], out[2]];
+    return [...state.subarray(0, 3)];
   }
 
   // Return the state at a point of the chart (x, y = xdot - k udot).
   function stateXY(k, g, energy, x, y) {
     checkBall(k, g);
-    if (!(kernel.contact_speed_squared(k, g, energy, x, y) >= 0)) {
+    call("chart_state", STATE, k, g, energy, x, y);
+    if (!(state[3] >= 0)) {
       const reason = "the point is outside the section";
       throw new RangeError(`no state with this x, y and energy: ${reason}`);
     }
-    kernel.chart_state(k, g, energy, x, y);
-    return [out[0], out[1], out[2]];
+    return [...state.subarray(0, 3)];
   }
 
   // An orbit that goes on where it ended, with its largest Lyapunov exponent so far. `advance` is
@@ -133,63 +152,34 @@ globalThis.pseudorigid = (() => {
   class Follower {
     constructor(k, g, x, xdot, udot) {
       checkBall(k, g);
-      [this.k, this.g] = [k, g];
-      this.coefficients = coefficientsOf(k);
-      this.impacts = 0;
-      this.state = checkedState(x, xdot, udot);
-      // Three tangent vectors, products of their lengths, sums of logarithms.
-      this.frame = Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0);
-      // A tangent vector of the energy surface, and the logarithm by which it was divided.
-      this.vector = [0, k * this.state[2], -this.state[1]];
-      this.grown = 0;
+      store(x, xdot, udot);
+      [this.k, this.g, this.impacts] = [k, g, 0];
+      [x, xdot, udot] = state;
+      // What `follow` of the kernel carries: state and time, a tangent vector of the energy surface
+      // and a logarithm, three tangent vectors, products of their lengths, sums of logarithms.
+      this.orbit = new Float64Array(24);
+      this.orbit.set([x, xdot, udot, 0, 0, k * udot, -xdot, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]);
     }
 
     // Advance by some impacts, and return them as `history` does. `size` is the logarithm of the
     // length |.|_1 of the vector that begins as (0, k udot, -xdot), after each impact.
     advance(impacts) {
       checkImpacts(impacts);
-      const { k, g, frame: f } = this;
-      const [high, low] = this.coefficients;
-      const orbit = emptyOrbit(impacts), size = new Float64Array(impacts);
-      let [x, xdot, udot] = this.state, [dx, dv, dw] = this.vector;
-      for (let i = 0; i < impacts; i += 1) {
-        kernel.step_with_flight(x, xdot, udot, k, g, high, low);
-        x = out[0];
-        xdot = out[1];
-        udot = out[2];
-        orbit.x[i] = x;
-        orbit.xdot[i] = xdot;
-        orbit.udot[i] = udot;
-        orbit.tau[i] = out[3];
-        const sine = out[4], cosine = out[5], tauX = out[6], tauS = out[7], tauC = out[8];
-        kernel.tangent(dx, dv, dw, k, g, high, low, x, udot, sine, cosine, tauX, tauS, tauC);
-        dx = out[0];
-        dv = out[1];
-        dw = out[2];
-        const length = Math.abs(dx) + Math.abs(dv) + Math.abs(dw);
-        size[i] = this.grown + Math.log(length);
-        if (!(length > 1e-50 && length < 1e50)) {
-          this.grown += Math.log(length);
-          dx /= length;
-          dv /= length;
-          dw /= length;
-        }
-        kernel.push_frame(
-          f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9], f[10], f[11], f[12], f[13],
-          f[14], k, g, high, low, x, udot, sine, cosine, tauX, tauS, tauC,
-        );
-        for (let j = 0; j < 15; j += 1) f[j] = out[j];
+      const orbit = { ...emptyOrbit(impacts), size: new Float64Array(impacts) };
+      state.set(this.orbit);
+      for (let done = 0; done < impacts; done += CHUNK) {
+        const count = Math.min(CHUNK, impacts - done);
+        call("follow", STATE, this.k, this.g, count, ROWS);
+        copyRows(Object.values(orbit), done, count);
       }
-      this.state = [x, xdot, udot];
-      this.vector = [dx, dv, dw];
+      this.orbit.set(state);
       this.impacts += impacts;
-      return { ...orbit, size };
+      return orbit;
     }
 
     // Return the exponent of the first vector over all impacts so far, in nats an impact.
     exponent() {
-      kernel.with_logarithms(...this.frame.subarray(12), ...this.frame.subarray(9, 12));
-      return out[0] / this.impacts;
+      return this.orbit[23] / this.impacts;
     }
   }
 
@@ -210,36 +200,20 @@ globalThis.pseudorigid = (() => {
   function tangent(k, g, x, xdot, udot, impacts) {
     checkBall(k, g);
     checkImpacts(impacts);
-    [x, xdot, udot] = checkedState(x, xdot, udot);
-    const [high, low] = coefficientsOf(k);
-    // Derivatives of s = xdot + udot at fixed energy, and of the state, by x and by y.
-    const s = xdot + udot, y = xdot - k * udot;
-    const slopes = [(1 + k) * (g - k * x) / (k * s), -y / (k * s)];
-    const columns = [0, 1].map(unit => [
-      1 - unit, (k * slopes[unit] + unit) / (1 + k), (slopes[unit] - unit) / (1 + k),
-    ]);
-    for (let i = 0; i < impacts; i += 1) {
-      kernel.step_with_flight(x, xdot, udot, k, g, high, low);
-      [x, xdot, udot] = out;
-      const flight = out.slice(4, 9);
-      for (const column of columns) {
-        kernel.tangent(...column, k, g, high, low, x, udot, ...flight);
-        column.splice(0, 3, out[0], out[1], out[2]);
-      }
-    }
-    const [one, other] = columns;
-    return [one[0], other[0], one[1] - k * one[2], other[1] - k * other[2]];
+    store(x, xdot, udot);
+    call("chart_tangent", STATE, k, g, impacts, OUT);
+    return [...out];
   }
 
   // Return the bytes of doubles, little-endian, every NaN the same.
-  function bytesOf(doubles) {
-    const bytes = new Uint8Array(8 * doubles.length);
+  function bytesOf(values) {
+    const bytes = new Uint8Array(8 * values.length);
     const view = new DataView(bytes.buffer);
-    for (let i = 0; i < doubles.length; i += 1) {
-      if (Number.isNaN(doubles[i])) {
+    for (let i = 0; i < values.length; i += 1) {
+      if (Number.isNaN(values[i])) {
         view.setUint32(8 * i + 4, 0x7ff80000, true);
       } else {
-        view.setFloat64(8 * i, doubles[i], true);
+        view.setFloat64(8 * i, values[i], true);
       }
     }
     return bytes;
@@ -337,6 +311,7 @@ globalThis.pseudorigid = (() => {
   }
 
   return {
-    history, start, exponent, stateXY, step, iterate, reverse, tangent, follow, sha256, bytesOf, checkFigure,
+    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, follow,
+    sha256, bytesOf, checkFigure,
   };
 })();

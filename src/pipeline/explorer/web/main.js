@@ -3,6 +3,8 @@
  * The page as a whole: it holds the state, has the workers compute what the state asks for, and
  * draws it. controls.js turns what a person does into calls of these methods.
  */
+const BATCH_TIME = 60; // ms that the worker computes before the page draws again
+
 class Explorer {
   constructor(data) {
     this.data = data;
@@ -15,6 +17,7 @@ class Explorer {
     this.follower = new Computer();
     this.searcher = new Computer();
     this.generation = 0;
+    this.batch = 12000; // impacts of all orbits in an answer of the worker
     this.playing = false;
     this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.section = new SectionView(element("section"), () => this.scene());
@@ -163,14 +166,17 @@ class Explorer {
       return;
     }
     const { generation } = this;
-    const most = Math.max(60, Math.floor(12000 / waiting.length));
+    const most = Math.max(60, Math.floor(this.batch / waiting.length));
     const wanted = waiting.map((orbit) => {
       const count = Math.min(Math.round(orbit.pace), most, orbit.impacts - orbit.count);
-      orbit.pace = Math.min(1.18 * orbit.pace + 1, 5000);
+      orbit.pace = Math.min(1.18 * orbit.pace + 1, most);
       return [orbit.key, count];
     });
     this.asking = true;
+    const begin = performance.now();
     const pieces = await this.follower.ask("advance", { orbits: wanted });
+    const slow = performance.now() - begin > BATCH_TIME;
+    this.batch = Math.min(Math.max((slow ? 0.7 : 1.2) * this.batch, 2000), MOST_IMPACTS);
     this.asking = false;
     this.reply(generation, pieces);
   }
@@ -442,6 +448,11 @@ function element(id) {
 
 /** Begin with the address, or with Figure 2. */
 function begin() {
+  if (!globalThis.pseudorigid) {
+    const needed = "This page needs WebAssembly with SIMD, which browsers have had since 2023.";
+    document.body.textContent = `${needed} This browser does not have it, or forbids it.`;
+    return;
+  }
   const data = JSON.parse(element("data").textContent);
   const explorer = new Explorer(data);
   const load = () => {

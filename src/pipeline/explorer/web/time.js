@@ -88,7 +88,7 @@ class PeriodicMotion {
 
 /** Position and strain at a time after the impact at a state. */
 function flown(k, g, [x, v, w], t) {
-  const [b, c] = geometry.rebound(k, v, w);
+  const [b, c] = pseudorigid.afterImpact(k, v, w);
   return { x: x + t * (b + 0.5 * g * t), u: c * Math.sin(t) - x * Math.cos(t) };
 }
 

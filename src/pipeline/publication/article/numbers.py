@@ -16,7 +16,7 @@ from ...checks.quantities import measured, printed
 from ...checks.report.captions import caption_of
 from ...config import PAPER, PUBLISHED, paths
 from ...records.files import read_text
-from .. import metadata
+from .. import citation
 
 _HASH_DIGITS = 16  # of a hash in a caption
 Table = dict[str, Any]
@@ -27,7 +27,7 @@ def numbers_of(root: Path, checked: Table) -> str:
 
     Raises ValueError, which names the file, if a manifest is missing or broken.
     """
-    facts = metadata.citation()
+    facts = citation.read()
     verdicts = claims.read_json(read_text(root / paths.LEDGER_DATA))
     counts = Counter(row.verdict for row in verdicts)
     sets = published_sets.committed_sets(checked)
@@ -44,14 +44,14 @@ def numbers_of(root: Path, checked: Table) -> str:
         figures[scene] |= {"rows": _rows(root, checked, scene), "settings": entry["config"]}
     return json.dumps(
         {
-            "title": metadata.OWN["article"],
-            "authors": [metadata.name_of(author) for author in facts["authors"]],
-            "addresses": metadata.addresses(facts),
+            "title": citation.title(facts),
+            "authors": [citation.name_of(author) for author in facts["authors"]],
+            "addresses": citation.addresses(facts),
             "keywords": facts["keywords"],
             "version": facts["version"],
             "claims": [asdict(row) for row in verdicts],
             "counts": {word: counts[word] for word in VERDICT_WORDS},
-            "statements": len(verdicts),
+            "statements": claims.checkable(verdicts),
             "figures": figures,
             "printed": {"exponent": EXPONENT},
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],

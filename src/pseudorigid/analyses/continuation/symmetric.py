@@ -217,8 +217,9 @@ def roots(
 ) -> list[tuple[int, int, Point]]:
     """Return (period, line, point) of the orbits that sign changes on a grid of a line show."""
     k, rho = parameter.k_and_rho(p)
-    values = np.empty((grid.size, max(periods) + 1))
-    scan(line, k, rho, grid, max(periods), values)
+    longest = max(periods, default=0)
+    values = np.empty((grid.size, longest + 1))
+    scan(line, k, rho, grid, longest, values)
     found = []
     for period in periods:
         system = Orbits(line, period, parameter)

@@ -36,7 +36,9 @@ class Box:
             if not self.seen(*shown).any():
                 hides = "the energy surface hides all that is drawn"
                 raise ValueError(f"view {scene['view']}: {hides}")
-        cells = [None, None, *entries, ("grazing rim", style.RIM)]
+        cells = [None, None, *entries]
+        if self.seen(*self.surface.rim()).any():
+            cells.append(("grazing rim", style.RIM))
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
         self.figure = self.sheet.figure
         self._key(style.setting(scene), cells)

@@ -96,11 +96,14 @@ def decades(limits, name=""):
 
 
 def complete(scene, **axes):
-    """Return the scene with all named axes, calling `axes[name]()` for those that it lacks."""
+    """Return the scene with all named axes, calling `axes[name]()` for those that it lacks.
+
+    A mapping scene["completed"], if there is one, is filled with the axes.
+    """
     own = scene.get("axes", {})
-    return scene | {
-        "axes": {name: own[name] if name in own else make() for name, make in axes.items()}
-    }
+    whole = {name: own[name] if name in own else make() for name, make in axes.items()}
+    scene.get("completed", {}).update(whole)
+    return scene | {"axes": whole}
 
 
 def complete_box(scene, *datasets):

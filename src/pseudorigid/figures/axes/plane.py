@@ -6,6 +6,7 @@ import numpy as np
 
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
+from .limits import inside
 from .panel import Axis, Panel
 
 _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
@@ -16,7 +17,7 @@ class Plane(Panel):
 
     `axes` are two keys of scene["axes"], and `names` the names of these axes. The height `high` is
     a multiple of 75 pixels, `right` the margin in pixels. The ball, and with `energy` the scene's
-    energy, are written above the frame.
+    energy, are written above the frame; `room` pixels below them are left for a key.
     """
 
     tick, gap, size, small = 3.0, 3.0, style.PLAIN, style.PLAIN
@@ -24,10 +25,11 @@ class Plane(Panel):
     corners = "projecting"
     clip_range = (-np.inf, np.inf)
 
-    def __init__(self, scene, axes, names, high=825, right=60, energy=True):
+    def __init__(self, scene, axes, names, high=825, right=60, energy=True, room=0):
+        high += room
         sheet = Sheet(style.COLUMN, high)
         self.figure = sheet.figure
-        frame = _LEFT, _BOTTOM, style.COLUMN - right, high - _TOP
+        frame = _LEFT, _BOTTOM, style.COLUMN - right, high - _TOP - room
         across, up = (scene["axes"][axis] for axis in axes)
         power = thousands(across["ticks"])
         labels = [style.number(tick, power) for tick in across["ticks"]]
@@ -43,11 +45,22 @@ class Plane(Panel):
         super().line(x, y, clip=self.frame, **line_style)
 
     def dots(self, x, y, color, size, **line_style):
-        """Draw dots of `size` points across, also across the frame."""
+        """Draw the dots of `size` points that lie within the limits, also across the frame."""
+        x, y = np.array([x, y])[:, self.shows(x, y)]
         self._dots(*self.place(x, y), color, size, **line_style)
 
+    def shows(self, x, y):
+        """Return whether each point lies within the limits."""
+        return inside((self.across.limits, self.up.limits), np.array([x, y]))
+
     def beside(self, entries):
-        """Write (height y, text) in falling order right of the frame, moved apart if need be."""
+        """Write (y, text), in falling order, right of the frame if y is within the limits.
+
+        They are moved apart if need be.
+        """
+        entries = [entry for entry in entries if inside([self.up.limits], [entry[0]])]
+        if not entries:
+            return
         heights = self.place(0, [y for y, _ in entries])[1].tolist()
         middle, step = sum(heights) / len(heights), 1.3 * style.PLAIN * POINT
         if any(above - below < step for above, below in pairwise(heights)):
@@ -56,9 +69,12 @@ class Plane(Panel):
             self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
 
     def legend(self, *entries):
-        """Name lines and dots, (text, width in points, style), above the right end of the frame."""
+        """Name lines and dots, (text, width in points, style), above the right end of the frame.
+
+        An entry that is not true is left out.
+        """
         across, up = self.frame[2], self.frame[3] + 8.5 * POINT
-        for text, width, line_style in reversed(entries):
+        for text, width, line_style in filter(None, reversed(entries)):
             across -= width * POINT
             self._text(across, up, text, "left", "center")
             start, end = across - 18 * POINT, across - 4 * POINT

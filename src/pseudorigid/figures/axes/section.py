@@ -32,12 +32,12 @@ class Section(Panel):
         axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
         super().__init__(sheet, frame, *axes, grid=False)
 
-    def orbits(self, orbits, sea):
-        """Draw orbits as dots, first and paler those whose indices are in `sea`."""
+    def orbits(self, orbits, chaotic):
+        """Draw orbits as dots, first and paler those whose indices are in `chaotic`."""
         x, y = chart(self.k, *states_of(orbits))
         spans = rows(orbits)
-        for index in sorted(range(len(spans)), key=lambda i: (i not in sea, i)):
-            hue, size = (SEA, 0.7) if index in sea else (style.BACKDROP, 0.9)
+        for index in sorted(range(len(spans)), key=lambda i: (i not in chaotic, i)):
+            hue, size = (SEA, 0.7) if index in chaotic else (style.BACKDROP, 0.9)
             self.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
     def rim(self, zorder=4.5):
@@ -54,11 +54,21 @@ def at_top(sheet, scene):
     return Section(sheet, frame, scene["ball"], Ball(**scene["ball"]).section(scene["energy"])[1])
 
 
-def over_orbits(scene, orbits, sea, high=1125):
-    """Return a large panel of the section with its rim and orbits at the top of a new sheet."""
+def over_orbits(scene, orbits, high=1125):
+    """Draw the section with its rim and orbits at the top of a new sheet.
+
+    Return the panel, and the entries of a key for regular and for chaotic orbits, None for one that
+    is not drawn.
+    """
     sheet = Sheet(style.COLUMN, high)
     panel = at_top(sheet, scene)
-    panel.orbits(orbits, sea)
+    from ...analyses.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+
+    chaotic = chaotic_orbits(scene["ball"], orbits)
+    panel.orbits(orbits, chaotic)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))
-    return panel
+    rest = orbits.sizes["orbit"] - len(chaotic)
+    regular = (style.plural("regular orbit", rest), style.BACKDROP, "o") if rest else None
+    sea = (style.plural("chaotic orbit", len(chaotic)), SEA, "o") if chaotic else None
+    return panel, regular, sea

@@ -80,6 +80,11 @@ def setting(scene, energy=True):
     return ", ".join(f"${name}$ = {number(value)}" for name, value in values.items())
 
 
+def plural(noun, count):
+    """Return a noun in the number that a count needs."""
+    return noun if count == 1 else f"{noun}s"
+
+
 def number(value, power=0):
     """Return value / 10**power as a tick label: shortest decimal form, a proper minus sign."""
     return f"{value / 10**power:.10g}".replace("-", "\N{MINUS SIGN}")

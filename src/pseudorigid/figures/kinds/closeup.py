@@ -36,7 +36,7 @@ def draw(scene, manifolds):
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
     picture.dots(*saddle, style.VERMILION, _DOT, mew=0.5, mec="white")
     picture.legend(
-        ("saddle", 32, {"color": style.VERMILION, "dots": _DOT}),
+        picture.shows(*saddle) and ("saddle", 32, {"color": style.VERMILION, "dots": _DOT}),
         ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )

@@ -10,34 +10,37 @@ from ..canvas.sheet import POINT, Sheet
 _LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
 _CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.SEA))
 _UNCHANGED = "the impact map"
-# The changed maps, in the order of their rows in the data.
-_MAPS = {
-    "both": ("area and reversor", style.BLACK, "o"),
-    "area": ("area alone", style.PURPLE, "s"),
-    "reversor": ("reversor alone", style.GREEN, "D"),
-    "neither": ("neither", style.ORANGE, "^"),
-    "damped": ("neither, damped", style.SKY, "v"),
+# What a changed map keeps, in the order of the portraits' columns.
+_KEPT = {
+    "both": ("area, reversor", style.BLACK),
+    "area": ("area alone", style.PURPLE),
+    "reversor": ("reversor alone", style.GREEN),
+    "neither": ("neither", style.ORANGE),
 }
+_FORMS = {"twist": "o", "stir": "s", "shift": "^"}  # in the order of the portraits' rows
 _ROWS = 1040, 655, 270  # pixels: the bottoms of the charts' rows
 _HIGH = 225  # pixels: the height of a chart
 _LONG = 5  # digits of numbers of impacts that fit beside one another
-_SIDE = 295  # pixels: the side of a portrait
+_SIDE = 222  # pixels: the side of a portrait
 
 
 @style.pinned()
 def draw(scene, control):
     """Draw portraits of the maps, and shares, exponents and rates against the strength."""
-    sheet = Sheet(style.COLUMN, 2175)
-    entries = [(name, hue, "o", False, 3.0) for name, hue in _CLASSES]
+    sheet = Sheet(style.COLUMN, 2325)
+    drawn = set(control["kind"].values.ravel().tolist())
+    entries = [(*_CLASSES[kind], "o", False, 3.0) for kind in range(3) if kind in drawn]
     key(sheet, entries, sheet.high - 32, 5, 45, 800, 7.0)
     sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
     _portraits(sheet, control)
     _charts(sheet, control)
-    entries = [(text, hue, mark, False, 3.4) for text, hue, mark in _MAPS.values()]
+    entries = [(text, hue, "o", False, 3.4) for text, hue in _KEPT.values()]
+    entries += [(form, style.BLACK, mark, True, 3.4) for form, mark in _FORMS.items()]
     entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
-    key(sheet, entries, 105, 3, _LEFT - 30, 900, 7.0)
-    text = "in rates filled: the fixed point, open: the longer orbit; bars: 95 %"
-    sheet.text(_LEFT - 30, 25, text, size=7.0)
+    key(sheet, entries, 105, 4, _LEFT - 90, 990, 7.0)
+    sheet.text(
+        _LEFT - 90, 25, "colours: what is kept; marks: form of the change; bars: 95 %", size=7.0
+    )
     return sheet.figure
 
 
@@ -45,9 +48,12 @@ def _portraits(sheet, control):
     """Draw the orbits of each panel, chaotic ones first."""
     from ...kernel.arithmetic import sincos_each
 
+    bottom = 0.0
     for i, name in enumerate(control["panel"].values.tolist()):
-        left = 45 + (i % 3) * (_SIDE + 40)
-        bottom = sheet.high - 110 - (i // 3) * (_SIDE + 62) - _SIDE
+        form, _, kept = name.partition(" ")
+        row = len(_FORMS) - 1 if name == "none" else list(_FORMS).index(form)
+        left = 45 + (0 if name == "none" else list(_KEPT).index(kept)) * (_SIDE + 24)
+        bottom = sheet.high - 110 - row * (_SIDE + 62) - _SIDE
         unit = Axis((-1.04, 1.04), ())
         panel = Window(sheet, (left, bottom, left + _SIDE, bottom + _SIDE), unit, unit)
         sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
@@ -56,8 +62,9 @@ def _portraits(sheet, control):
         for kind in (2, 1, 0):
             a, b = (control[axis].values[i][kinds == kind].ravel() for axis in "ab")
             panel.dots(a, b, _CLASSES[kind][1], 0.35 if kind == 2 else 0.7)
-        title(sheet, panel.frame, _MAPS[name][0] if name in _MAPS else _UNCHANGED)
-    text = rf"the five changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
+        text = _UNCHANGED if name == "none" else f"{form}: {_KEPT[kept][0]}"
+        title(sheet, panel.frame, text, size=6.2)
+    text = rf"the changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
     sheet.text(_RIGHT, bottom - 4 * POINT, text, ha="right", va="top", size=7.0)
 
 
@@ -94,14 +101,14 @@ def _charts(sheet, control):
         if np.isfinite(unchanged):
             limits = [10.0 ** axis.limits[0], 10.0 ** axis.limits[1]]
             panel.line(limits, [unchanged] * 2, color=style.BACKDROP, lw=1.2, ls="--")
-        _maps(panel, strength, [part[:, 1:] for part in estimate])
-    rate = [part[:, 1:] / strength[:, None] for part in rate]
+        _maps(panel, control, strength, [part[:, 1:] for part in estimate])
+    rate = [part[:, 1:, 0] / strength for part in rate]
     finite = np.abs(rate[0][np.isfinite(rate[0])])
     most = 1.15 * float(finite.max()) if finite.size else 1.0
     up = linear(-most, most, 5)
-    panel = _chart(sheet, frames[4], across, up, r"Rate of the spiral, / $\epsilon$")
+    panel = _chart(sheet, frames[4], across, up, r"Rate at the fixed point, / $\epsilon$")
     panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
-    _maps(panel, strength, rate, joined=False)
+    _maps(panel, control, strength, rate, joined=False)
     _lengths(sheet, frames[5], control)
 
 
@@ -124,21 +131,18 @@ def _share_axis(values):
     return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
 
 
-def _maps(panel, at, estimate, apart=1.06, joined=True):
-    """Draw the changed maps' values with intervals, (map, abscissa[, orbit]), side by side.
-
-    The second orbit's marks are open.
-    """
-    estimate = [np.atleast_3d(part) for part in estimate]
-    for i, (_, hue, mark) in enumerate(_MAPS.values()):
-        beside = at * apart ** (i - 2.0)
-        for orbit in range(estimate[0].shape[2]):
-            value, low, high = (part[i, :, orbit] for part in estimate)
-            if joined:
-                panel.line(beside, value, color=style.pale(hue), lw=0.8)
-            panel.bars(beside, low, high, color=hue, lw=0.7)
-            shown = np.isfinite(value)
-            panel.dots(beside[shown], value[shown], hue, 3.0, orbit == 1, mark)
+def _maps(panel, control, at, estimate, apart=1.04, joined=True):
+    """Draw the changed maps' values with intervals, (map, abscissa), side by side."""
+    for i, name in enumerate(control["map"].values.tolist()):
+        form, _, kept = name.partition(" ")
+        hue, mark = _KEPT[kept][1], _FORMS[form]
+        beside = at * apart ** (i - 4.5)
+        value, low, high = (part[i] for part in estimate)
+        if joined:
+            panel.line(beside, value, color=style.pale(hue), lw=0.8)
+        panel.bars(beside, low, high, color=hue, lw=0.7)
+        shown = np.isfinite(value)
+        panel.dots(beside[shown], value[shown], hue, 3.0, False, mark)
 
 
 def _lengths(sheet, frame, control):
@@ -155,4 +159,5 @@ def _lengths(sheet, frame, control):
     estimate = [kind[f"class_{name}"].values[:, at] for name in ("share", "low", "high")]
     text = rf"Regular share, $\epsilon$ = {style.number(control.attrs['shown'])}"
     up = _share_axis(estimate[2])
-    _maps(_chart(sheet, frame, across, up, text, minor_across=False), lengths, estimate, 1.025)
+    panel = _chart(sheet, frame, across, up, text, minor_across=False)
+    _maps(panel, control, lengths, estimate, 1.02)

@@ -13,8 +13,8 @@ _SHADE = "#f0c3a6"
 
 @style.pinned()
 def draw(scene, curves, orbits):
-    """Draw orbits on the section, the proved curves, and the area inside them, shaded."""
-    panel = section.over_orbits(scene, orbits, scene["sea"])
+    """Draw orbits, the proved curves, the areas inside, and points inside no invariant circle."""
+    panel, regular, chaotic = section.over_orbits(scene, orbits)
     x, y = curves["x"].values, curves["y"].values
     polygons = [(x[run], y[run]) for run in runs(np.isnan(x))]
     height = panel.high * panel.radius
@@ -24,12 +24,16 @@ def draw(scene, curves, orbits):
                 panel.line(ends, [y, y], color=_SHADE, lw=0.8)
     for polygon in polygons:
         panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
+    saddles = curves["saddle_x"].values, curves["saddle_y"].values
+    panel.dots(*saddles, style.BLUE, size=2.6)
     entries = [
         ("proved curve", style.VERMILION),
         ("no orbit enters or leaves", _SHADE),
-        ("regular orbits", style.BACKDROP, "o"),
-        ("chaotic orbit", section.SEA, "o"),
+        ("inside no invariant circle", style.BLUE, "o") if saddles[0].size else None,
+        regular,
+        chaotic,
     ]
+    entries = [entry for entry in entries if entry]
     key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
     return panel.sheet.figure
 

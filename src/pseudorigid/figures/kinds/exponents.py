@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 
 from ...dynamics.variables import final_exponents
-from ..axes.limits import complete, of_data, refuse_empty
-from ..axes.panel import Axis, Window
+from ..axes.limits import complete, inside, of_data, refuse_empty
+from ..axes.panel import Axis, Window, key
 from ..axes.plane import Plane
 from ..canvas import style
 from ..canvas.sheet import POINT
@@ -21,10 +21,15 @@ plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 def draw(scene, lyapunov):
     """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
 
-    The inset stands above its own impacts. Raises ValueError if the axes show nothing.
+    The inset stands above its own impacts. If some orbits are regular and others chaotic, inset and
+    names are those of chaotic ones, and a key has each start. Raises ValueError if the axes show
+    nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    greatest = exponent.max(axis=2)
+    final, chaotic = final_exponents(lyapunov), _chaotic(lyapunov)
+    mixed = chaotic.any() and not chaotic.all()
+    chosen = chaotic if mixed else np.full(chaotic.shape, True)
+    greatest = exponent[:, chosen].max(axis=2)
     scene = complete(
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
@@ -33,22 +38,43 @@ def draw(scene, lyapunov):
     )
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
-    picture = plane(scene)
     _, orbits, indices = exponent.shape
-    ends = np.median(final_exponents(lyapunov), axis=0)
+    lines = [(style.HUES[i % len(style.HUES)], i >= len(style.HUES)) for i in range(orbits)]
+    picture = plane(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
+    if mixed:
+        names = zip(scene["starts"], chaotic, lines, strict=True)
+        entries = [(_name(start, sea), hue, "", dashed) for start, sea, (hue, dashed) in names]
+        key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
+    ends = np.median(final[chosen], axis=0)
     inset = _inset(picture, scene["axes"]["largest"], *ends[:2], last=impact[-1])
     if inset:
         later = impact >= inset.across.limits[0]
         refuse_empty(scene["axes"], {"largest": greatest[later]})
-    for orbit in range(orbits):
-        hue = style.HUES[orbit % len(style.HUES)]
+    for orbit, (hue, dashed) in enumerate(lines):
+        line_style = {"color": hue, "lw": 0.8, "ls": "--" if dashed else "-"}
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
-            picture.line(impact[known], exponent[known, orbit, index], color=hue, lw=0.8)
-        if inset:
-            inset.line(impact[known], greatest[known, orbit], color=hue, lw=0.8)
+            picture.line(impact[known], exponent[known, orbit, index], **line_style)
+        if inset and chosen[orbit]:
+            inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
+
+
+def _chaotic(lyapunov):
+    """Return whether the largest exponent of each orbit exceeds `regular_bound`."""
+    from ...analyses.regularity import regular_bound  # compiled code, which other kinds do not need
+
+    known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
+    lengths = np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
+    return final_exponents(lyapunov).max(axis=1) > [regular_bound(int(n)) for n in lengths]
+
+
+def _name(start, chaotic):
+    """Return a start as a key has it, with the verdict on its orbit."""
+    points = start.items() if isinstance(start, dict) else [("start", start)]
+    text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
+    return f"{text}: {'chaotic' if chaotic else 'regular'}"
 
 
 class _Inset(Window):
@@ -59,7 +85,8 @@ def _inset(picture, largest, first, second, last):
     """Return the panel between the first exponent and the second, None if there is no room."""
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
-    if not high - low > _INSET_ROOM:
+    shown = inside([picture.up.limits], [np.array([first, second])]).all()
+    if not (shown and high - low > _INSET_ROOM):
         return None
     start, end = picture.across.limits
     start += _INSET_START * (end - start)

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..axes.limits import around, linear
+from ..axes.limits import around, inside, linear
 from ..axes.panel import Window, key, title, upright
 from ..canvas import style
 from ..canvas.ragged_rows import rows
@@ -31,22 +31,32 @@ def draw(scene, families, shares):
     name = "Energy $E$" if scene["parameter"] == "energy" else "Euler inertia $k$"
     across = linear(low, high, 7, name)
     above = Window(sheet, (_LEFT, 1945, _RIGHT, 2250), across.blank(), _share_axis(shares))
-    x = families["x"].values
+    highest = above.up.limits[1]
+    beyond = shares["regular"].values > highest
+    x, rim = families["x"].values, _rim(scene)
     up = around(x, 0.04, 8)
+    if not inside([up.limits] * 2, rim[1:]).all():
+        up = around(np.append(x, rim[1:]), 0.04, 8)
     middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
     below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
     for panel, text, rise in (
-        (above, "Regular share of the section", 14),
+        (
+            above,
+            "Regular share of the section" + "; triangles: above the axis" * bool(beyond.any()),
+            14,
+        ),
         (middle, "Position $x$ of the orbit's point on a symmetry line", 4),
         (below, "Residue $(2-$trace$)/4$", 4),
     ):
         panel.minor()
         title(sheet, panel.frame, text, rise)
     _resonances((above, middle, below), scene, families)
-    values = (shares[name].values for name in (scene["parameter"], "regular"))
+    values = [shares[name].values for name in (scene["parameter"], "regular")]
     ends = (shares[f"regular_{end}"].values for end in ("low", "high"))
     above.estimates(*values, *ends, style.BLUE)
-    _rim(middle, scene)
+    above.dots(values[0][beyond], values[1][beyond] * 0.0 + highest, style.BLUE, 2.6, marker="^")
+    for end in rim[1:]:
+        middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
     shown = [i for i, n in enumerate(families["period"].values) if n <= scene["drawn"]]
     # Near grazing the residue grows without bound.
     residue = np.clip(0.25 * (2.0 - families["trace"].values), -50.0, 50.0)
@@ -55,17 +65,19 @@ def draw(scene, families, shares):
     for i in shown:
         _family(middle, scene, families, i, x)
         _family(below, scene, families, i, residue)
-    _events(middle, scene, families, set(shown))
-    _keys(sheet, families, shown)
-    sheet.text(_RIGHT, 2360, style.setting(scene, energy=scene["parameter"] == "k"),
-               ha="right", va="center", size=7.0)  # fmt: skip
+    marks = _events(middle, scene, families, set(shown))
+    _keys(sheet, families, shown, marks)
+    fixed = {name: scene["ball"][name] for name in "kg" if name != scene["parameter"]}
+    setting = style.setting(scene | {"ball": fixed}, energy=scene["parameter"] == "k")
+    sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
     return sheet.figure
 
 
 def _share_axis(shares):
-    """Return an axis to above the largest share in the upper two thirds of the span."""
+    """Return an axis to above the largest share, or that of the upper two thirds if far smaller."""
     values = shares["regular_high"].values
-    return linear(0.0, min(1.0, 1.1 * float(values[values.size // 3 :].max())), 4)
+    largest, later = float(values.max()), float(values[values.size // 3 :].max())
+    return linear(0.0, min(1.0, 1.1 * (later if 4.0 * later < largest else largest)), 4)
 
 
 def _family(panel, scene, families, index, values):
@@ -87,7 +99,8 @@ def _hue(period):
 
 
 def _events(panel, scene, families, shown):
-    """Mark events, and ends where an impact grazes."""
+    """Mark events, and ends where an impact grazes; return which kinds there are."""
+    marked = set()
     number = families["event_family"].values
     chosen = np.isin(number, sorted(shown))
     across = families[f"event_{scene['parameter']}"].values
@@ -98,23 +111,25 @@ def _events(panel, scene, families, shown):
             at &= families["event_order"].values * families["period"].values[number] <= 12
             at &= families["event_order"].values <= 6
         panel.dots(across[at], up[at], style.BLACK, 2.6, hollow=True, marker=marker)
+        marked |= {kind} if at.any() else set()
     spans = rows(families)
     for index in sorted(shown):
         for side, last in ((0, spans[index].start), (1, spans[index].stop - 1)):
             if families["end_kind"].values[index, side] in ("touch", "rim"):
                 x, y = (families[name].values[last] for name in (scene["parameter"], "x"))
                 panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker="x")
+                marked.add("grazing")
+    return marked
 
 
-def _rim(panel, scene):
-    """Draw the ends of the symmetry line y = 0."""
+def _rim(scene):
+    """Return values of the parameter, and both ends of the symmetry line y = 0 there."""
     low, high = scene["span"]
     value = low + (high - low) * (np.arange(401) / 400.0)
     of_rim = {"energy": scene["energy"], **scene["ball"], scene["parameter"]: value}
     energy, k, g = (of_rim[name] for name in ("energy", "k", "g"))
     radius = np.sqrt((2.0 * energy + g * g / k) / k)
-    for sign in (-1.0, 1.0):
-        panel.line(value, g / k + sign * radius, color=style.BACKDROP, lw=1.0)
+    return np.array([value, g / k - radius, g / k + radius])
 
 
 def _resonances(panels, scene, families):
@@ -132,13 +147,15 @@ def _resonances(panels, scene, families):
             reach = x
 
 
-def _keys(sheet, families, shown):
-    """Explain widths, marks and colours."""
+def _keys(sheet, families, shown, marks):
+    """Explain the widths, marks and colours that are drawn."""
+    types = {kind for i in shown for kind in families["type"].values[rows(families)[i]]}
+    widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)
     entries = [
-        *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in _WIDTHS.items()),
+        *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in widths),
         ("rim of the section", style.BACKDROP, "", False, 1.0),
-        *((_NAMES.get(kind, kind), style.BLACK, mark, True) for kind, mark in _MARKS.items()),
-        ("an impact grazes", style.BLACK, "x", True),
+        *((_NAMES.get(k, k), style.BLACK, mark, True) for k, mark in _MARKS.items() if k in marks),
+        *[("an impact grazes", style.BLACK, "x", True)] * ("grazing" in marks),
     ]
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
     periods = sorted({int(families["period"].values[i]) for i in shown})

@@ -1,5 +1,7 @@
 """The regions that the branches of a hyperbolic orbit enclose, and the lobes between branches."""
 
+import textwrap
+
 import numpy as np
 
 from ...analyses.flux import SIDES
@@ -10,6 +12,7 @@ from ..canvas import style
 from ..canvas.sheet import POINT, Sheet, width
 
 _SIDES = (1, style.ORANGE), (0, style.PURPLE)  # index in SIDES: outer and inner
+_LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
 
@@ -19,16 +22,23 @@ def draw(scene, flux):
     sheet = Sheet(style.COLUMN, 1725)
     frame = _regions(sheet, scene, flux)
     corner(sheet, frame, style.setting(scene))
-    entries = [(_edge_name(flux, side), hue) for side, hue in reversed(_SIDES)]
+    entries = [
+        (_edge_name(flux, side), hue if _has_edge(flux, side) else "white")  # the text alone
+        for side, hue in reversed(_SIDES)
+    ]
     entries.append(("grazing rim", style.BLACK))
     entries.append(("crossing, and its lobe's area", style.FRAME, "o"))
     key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
     entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
     key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
     for side, frame in ((1, (section.LEFT, 105, 505, 405)), (0, (680, 105, 1005, 405))):
-        branch = flux["branch_x"].values[side], flux["branch_y"].values[side]
-        title(sheet, frame, _lobe(sheet, frame, side, *branch), rise=18)
+        title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18)
     return sheet.figure
+
+
+def _has_edge(flux, side):
+    """Return whether a region has an edge that can be drawn."""
+    return bool(np.isfinite(flux["region"].values[side]))
 
 
 def _edge_name(flux, side):
@@ -36,7 +46,7 @@ def _edge_name(flux, side):
     name = SIDES[side]
     if np.isnan(flux["area"].values[side]):
         return f"{name} region: none"
-    if np.isnan(flux["region"].values[side]):
+    if not _has_edge(flux, side):
         return f"{name} edge: cut by a jump"
     return f"edge of the {name} region"
 
@@ -65,13 +75,18 @@ def _regions(sheet, scene, flux):
             across, ha = (right, "right") if side else (left, "left")
             across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
             sheet.text(across, up, f"{SIDES[side]}: {text}", ha=ha, va="top", size=panel.small)
+    if not any(_has_edge(flux, side) for side, _ in _SIDES):
+        text = "neither region has an edge that can be drawn"
+        panel.note(panel.centre, 0.5 * panel.high * panel.radius, text, ha="center")
     return panel.frame
 
 
-def _lobe(sheet, frame, side, x, y):
+def _lobe(sheet, frame, side, flux):
     """Draw two branches at their crossing, or the distance between them, and return a title."""
+    x, y = (flux[f"branch_{name}"].values[side] for name in "xy")
     if np.isnan(x[0]):
-        vacant(sheet, frame, "no lobe is closed")
+        reason = flux.attrs.get(f"missing_{SIDES[side]}", "none is closed")
+        vacant(sheet, frame, textwrap.fill(f"no lobe: {reason}", _LONGEST))
     elif side == 0 and (np.all(np.diff(y) >= 0.0) or np.all(np.diff(y) <= 0.0)):
         _difference(sheet, frame, x, y)
         return "Inner: unstable less stable"

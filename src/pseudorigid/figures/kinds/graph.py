@@ -11,8 +11,8 @@ _LINK = "#8fb8d8"
 
 @style.pinned()
 def draw(scene, graph, orbits):
-    """Draw an orbit of the sea, the sets, and a line for each connection between two of them."""
-    panel = section.over_orbits(scene, orbits, range(orbits.sizes["orbit"]))
+    """Draw orbits, the sets, and a line for each connection between two of them."""
+    panel, regular, chaotic = section.over_orbits(scene, orbits)
     corners = np.stack([graph["corner_x"].values, graph["corner_y"].values], axis=1)
     centres = corners.mean(axis=2)
     for link in zip(graph["source"].values, graph["target"].values, strict=True):
@@ -25,7 +25,7 @@ def draw(scene, graph, orbits):
         ("sets at the saddles", style.VERMILION),
         ("connections", _LINK),
         ("sets on the way", style.BLUE),
-        ("chaotic orbit", section.SEA, "o"),
+        *filter(None, (regular, chaotic)),
     ]
     key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
     return panel.sheet.figure

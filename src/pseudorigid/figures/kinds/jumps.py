@@ -13,20 +13,22 @@ MAP, INVERSE = style.VERMILION, style.BLUE
 @style.pinned()
 def draw(scene, jumps, orbits):
     """Draw the section with the jumps of the map and its inverse, and further energies below."""
-    panel = section.over_orbits(scene, orbits, scene["sea"], high=1500)
+    panel, regular, chaotic = section.over_orbits(scene, orbits, high=1500)
     dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
     panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
     for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
         panel.line(x, y, **dashes)
     _curves(panel, jumps, 0)
+    jumping = (jumps["length"].values > 0.0).any()
     entries = [
-        ("the map jumps", MAP),
-        ("its inverse jumps", INVERSE),
-        ("regular orbits", style.BACKDROP, "o"),
+        ("the map jumps", MAP) if jumping else None,
+        ("its inverse jumps", INVERSE) if jumping else None,
+        regular,
         ("grazing rim", style.BLACK),
         ("symmetry lines", style.PURPLE, "", True),
-        ("chaotic orbit", section.SEA, "o"),
+        chaotic,
     ]
+    entries = [*filter(None, entries)]
     key(panel.sheet, entries, panel.frame[1] - 128, 3, section.LEFT - 50, section.SIDE + 60)
     _births(panel.sheet, jumps)
     return panel.sheet.figure

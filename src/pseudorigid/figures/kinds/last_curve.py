@@ -38,7 +38,8 @@ def _residues(sheet, frame, last_curve):
     periods, residues = last_curve["period"].values, last_curve["residue"].values
     size = np.abs(residues)
     ends = log10([periods.min(), periods.max()]) + np.array([-0.1, 0.1])
-    limits = np.floor(log10([size.min(), 10.0 * size.max()])).tolist()
+    ends_up = min(size.min(), _CRITICAL), 10.0 * max(size.max(), _CRITICAL)
+    limits = np.floor(log10(ends_up)).tolist()
     up = decades(limits, "Residue, its modulus")
     panel = Panel(sheet, frame, decades(ends.tolist(), "Period"), up)
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
@@ -49,7 +50,8 @@ def _residues(sheet, frame, last_curve):
         panel.dots(periods[i][above], size[i][above], hue)
         panel.dots(periods[i][~above], size[i][~above], hue, hollow=True)
     panel.note(periods.max(), _CRITICAL, "critical: 1/4", shift=(0, 5), ha="right")
-    corner(sheet, frame, "hollow: negative")
+    if (residues <= 0.0).any():
+        corner(sheet, frame, "hollow: negative")
 
 
 def _orbits(sheet, frame, last_curve):

@@ -28,10 +28,11 @@ def draw(scene, motion):
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
     picture.line(t, -x, **height)
     picture.line(t, u, **strain)
-    picture.dots(motion["impact_t"].values, -motion["impact_position"].values, style.BLACK, _DOT)
+    impacts = motion["impact_t"].values, -motion["impact_position"].values
+    picture.dots(*impacts, style.BLACK, _DOT)
     picture.legend(
         ("$-x(t)$", 26, height),
         ("$u(t)$", 18, strain),
-        ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
+        picture.shows(*impacts).any() and ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
     )
     return picture.figure

@@ -11,16 +11,19 @@ _CURVE, _SEA = 0.8, 0.4  # points
 
 @style.pinned()
 def draw(scene, orbits):
-    """Draw orbits in (x, xdot, udot) on the opaque energy surface, those of scene["sea"] in grey.
+    """Draw orbits in (x, xdot, udot) on the opaque energy surface, chaotic ones in grey.
 
     Raises ValueError if nothing can be seen.
     """
+    from ...analyses.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
-    sea = sorted(scene["sea"])
-    box = Box(scene, [("chaotic orbit", style.SEA, "o")] if sea else [], states)
-    regular = [index for index in range(len(spans)) if index not in sea]
+    chaotic = chaotic_orbits(scene["ball"], orbits)
+    name = style.plural("chaotic orbit", len(chaotic))
+    box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
+    regular = [index for index in range(len(spans)) if index not in chaotic]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
-    for index in sea + regular:
+    for index in chaotic + regular:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(*states[:, spans[index]], hue, size)
     return box.figure

@@ -18,13 +18,15 @@ _FAR = 4.0  # a curve longer than this times the median does not set the lowest 
 def draw(scene, rotation):
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
     sheet = Sheet(style.COLUMN, 2025)
+    good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
+    detail = _regular_detail(rotation)
     entries = [
-        ("regular", style.BLUE, "o"),
-        ("chaotic", style.SEA, "o"),
+        (good.any() or detail[0].size) and ("regular", style.BLUE, "o"),
+        not good.all() and ("chaotic", style.SEA, "o"),
         ("fixed point", style.VERMILION, "o"),
-        ("islands", style.VERMILION, "", False, 1.6),
+        plateaus(*detail) and ("islands", style.VERMILION, "", False, 1.6),
     ]
-    key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
+    key(sheet, [*filter(None, entries)], sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
     _first_energy(sheet, scene, rotation)
     _detail(sheet, (_LEFT, 715, _RIGHT, 1065), rotation)
     _energies(sheet, (_LEFT, 105, _RIGHT, 515), rotation)
@@ -53,23 +55,29 @@ def _first_energy(sheet, scene, rotation):
     panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 
 
+def _regular_detail(rotation):
+    """Return the regular starts of the detail and their rotation numbers."""
+    names = ("place", "rotation", "exponent")
+    start, turns, growth = (rotation[f"detail_{name}"].values for name in names)
+    good = regular(growth, rotation.attrs["detail_impacts"])
+    return start[good], turns[good]
+
+
 def _detail(sheet, frame, rotation):
     """Draw the rotation numbers of regular starts at higher resolution, with their plateaus."""
-    start, turns, growth = (
-        rotation[f"detail_{name}"].values for name in ("place", "rotation", "exponent")
-    )
-    good = regular(growth, rotation.attrs["detail_impacts"])
-    across = linear(start[0], start[-1], 5, _STARTS)
-    shown = turns[good] if good.any() else turns
+    place = rotation["detail_place"].values
+    start, turns = _regular_detail(rotation)
+    across = linear(place[0], place[-1], 5, _STARTS)
+    shown = turns if turns.size else rotation["detail_rotation"].values
     up = around(shown, 0.05, 4, "Rotation number, detail", above=0.2)
     panel = Panel(sheet, frame, across, up)
-    if not good.any():
+    if not turns.size:
         vacant(sheet, frame, "all these starts are chaotic")
-    panel.dots(start[good], turns[good], style.BLUE, size=1.6)
-    for p, q, first, last in plateaus(start[good], turns[good]):
+    panel.dots(start, turns, style.BLUE, size=1.6)
+    for p, q, first, last in plateaus(start, turns):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
         side = {"ha": "left", "va": "top", "shift": (4, -2)}
-        if first > start[0] + 0.8 * (start[-1] - start[0]):
+        if first > place[0] + 0.8 * (place[-1] - place[0]):
             side = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
         panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **side)
 

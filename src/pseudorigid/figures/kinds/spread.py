@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...analyses.regularity import regular_bound
 from ...analyses.spread import stretches
 from ...dynamics.paper import BALL, EXPONENT, FIGURES
 from ...dynamics.variables import final_exponents
@@ -87,18 +88,22 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
 
 
 def _regular(sheet, frame, spread):
-    """Draw the exponents of regular orbits against their length."""
+    """Draw the exponents of the orbits that should be regular against their length."""
     keep = spread["length"].values >= 16
     n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
     across = decades((1, len(str(int(n[-1])))), "Length in impacts")
     largest = values.max(axis=-1)
+    chaotic = largest[-1] > regular_bound(int(n[-1]))
     lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
     lowest = min(-5, int(np.floor(lowest)))
     highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))
-    up = decades((lowest, highest), "Largest exponent in the islands")
+    name = "Largest exponent" if chaotic.any() else "Largest exponent in the islands"
+    up = decades((lowest, highest), name)
     panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
         positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
-        panel.line(n, positive, color=style.HUES[island % len(style.HUES)], lw=0.8)
+        hue = style.SEA if chaotic[island] else style.HUES[island % len(style.HUES)]
+        panel.line(n, positive, color=hue, lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
-    corner(sheet, frame, "one colour an orbit; dashes: $\\ln\\,n/n$")
+    grey = " grey: chaotic;" if chaotic.any() else ""
+    corner(sheet, frame, f"one colour an orbit;{grey} dashes: $\\ln\\,n/n$")

@@ -34,28 +34,35 @@ def draw(scene, orbits, manifolds, periodic):
         ("unstable", style.UNSTABLE),
         (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o"),
         ("sea and islands", style.BACKDROP, "o"),
-        ("not followed on", style.FRAME, "o", True),
-        ("sharp fold", style.FRAME, "o", False, _TIP),
     ]
-    if Box(scene, shown=branches).seen(*branches[:, jumps]).any():
-        entries.append(("jump of the map", style.FRAME, "s", True))
+    trial = Box(scene, shown=branches)
+    spans, pixels = rows(manifolds), np.array(trial.view(*branches))
+    tips = [span.start + tip for span in spans for tip in _tips(pixels[:, span], pixels)]
+    for name, marker, hollow, size, at in (
+        ("not followed on", "o", True, None, [span.stop - 1 for span in spans]),
+        ("sharp fold", "o", False, _TIP, tips),
+        ("jump of the map", "s", True, None, jumps),
+    ):
+        if trial.seen(*branches[:, at]).any():
+            entries.append((name, style.FRAME, marker, hollow, size))
     box = Box(scene, entries)
     box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
-    _branches(box, manifolds, branches, jumps)
+    _branches(box, manifolds, branches, jumps, tips)
     box.points(*saddles, "white", _SADDLE + 1.2)
     box.points(*saddles, style.VERMILION, _SADDLE)
     return box.figure
 
 
-def _branches(box, manifolds, states, jumps):
+def _branches(box, manifolds, states, jumps, tips):
     """Draw the branches, and on top of them the marks of their tips, jumps and ends."""
-    spans, marks, pixels = rows(manifolds), [], np.array(box.view(*states))
+    spans, marks = rows(manifolds), []
     hollow = {"mfc": "white", "mew": 0.6}
     for stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
             line = states[:, span]
             box.line(*line, hue, width)
-            marks.append((line[:, _tips(pixels[:, span], pixels)], hue, _TIP, {}))
+            sharp = [tip for tip in tips if span.start <= tip < span.stop]
+            marks.append((states[:, sharp], hue, _TIP, {}))
             marks.append((line[:, jumps[span]], hue, _END, hollow | {"marker": "s"}))
             marks.append((line[:, [-1]], hue, _END, hollow))
     for at, hue, size, line_style in marks:

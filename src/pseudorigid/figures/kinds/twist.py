@@ -34,8 +34,9 @@ def draw(scene, twist):
         at = int(np.argmin(np.abs(energy - mark)))
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
         text = f"$E$ = {style.number(mark)}"
-        plane.note(energy[at], values[at], text, shift=(4, 2), va="bottom")
-    if not np.isnan(zero):
+        if plane.shows(energy[at], values[at]):
+            plane.note(energy[at], values[at], text, shift=(4, 2), va="bottom")
+    if plane.shows(zero, 0.0):
         plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
         plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
     return plane.figure

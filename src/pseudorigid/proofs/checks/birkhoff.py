@@ -70,12 +70,27 @@ def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
     return multiplier, map_
 
 
-def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
-    """Normalise the map degree by degree, and return tau_1, tau_2, ..."""
+def resonant_coefficients(multiplier: acb, map_: Jet) -> tuple[acb, acb]:
+    """Return A and B of z -> lambda (z + A |z|^2 z + B conj(z)^3) + ..., where lambda^4 = 1.
+
+    The terms of second order, and the others of third, are removed. Raises NotProvedError where A
+    may have a real part: then the map does not keep area.
+    """
+    normal = _normalised(multiplier, map_, 3, 4)
+    a, b = (normal[powers] * multiplier.conjugate() for powers in ((2, 1), (0, 3)))
+    if not a.real.contains(0):
+        raise NotProvedError("the normal form drifts: the map does not keep area")
+    return a, b
+
+
+def _normalised(multiplier: acb, map_: Jet, order: int, resonance: int) -> Jet:
+    """Normalise the map degree by degree; terms that commute with 1/resonance of a turn are left.
+
+    With a resonance above order + 1 these commute with all rotations.
+    """
     change, _ = Jet.plane(order, acb(0), acb(0))
     normal = change * multiplier
     inverse = multiplier.conjugate()
-    terms = []
 
     def with_conjugate(jet):
         return jet, Jet(jet.algebra, [jet[j, i].conjugate() for i, j in jet.algebra.monomials])
@@ -85,14 +100,20 @@ def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
         for index, (i, j) in enumerate(change.algebra.monomials):
             if i + j != degree:
                 continue
-            if i == j + 1:
+            if (i - j - 1) % resonance == 0:
                 normal.coefficients[index] = error.coefficients[index]
-                terms.append(error.coefficients[index] * inverse)
             else:
                 divisor = multiplier**i * inverse**j - multiplier
                 change.coefficients[index] = error.coefficients[index] / divisor
+    return normal
+
+
+def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
+    """Return tau_1, tau_2, ..."""
+    normal = _normalised(multiplier, map_, order, order + 2)
     twists = []
-    for n, term in enumerate(terms, 1):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
+    for n in range(1, (order + 1) // 2):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
+        term = normal[n + 1, n] * multiplier.conjugate()
         drift = term.real if n == 1 else term.real + twists[0] ** 2 / 8
         if not drift.contains(0):
             raise NotProvedError("the normal form drifts: the map does not keep area")

@@ -62,6 +62,8 @@ class Certificate:
             raise NotProvedError(f"the certificate's {error}") from None
 
     def _check_ball(self, ball):
+        if not (0 < ball[0] <= 1 and ball[1] > 0):
+            raise NotProvedError("no ball has these k and g: 0 < k <= 1 and g > 0")
         for name, value in zip("kg", ball, strict=True):
             self.check(name, value, str)
 
@@ -137,7 +139,12 @@ def check_stated(
 
 
 def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: arb) -> bool:
-    """Return whether a property is proved on an interval, in pieces not narrower than a width."""
+    """Return whether a property is proved on an interval, in pieces not narrower than a width.
+
+    The ends must be exact, low <= high, and the width positive.
+    """
+    if not (low.is_exact() and high.is_exact() and low <= high and width > 0):
+        raise NotProvedError("an interval is not one, or has no exact ends")
     pieces = [(low, high)]
     while pieces:
         low, high = pieces.pop()
@@ -152,6 +159,8 @@ def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: a
 
 def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
     """Enclose the box of all points within a radius of a centre, per coordinate."""
+    if not radius > 0:
+        raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
     half = ball_of(Fraction(radius)).upper()
     return [arb(ball_of(c).mid(), (half + ball_of(c).rad()).upper()) for c in centre]
 

@@ -12,14 +12,14 @@ from flint import acb, arb
 from .certificate import NotProvedError
 
 ORDER = 5  # of the Taylor polynomials in a cell
+MOST_DIVISORS = 10_000  # of a rotation number, before its partial quotients are ones
 
 
 def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[arb, arb]:
-    """Return omega = [0; quotients, then 1 for ever], and gamma with |q omega - p| >= gamma/q.
+    """Return omega = [0; quotients, then 1 for ever], and a sum of its small divisors.
 
-    Let p_n/q_n be the convergents and a_n <= m the partial quotients. For q_n <= q < q_(n+1) the
-    distance |q omega - p| is at least |q_n omega - p_n| > 1/(q_n + q_(n+1)) >= 1/((a_(n+1) + 2)
-    q_n), so that gamma = 1/(m + 2).
+    The sum is that of 1/sin(pi q omega)^2 over 0 < q < q_m, the denominator of the last convergent
+    before the ones. docs/proofs.md ("The theorem") has what follows for all q.
     """
     if not repeating:
         raise NotProvedError("the rotation number is rational: no partial quotients repeat")
@@ -27,10 +27,16 @@ def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[ar
         raise NotProvedError("the rotation number's partial quotients do not end in ones")
     if not all(isinstance(a, int) and a >= 1 for a in quotients) or not quotients:
         raise NotProvedError("the rotation number's partial quotients are not whole and positive")
+    before, denominator = 0, 1
+    for a in quotients:
+        before, denominator = denominator, a * denominator + before
+    if denominator > MOST_DIVISORS:
+        raise NotProvedError("the rotation number's partial quotients are too large")
     value = (1 + arb(5).sqrt()) / 2
     for a in reversed(quotients):
         value = a + 1 / value
-    return 1 / value, arb(1) / (max(quotients) + 2)
+    sines = ((q / value).sin_pi() for q in range(1, denominator))
+    return 1 / value, sum((1 / sine**2 for sine in sines), arb(0))
 
 
 def derivative(waves: list[acb]) -> list[acb]:

@@ -5,9 +5,10 @@ used here. For an orbit of period n the curves K_0 ... K_(n-1) around its points
 T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
+from itertools import pairwise
 from typing import NamedTuple
 
 from flint import acb, arb, ctx
@@ -34,7 +35,7 @@ BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
 CELL_BITS = 80
 NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
 MOST_CELLS, MOST_MODES = 4096, 4096
-_FINER = 4  # points of the circle over which the twist's mean is taken, for each column
+_FINER = 4  # cells of the strip's edge, and points for the twist's mean, for each column
 _SHRUNK = Fraction(1, 1000)  # relative distance of the polygon from the curve
 _DEPTH = 14  # of the subdivision of the disc inside
 _LAYERS = 8  # of the first pieces of the disc, from the centre outwards
@@ -94,7 +95,7 @@ def check(
         )
     with ctx.workprec(BITS):
         centres = [tuple(map(ball_of, row)) for row in certificate.numbers("points", 2)]
-        omega, gamma = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
+        omega, divisors = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
         if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
             raise NotProvedError("the rotation number is not in the statement's interval")
         stated_error, stated_share = certificate.number("error"), certificate.number("share")
@@ -105,8 +106,9 @@ def check(
                                  f"{float(share):g}")  # fmt: skip
         plan = _plan(certificate)
         first = _first_curve(certificate)
-        with ctx.workprec(64):  # beyond it coefficients are less than 1e-45 in the strip
-            most = max(len(first[0]), int(float(17 / (plan.wide - plan.strip))))
+        with ctx.workprec(64):  # beyond it coefficients are far below the error in the strip
+            digits = 10 - float(ball_of(stated_error).log())
+            most = max(len(first[0]), int(digits / float(2 * arb.pi() * (plan.wide - plan.strip))))
         count = 1 << (2 * most + 2).bit_length()
         curves, errors = _curves(surface, first, period, omega, count)
         with ctx.workprec(CELL_BITS):
@@ -117,7 +119,9 @@ def check(
                 f"the curve's error is not proved to be below {float(stated_error):g}: "
                 f"its bound is {float(size.upper()):.3g}"
             )
-        margins, distance, slope = _theorem(ball_of(stated_error), bounds, gamma, period, plan.loss)
+        margins, distance, slope = _theorem(
+            ball_of(stated_error), bounds, divisors, period, plan.loss
+        )
         area = _area(first)
         area = arb(area.mid(), area.rad() + (distance * (2 * bounds.tangent + slope)).upper())
         part = area / surface.area()
@@ -185,7 +189,7 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
                 row[0] = acb(row[0].real)  # the mean is real
             curves.append(target)
         else:
-            target = tuple(rotated(row, omega) for row in first)
+            target = _turned(first, omega)
         errors += [
             [c - goal[q] if q <= modes else c for q, c in enumerate(row)]
             for row, goal in zip(waves, target, strict=True)
@@ -216,18 +220,20 @@ def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, p
     return _most(sizes)
 
 
-def _theorem(error: arb, b: Bounds, gamma: arb, period: int, d: arb) -> tuple[dict, arb, arb]:
-    """Check the theorem's inequalities; returns margins, the curve's distance and its slope's."""
-    kappa = period / (8 * arb.pi() ** 2 * gamma) + 2 * (period - 1) * d**2
+def _theorem(error: arb, b: Bounds, divisors: arb, period: int, d: arb) -> tuple[dict, arb, arb]:
+    """Check the theorem's inequalities; returns margins, the curve's distance and its slope's.
+
+    `divisors` is the sum of `circle.noble`.
+    """
+    kappa = period * (arb(3) / 32 + divisors * d**2).sqrt() + 2 * (period - 1) * d
     torsion = 1 / b.torsion
-    a2 = 2 * kappa * b.tangent
-    a2 += torsion * (2 * b.normal * d**2 + 2 * b.twist * b.tangent * kappa)
-    a1 = kappa * (2 * b.normal * d**2 + b.twist * a2)
-    a = b.tangent * a1 + b.normal * a2 * d**2
-    c = 2 * b.tangent * b.normal * a1 * d**3 + b.second * a**2 / 2
-    c += b.normal * (d**7 + 2 * b.tangent * a1 * d**3 + 2 * b.first * b.normal * a2 * d**5)
-    contraction = 2**8 * c * error / d**8
-    distance, slope = 2 * a * error / d**4, 2 * a * error / d**5
+    a2 = 2 * kappa * b.tangent + 2 * torsion * (b.normal * d + b.twist * b.tangent * kappa)
+    a1 = kappa * (2 * b.normal * d + b.twist * a2)
+    a = b.tangent * a1 + b.normal * a2 * d
+    c = 2 * b.tangent * b.normal * a1 * d + b.second * a**2 / 2
+    c += b.normal * (d**3 + 2 * b.tangent * a1 * d + 2 * b.first * b.normal * a2 * d**2)
+    contraction = 2**4 * c * error / d**4
+    distance, slope = 2 * a * error / d**2, 2 * a * error / d**3
     for name, value, most in (
         ("the steps are not proved to converge", contraction, arb(1) / 2),
         ("the curve may leave the neighbourhood", distance, NEAR),
@@ -241,43 +247,90 @@ def _theorem(error: arb, b: Bounds, gamma: arb, period: int, d: arb) -> tuple[di
 
 
 def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Plan) -> Bounds:
-    """Compute the constants of the theorem over cells of the strips."""
-    tangent, normal, first, second, image, lengths, areas = ([] for _ in range(7))
-    for curve, centre in zip(curves, centres, strict=True):
-        for box in _real_cells(curve, plan.columns):
+    """Compute the constants of the theorem.
+
+    P is analytic, and det(K - c, K') not zero, over the cells of the strip. So by the maximum
+    principle the bounds over its edge, in finer cells, hold in all of it.
+    """
+    circle = [*zip(curves, centres, strict=True), (_turned(curves[0], omega), centres[0])]
+    image, edge = [], []
+    for here, there in pairwise(circle):
+        for box in _real_cells(here[0], plan.columns):
             surface.impact(*box)  # raises an error where a flight has no first root
-        middles = _points(curve, plan.columns, arb(0.5))
-        known = [acb(surface.impact(*point).tau) for point in middles]
+        middles = _points(here[0], plan.columns, arb(0.5))
+        known = [tuple(map(acb, (*point, surface.impact(*point).tau))) for point in middles]
         for row in range(plan.all_rows):
-            for x, y, slopes, root in _row_of_cells(surface, curve, plan, row, known):
-                image += [x, y]
-                if row >= plan.rows:
-                    image += surface.impact(x, y, root)[:2]
-                    continue
-                jets = surface.impact(*Jet.plane(2, x, y), root)[:2]
-                image += [jet.constant for jet in jets]
-                sizes = [[c.abs_upper() for c in jet.coefficients] for jet in jets]
-                first.append(_most(a + b for _, a, b, *_ in sizes))
-                second.append(_most(2 * (a + b + c) for *_, a, b, c in sizes))
-                away = x - centre[0], y - centre[1]
-                area = (away[0] * slopes[1] - away[1] * slopes[0]).abs_lower()
-                if not area > 0:
-                    raise NotProvedError("K - c and K' may be parallel in the strip")
-                tangent += [a.abs_upper() for a in slopes]
-                lengths.append(_most(a.abs_upper() for a in away))
-                areas.append(area)
-                normal.append(lengths[-1] / area)
-    image = [a.abs_upper() for a in image]
-    sizes = [_most(row) for row in (tangent, normal, first, second, image)]
-    twist = 2 * sizes[2] * sizes[1] ** 2
+            cells = []
+            for x, y, slopes, root in _row_of_cells(surface, here[0], plan, row, known):
+                cells.append((x, y, root))
+                if row < plan.rows:
+                    _normal((x, y), slopes, here[1])
+                if row == plan.all_rows - 1:
+                    image += [x, y, *surface.impact(x, y, root)[:2]]
+            if row == plan.rows - 1:
+                edge += _over_edge(surface, here, there, plan, cells)
+    tangent, normal, twist, first, second, length, areas = zip(*edge, strict=True)
+    sizes = [_most(row) for row in (tangent, normal, first, second)]
+    twist, image = _most(twist), _most(a.abs_upper() for a in image)
     count = _FINER * plan.columns
     ratio = (-2 * arb.pi() * plan.strip * count).exp()
-    change = _change_of_twist(sizes, _most(lengths), reduce(arb.min, areas))
-    torsion = abs(_torsion(surface, curves, centres, omega, count))
+    change = _change_of_twist(sizes, _most(length), reduce(arb.min, areas))
+    torsion = abs(_torsion(surface, circle, count))
     torsion = (torsion - 2 * twist * ratio / (1 - ratio) - change).lower()
     if not torsion > 0:
         raise NotProvedError("the twist's mean along the curve may be zero")
-    return Bounds(sizes[0], sizes[1], twist, torsion, *sizes[2:])
+    return Bounds(sizes[0], sizes[1], twist, torsion, sizes[2], sizes[3], image)
+
+
+def _over_edge(surface: Surface, here, there, plan: Plan, cells: list) -> list[tuple]:
+    """Bound |L|, |N|, |T|, |DP|, |D^2 P|, |K - c| above and |det(K - c, L)| below, per cell.
+
+    The cells are those of the strip's edge, for all curves near K. `here` and `there` are a curve
+    and the one that its image is close to, each with its centre, and `cells` the x, y and flight
+    time over the cells below the edge.
+    """
+    count, bounds = _FINER * plan.columns, []
+    points, slopes = _edge_cells(here[0], count, plan)
+    images, image_slopes = _edge_cells(there[0], count, plan)
+    middles = list(zip(*(values(row, count, arb(0.5), plan.strip) for row in here[0]), strict=True))
+    for j in range(count):
+        (x, y), (below_x, below_y, below) = points[j], cells[j // _FINER]
+        _check_inside(middles[j], (x, y), (below_x, below_y))
+        known = complex_flight.point_root(surface.flight(*middles[j]), below)
+        root = complex_flight.unique_root(surface, x, y, known)
+        jets = surface.impact(*Jet.plane(2, x, y), root)[:2]
+        sizes = [[c.abs_upper() for c in jet.coefficients] for jet in jets]
+        normal, length, area = _normal((x, y), slopes[j], here[1])
+        after, *_ = _normal(images[j], image_slopes[j], there[1])
+        right, up = (jet[1, 0] * normal[0] + jet[0, 1] * normal[1] for jet in jets)
+        bounds.append((
+            _most(a.abs_upper() for a in slopes[j]), _most(a.abs_upper() for a in normal),
+            (right * after[1] - up * after[0]).abs_upper(),
+            _most(a + b for _, a, b, *_ in sizes), _most(2 * (a + b + c) for *_, a, b, c in sizes),
+            length, area,
+        ))  # fmt: skip
+    return bounds
+
+
+def _edge_cells(curve: Curve, count: int, plan: Plan) -> tuple[list, list]:
+    """Return (x, y) and (x', y') over the cells of the strip's edge, for all curves near K."""
+    points, slopes = (
+        [Cells(row, count, plan.strip) for row in rows]
+        for rows in (curve, tuple(map(derivative, curve)))
+    )
+    return tuple(
+        [[_inflated(cell[j], by) for cell in cells] for j in range(count)]
+        for cells, by in ((points, NEAR), (slopes, NEAR_SLOPE))
+    )
+
+
+def _normal(point, slope, centre: Point) -> tuple[Point, arb, arb]:
+    """Return N = -(K - c)/det(K - c, K'), and bounds of |K - c| above and of the det. below."""
+    x, y = _minus(point, centre)
+    area = x * slope[1] - y * slope[0]
+    if not area.abs_lower() > 0:
+        raise NotProvedError("K - c and K' may be parallel in the strip")
+    return (-x / area, -y / area), _most([x.abs_upper(), y.abs_upper()]), area.abs_lower()
 
 
 def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
@@ -285,7 +338,7 @@ def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
 
     `length` bounds |K - c| from above and `area` |det(K - c, K')| from below, for all of them.
     """
-    tangent, normal, first, second, _ = sizes
+    tangent, normal, first, second = sizes
     of_area = 2 * (NEAR * tangent + length * NEAR_SLOPE)
     of_normal = (NEAR + normal * of_area) / area
     return 2 * normal * (second * NEAR * normal + 2 * first * of_normal)
@@ -298,12 +351,12 @@ def _real_cells(curve: Curve, columns: int) -> list[list[arb]]:
 
 
 def _row_of_cells(
-    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[acb]
+    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[tuple]
 ) -> Iterator[tuple]:
     """Yield x, y, (x', y') and the flight time of each cell of a row, for all curves near K.
 
-    `known` has the flight time at a point on the lower edge of each cell, and is replaced by that
-    at a point on the upper edge.
+    `known` has the x and y of a point on the lower edge of each cell and its flight time, and is
+    replaced by those of a point on the upper edge. Both must be points of the cell.
     """
     half = plan.height / 2
     middle, top = plan.height * row + half, plan.height * (row + 1)
@@ -312,35 +365,44 @@ def _row_of_cells(
     edge = [values(waves, plan.columns, arb(0.5), top) for waves in curve]
     for j in range(plan.columns):
         x, y = (_inflated(cell[j], NEAR) for cell in cells)
-        root = complex_flight.unique_root(surface, x, y, known[j])
-        known[j] = complex_flight.point_root(surface.flight(edge[0][j], edge[1][j]), root)
+        below, above = known[j], (edge[0][j], edge[1][j])
+        _check_inside(below[:2], (x, y))
+        _check_inside(above, (x, y))
+        root = complex_flight.unique_root(surface, x, y, below[2])
+        known[j] = *above, complex_flight.point_root(surface.flight(*above), root)
         yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root
 
 
-def _torsion(surface: Surface, curves: list, centres: list, omega: arb, count: int) -> arb:
-    """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points."""
-    turned = tuple(rotated(row, omega) for row in curves[0])
-    normals = [
-        _normals(*pair, count)
-        for pair in zip([*curves, turned], [*centres, centres[0]], strict=True)
-    ]
-    total = arb(0)
-    for curve, here, there in zip(curves, normals[:-1], normals[1:], strict=True):
+def _check_inside(point: Sequence[acb], *boxes: Sequence[acb]) -> None:
+    """Check that a point on the edge of cells is in the boxes of these cells."""
+    if not all(a.contains(b) for box in boxes for a, b in zip(box, point, strict=True)):
+        raise NotProvedError("a cell does not contain a point of its edge")
+
+
+def _turned(curve: Curve, omega: arb) -> Curve:
+    """Return the curve K(t + omega)."""
+    x, y = (rotated(row, omega) for row in curve)
+    return x, y
+
+
+def _torsion(surface: Surface, circle: list, count: int) -> arb:
+    """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points.
+
+    The circle has the curves with their centres, and the first one turned.
+    """
+    normals, total = [_normals(*pair, count) for pair in circle], arb(0)
+    for (curve, _), here, there in zip(circle, normals, normals[1:], strict=False):
         for point, n, m in zip(_points(curve, count), here, there, strict=True):
             (a, b), (c, d) = surface.jacobian(*point)[0]
             total += (a * n[0] + b * n[1]) * m[1] - (c * n[0] + d * n[1]) * m[0]
-    return total / (count * len(curves))
+    return total / (count * (len(circle) - 1))
 
 
 def _normals(curve: Curve, centre: Point, count: int) -> list[Point]:
-    """Enclose N = -(K - c)/det(K - c, K') at equidistant real points."""
+    """Enclose N at equidistant real points."""
     slopes = _points(tuple(map(derivative, curve)), count)
-    normals = []
-    for point, (dx, dy) in zip(_points(curve, count), slopes, strict=True):
-        x, y = _minus(point, centre)
-        area = x * dy - y * dx
-        normals.append((-x / area, -y / area))
-    return normals
+    pairs = zip(_points(curve, count), slopes, strict=True)
+    return [_normal(*pair, centre)[0] for pair in pairs]
 
 
 def _check_winding(curve: Curve, centre: Point, columns: int) -> None:

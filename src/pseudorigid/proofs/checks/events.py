@@ -41,10 +41,12 @@ def check_resonance(
 ) -> Finding:
     """Prove that the fixed point passes a resonance with positive twist, at one energy.
 
-    There its rotation number is `rotation` and rises with the energy, which lies in `energies`.
-    Two orbits of this period branch off to higher energies.
+    There its rotation number is `rotation`, below 1/2, and rises with the energy, which lies in
+    `energies`, a range of those with theta <= pi/2, where the trace falls. Two orbits of this
+    period, even and at least 6, branch off to higher energies.
     """
-    if rotation.denominator != period or period < 5:
+    # of even period one of the two orbits meets y = 0; lambda and its conjugate have one trace
+    if not (rotation.denominator == period >= 5 and period % 2 == 0 and 0 < rotation < 1 / 2):
         raise NotProvedError(f"no two orbits of period {period} branch off at {rotation}")
     with ctx.workprec(BITS):
         certificate = Certificate(text, "resonance", ball=(k, g))
@@ -57,6 +59,8 @@ def check_resonance(
         if not (above > 0 and below < 0 and slope < 0):
             raise NotProvedError("the trace is not proved to fall through the resonance's")
         energy = energy_at(inertia, gravity, theta)
+        if not ball_of(energies[1]) < energy_at(inertia, gravity, (arb.pi() / 2).lower()):
+            raise NotProvedError("the energies go beyond theta = pi/2, up to where the trace falls")
         check_stated("event", [energy], certificate.row("event", 1), CLOSE)
         _check_within("energy", energy, energies)
         bottom = fraction_of(energy.lower()) - CLOSE
@@ -218,8 +222,11 @@ def _apex(flight: Flight) -> Jet:
 def _check_clear(flight: Flight, until: arb) -> None:
     """Prove that a flight does not touch the floor up to a time; a touch may follow at once.
 
-    Near 0, f <= -s t + (g + x) t^2/2 - c t^3/6 + A t^4/24. Raises UndecidedError.
+    Near 0, f <= -s t + (g + x) t^2/2 - c t^3/6 + A t^4/24, and s must not be negative. Raises
+    UndecidedError.
     """
+    if not flight.s >= 0:
+        raise UndecidedError("the contact speed may be negative")
     amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
     bend, jerk = (flight.g + flight.x).upper(), abs(flight.c).upper()
     first = until

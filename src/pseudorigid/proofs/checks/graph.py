@@ -113,8 +113,8 @@ def check_growth(graph: Graph, growth: Fraction, weights: list[Fraction]) -> Non
     The sum of growth^-impacts times the target's weight, over the connections that leave a set, is
     to be at least the set's weight: exactly, in rational numbers.
     """
-    if not growth > 0:
-        raise NotProvedError("the growth is not positive")
+    if not growth > 1:
+        raise NotProvedError("the growth is not above 1")
     sums = [Fraction(0)] * len(weights)
     for it in graph.connections:
         sums[it.source] += weights[it.target] / growth**it.impacts

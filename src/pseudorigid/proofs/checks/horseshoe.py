@@ -126,12 +126,13 @@ def _check_margins(certificate: Certificate, edges: list, margins: list) -> None
 
 
 def _entropy(period: int, loop: int) -> arb:
-    """Enclose ln x, x^-period + x^-loop = 1, by bisection."""
+    """Enclose ln x, x^-period + x^-loop = 1, by bisection; both exponents are at least 1."""
     low, high = arb(0), arb(1)
     for _ in range(60):
         middle = ((low + high) / 2).mid()
-        if (-period * middle).exp() + (-loop * middle).exp() > 1:
+        excess = (-period * middle).exp() + (-loop * middle).exp() - 1
+        if excess > 0:
             low = middle
-        else:
+        elif excess < 0:
             high = middle
     return low.union(high)

@@ -27,12 +27,24 @@ Vector = tuple[arb, arb]
 
 @dataclass(frozen=True)
 class HSet:
-    """A named parallelogram: its centre, expanding vector u and contracting vector s in (x, y)."""
+    """A named parallelogram: its centre, expanding vector u and contracting vector s in (x, y).
+
+    Raises NotProvedError where u and s may be parallel.
+    """
 
     name: str
     centre: Vector
     u: Vector
     s: Vector
+
+    def __post_init__(self):
+        if not abs(self.area) > 0:
+            raise NotProvedError(f"{self.name}: its sides may be parallel")
+
+    @property
+    def area(self) -> arb:
+        """Signed area of a quarter."""
+        return self.u[0] * self.s[1] - self.u[1] * self.s[0]
 
     def box(self, p: arb | Jet = UNIT, q: arb | Jet = UNIT) -> list[arb | Jet]:
         """Return a box around the points with these p and q."""
@@ -42,8 +54,7 @@ class HSet:
         """Return (p, q) of the point (x, y)."""
         dx, dy = x - self.centre[0], y - self.centre[1]
         (ux, uy), (sx, sy) = self.u, self.s
-        area = ux * sy - uy * sx
-        return (dx * sy - dy * sx) / area, (ux * dy - uy * dx) / area
+        return (dx * sy - dy * sx) / self.area, (ux * dy - uy * dx) / self.area
 
     def contains(self, x: arb, y: arb) -> bool:
         """Whether every point of the box (x, y) is proved to be inside."""

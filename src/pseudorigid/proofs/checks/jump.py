@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from ..enclosure.flight import Flight, UndecidedError
+from ..enclosure.flight import UndecidedError, flight_from_rim
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import (
@@ -24,7 +24,6 @@ from .certificate import (
 from .hsets import HSet
 
 BITS = 192  # twice what points to 1e-28 need
-_START_FACTOR = 1 - arb(2) ** -20  # shortens a bound's root so far that the bound is negative there
 _SHORT_FLIGHTS = 0.95  # of the largest xdot: beyond it flights from the rim are short
 _CROSSING_PARTS = 64  # of the part of S+ that crosses an h-set
 
@@ -48,7 +47,7 @@ def check(
         speed = ball_of(certificate.number("speed"))
         points = stated_points(surface, speed)
         transversality = _transversality(surface, speed)
-        _check_no_second_touch(surface)
+        check_landings(surface)
         excess = _polygon(surface) - ball_of(length)
         if not excess > 0:
             raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
@@ -58,7 +57,7 @@ def check(
             digits |= {f"{name} x": point[0], f"{name} y": point[1]}
         images = zip(points["near image"], points["far image"], strict=True)
         apart = max(lowest(abs(near - far) - ball_of(jump)) for near, far in images)
-        if not apart > 0:
+        if not (jump >= 0 and apart > 0):
             raise NotProvedError(f"the one-sided images may be within {float(jump):g}")
         margins = {"jump": apart, "transversality": transversality, "length": lowest(excess)}
         return Finding(digits, margins)
@@ -84,15 +83,13 @@ def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Findi
 def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
     """Return a point of the jump set with its one-sided images, and the set's ends, in the chart.
 
-    `speed` is xdot on the rim where the flight from the point touches. Raises NotProvedError if
-    there is no such point of the rim with x < -g.
+    `speed` is xdot on the rim where the flight from the point touches. Raises NotProvedError as
+    `_flight_from_rim`.
     """
-    if not abs(speed) < fastest_touch(surface):
-        raise NotProvedError("the speed is not one of a rim point with x < -g")
-    inner, outer = _ends(surface)
+    (k, g, _), (inner, outer) = surface.constants(), _ends(surface)
     return {
         "point": _mirrored(_flight_from_rim(surface, speed)),
-        "near image": (_rim_x(surface, speed), -(1 + surface.constants()[0]) * speed),
+        "near image": (-g - _touch(surface, _rim_angle(surface, speed))[1], -(1 + k) * speed),
         "far image": _flight_from_rim(surface, -speed)[:2],
         "outer end": outer,
         "inner end": inner,
@@ -102,35 +99,48 @@ def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
 def _ends(surface: Surface) -> tuple[Point, Point]:
     """Return the inner and the outer end of the jump set in the chart."""
     k, g, _ = surface.constants()
-    fastest = fastest_touch(surface)
-    return _mirrored(_flight(surface, -g, -fastest)), (-g, -(1 + k) * fastest)
+    return _mirrored(_flight(surface, arb.pi())), (-g, -(1 + k) * fastest_touch(surface))
 
 
 def _mirrored(impact: Impact) -> Point:
     return impact.x, -impact.y
 
 
-def _rim_x(surface: Surface, xdot: arb) -> arb:
-    """Return x <= -g of the rim point with a given xdot."""
-    k, g, energy = surface.constants()
-    return (g - (g * g + k * (2 * energy - (1 + k) * xdot * xdot)).sqrt()) / k
+def _touch(surface: Surface, angle: arb) -> tuple[arb, arb]:
+    """Return xdot and d >= 0 of points of the rim, s = 0, with x = -g - d.
+
+    xdot is the fastest touch's times the cosine of the angle: each angle gives such a point, and
+    each point with x <= -g has an angle. Raises NotProvedError if the rim has no x < -g.
+    """
+    k, g, _ = surface.constants()
+    fastest, pressed = fastest_touch(surface), g * (1 + k)
+    sine, cosine = angle.sin_cos()
+    square = (1 + k) * (fastest * sine) ** 2  # the energy's excess over that at x = -g, twice
+    beyond = square / (pressed + (pressed * pressed + k * square).sqrt())
+    return fastest * cosine, beyond.nonnegative_part()
+
+
+def _rim_angle(surface: Surface, xdot: arb) -> arb:
+    """Return the angle of `_touch` for an xdot, which must be one of a rim point with x < -g."""
+    fastest = fastest_touch(surface)
+    if not abs(xdot) < fastest:
+        raise NotProvedError("the speed is not one of a rim point with x < -g")
+    return (xdot / fastest).acos()
 
 
 def _flight_from_rim(surface: Surface, xdot: arb) -> Impact:
-    """Return the next impact of the rim point, x <= -g, with a given xdot."""
-    return _flight(surface, _rim_x(surface, xdot), xdot)
+    """Return the next impact of the rim points with some xdot and x < -g; NotProvedError if none.
+
+    It refuses every ball of xdot with a number that no such point has.
+    """
+    return _flight(surface, _rim_angle(surface, xdot))
 
 
-def _flight(surface: Surface, x: arb, xdot: arb) -> Impact:
-    """Return the next impact of the point (x, xdot) of the rim with x <= -g."""
-    k, g, _ = surface.constants()
-    start = None
-    if xdot < 0:  # f/t^2 <= (g + x)/2 + xdot t/6 + A t^2/24 with g + x <= 0
-        start = (_START_FACTOR * -4 * xdot / (x * x + xdot * xdot).sqrt()).lower()
-    flight = Flight(x, xdot, -xdot, arb(0), g)
-    tau = flight.first_root(start)
+def _flight(surface: Surface, angle: arb) -> Impact:
+    """Return the next impact of the rim points with x <= -g at an angle of `_touch`."""
+    flight, tau = flight_from_rim(surface.constants()[1], *_touch(surface, angle))
     x, v, w = flight.end(tau)
-    return Impact(x, v - k * w, tau, v + w)
+    return Impact(x, v - surface.constants()[0] * w, tau, v + w)
 
 
 def fastest_touch(surface: Surface) -> arb:
@@ -168,8 +178,9 @@ def curve(surface: Surface, count: int) -> list[Point]:
 def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     """Prove that S+ crosses an h-set from one edge |q| = 1 to the other, within |p| < 1.
 
-    The crossing part is that of the flights that touch the floor with xdot from low to high. This
-    returns the least margin in p and q, and raises NotProvedError.
+    The crossing part is that of the flights that touch the floor with xdot from low to high, which
+    must be those of rim points with x < -g. `check_landings` says what P does on it. This returns
+    the least margin in p and q, and raises NotProvedError.
     """
     steps = [low + (high - low) * i / _CROSSING_PARTS for i in range(_CROSSING_PARTS + 1)]
 
@@ -187,29 +198,27 @@ def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     return min(room, *(lowest(abs(q) - 1) for q in ends))
 
 
-def _check_no_second_touch(surface: Surface) -> None:
+def check_landings(surface: Surface) -> None:
     """Prove that no flight from the rim, x < -g, touches again before it lands with s > 0.
 
-    Near x = -g with xdot > 0 flights are short: f/t^2 = (g + x)/2 + xdot t/6 + r,
-    |r| <= A t^2/24, |r'| <= A t/12 + A t^2/120, rises up to t = xdot/A, where it is above zero if
-    -(g + x) < xdot^2/(4 A).
+    So S+ is one curve, and P jumps at each of its points. Near x = -g with xdot > 0 flights are
+    short: f/t^2 = (g + x)/2 + xdot t/6 + r, |r| <= A t^2/24, |r'| <= A t/12 + A t^2/120, rises up
+    to t = xdot/A <= 1, where it is above zero if -(g + x) < xdot^2/(4 A).
     """
-    g = surface.constants()[1]
-    fastest = fastest_touch(surface)
-    low, high = -fastest.upper(), (fastest * _SHORT_FLIGHTS).upper()
-    xdot = high.union(fastest.upper())
-    x = _rim_x(surface, xdot)
-    if not -(g + x) < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt()):
+    g, last = surface.constants()[1], arb(_SHORT_FLIGHTS).acos()
+    xdot, beyond = _touch(surface, arb(0).union(last))
+    x = -g - beyond
+    if not (xdot > 0 and beyond < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt())):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
 
-    def lands(xdot):
-        """Whether all flights from the rim with these xdot are proved to land with s > 0."""
+    def lands(angle):
+        """Whether all flights from the rim at these angles are proved to land with s > 0."""
         try:
-            return _flight_from_rim(surface, xdot).s > 0
+            return _flight(surface, angle).s > 0
         except UndecidedError:
             return False
 
-    if not holds_throughout(lands, low, high, fastest / 10**5):
+    if not holds_throughout(lands, last.lower(), arb.pi().upper(), arb(1e-5)):
         raise NotProvedError("a flight from the rim may touch the floor a second time")
 
 

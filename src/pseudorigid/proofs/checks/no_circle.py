@@ -22,8 +22,8 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     """Prove that the unstable manifold of a certificate's hyperbolic orbit meets the jump set.
 
     The orbit must have this prime period, be the only one within the radius of the centres of the
-    S, and have a point in the window. The margins are the least over all relations. The part is the
-    chain, a list of HSet; N comes last.
+    S, and have a point in the window; the jump set must be one curve. The margins are the least
+    over all relations. The parts are the chain, a list of HSet with N last, and the orbit.
     """
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
@@ -39,6 +39,7 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
         loop = [hsets.prove_hyperbolic(surface, *it) for it in pairwise([*saddles, saddles[0]])]
         margins = [hsets.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
     with ctx.workprec(jump.BITS):
+        jump.check_landings(surface)
         touches = [ball_of(value) for value in certificate.row("touches", 2)]
         across = jump.prove_crossing(surface, chain[-1], *touches)
     beyond, room = map(min, zip(*margins, *(pair for pair, _, _ in loop), strict=True))
@@ -46,5 +47,5 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     return Finding(
         {"jump set at x": chain[-1].box()[0]},
         {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
-        {"chain": chain},
+        {"chain": chain, "orbit": orbit},
     )

@@ -55,6 +55,8 @@ def check(
         edges = [theta for (theta,) in certificate.numbers("edges", 1)]
         _check_edges(k, g, edges, energy)
         digits = {"energies up to": ball_of(energy)}
+        if not max(zero[1], resonance[1]) <= energy:
+            raise NotProvedError("the bands do not reach the statement's zero and resonance")
         for name, bounds in (("zero", zero), ("resonance", resonance)):
             digits[name] = _energy_of(certificate.row(name, 2), k, g, bounds, name)
         bands = [over_band(k, g, *ends) for ends in pairwise(edges)]
@@ -71,8 +73,11 @@ def over_band(
 
     By the mean value theorem each is its value at the middle plus the derivative over the band
     times the distance. The third number returned is theta^2 (3 cot^2(omega/2) - 1), which is
-    positive where omega < 2 pi/3. Raises NotProvedError where that or ellipticity is not proved.
+    positive where omega < 2 pi/3. Raises NotProvedError where that or ellipticity is not proved,
+    and for bands that do not lie in 0 <= theta < 2.5.
     """
+    if not 0 <= low <= high:
+        raise NotProvedError(f"theta from {float(low):g} to {float(high):g} is no band")
     band = ball_of(low).union(ball_of(high))
     middle = band.mid()
     try:
@@ -129,7 +134,7 @@ def _falls_once(stages: Sequence[tuple[int, float]], name: str) -> float:
 def _energy_of(row: list[Fraction], k, g, bounds, name: str) -> arb:
     """Prove that a zero lies between two theta, and its energy between the bounds."""
     low, high = row
-    if not 0 < low < high < Fraction("2.5"):
+    if not 0 < low < high < Fraction("2.5"):  # and so below pi
         raise NotProvedError(f"the certificate's {name} is no interval of theta")
     signs = [over_band(k, g, theta, theta)[PLACES[name]][0] for theta in row]
     if not signs[0] > 0 > signs[1]:

@@ -102,8 +102,6 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
 
     Raises NotProvedError where no orbit, more than one, or a shorter one cannot be excluded.
     """
-    if not radius > 0:
-        raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
     boxes = [a for centre in centres for a in box(centre, radius)]
     values = enclose_zero(partial(_shooting, surface), boxes)
     orbit = enclose(surface, _pairs(values), radius)

@@ -16,6 +16,7 @@ _MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly
 # A step is shortened by far more than the rounding of the parabola's root, so that the check in
 # ball arithmetic that the parabola is negative there succeeds.
 _STEP_FACTOR = 1.0 - 1e-6
+_START_FACTOR = 1 - arb(2) ** -20  # of the first step from the rim, for the same reason
 # The first steps bound f'' alone, the later ones f''' too: near grazing the first kind crawls. It
 # comes first because the certificates state margins that it gives.
 _PLAIN_STEPS, _MOST_STEPS = 400, 800
@@ -79,17 +80,16 @@ class Flight(NamedTuple):
         """Return the flights of the constant terms of jets."""
         return Flight(*(part.constant for part in self[:-1]), self.g)
 
-    def first_root(self, start: arb | None = None) -> arb | Jet:
+    def first_root(self) -> arb | Jet:
         """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
 
         The ball contains the first root, which is simple, for every choice of parameters in the
-        balls; for jets it is the Taylor series of that root. `start` is a time up to which f < 0 is
-        known, for impacts that graze. Raises UndecidedError where an earlier touch of the floor
-        cannot be excluded, or s may be zero.
+        balls; for jets it is the Taylor series of that root. Raises UndecidedError where an earlier
+        touch of the floor cannot be excluded, s may be zero, or g is not positive.
         """
         if isinstance(self.x, Jet):
-            return self.expand(self.constant().first_root(start))
-        return _refine(self, *_isolate(self, start))
+            return self.expand(self.constant().first_root())
+        return _refine(self, *_isolate(self))
 
     def expand(self, root: arb | acb) -> Jet:
         """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
@@ -110,8 +110,28 @@ def launch(k: arb, g: arb, x: arb | Jet, v: arb | Jet, w: arb | Jet, s: arb | Je
     return Flight(x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s, g)
 
 
-def _isolate(flight: Flight, start: arb | None) -> tuple[arb, arb]:
-    """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0."""
+def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight, arb]:
+    """Return flights from points of the rim, s = 0, x = -g - beyond, and their first root.
+
+    Raises UndecidedError as `first_root` does, and where not beyond >= 0: there the ball stays on
+    the floor, or the bound of the first step does not hold.
+    """
+    if not beyond >= 0:
+        raise UndecidedError("a point of the rim may have x > -g")
+    flight, start = Flight(-g - beyond, xdot, -xdot, arb(0), g), None
+    if xdot < 0:  # f/t^2 <= -beyond/2 + xdot t/6 + A t^2/24
+        amplitude = (flight.x * flight.x + xdot * xdot).sqrt()
+        start = (_START_FACTOR * -4 * xdot / amplitude).lower()
+    return flight, _refine(flight, *_isolate(flight, start))
+
+
+def _isolate(flight: Flight, start: arb | None = None) -> tuple[arb, arb]:
+    """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0.
+
+    `start` is a time up to which f < 0 is known.
+    """
+    if not flight.g > 0:  # else parabolas need not be convex
+        raise UndecidedError("g is not proved to be positive")
     most, bits = ctx.prec, _MARCH_BITS
     while True:
         with ctx.workprec(bits):

@@ -144,7 +144,9 @@ class Jet:
         return self.compose(terms[:-1]), self.compose(shifted)
 
     def at(self, *substitutes: "Jet") -> "Jet":
-        """Substitute a complex jet of the same algebra for each variable."""
+        """Substitute a complex jet of the same algebra, which is 0 at 0, for each variable."""
+        if not all(jet.constant == 0 for jet in substitutes):
+            raise ValueError("a substitute is not 0 at 0: the series would lack terms")
         total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
         powers = [[one] for _ in substitutes]
         for row, jet in zip(powers, substitutes, strict=True):
@@ -165,8 +167,10 @@ class Jet:
 
 
 def square_root(square: arb | acb | Jet) -> arb | acb | Jet:
-    """Return the square root of a ball or a jet; a complex one has a positive real part."""
+    """Return the square root of a ball or a jet with a positive real part; so is the root's."""
     value = square.constant if isinstance(square, Jet) else square
+    if not value.real > 0:
+        raise ArithmeticError("a square root is not proved to be analytic")
     if isinstance(value, arb):
         return square.sqrt()
     root = _complex_root(value)

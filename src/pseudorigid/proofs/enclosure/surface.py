@@ -78,7 +78,7 @@ class Surface:
     Raises
     ------
     ValueError
-        A number is not exact, or not in 0 < k <= 1, g > 0, energy > -g^2/(2k).
+        A number is not exact, or not in 0 < k <= 1, g > 0, energy > -g^2/(2k), width >= 0.
 
     Examples
     --------
@@ -105,6 +105,8 @@ class Surface:
         if not self.energy > lowest:
             energy, least = map(_shortened, (self.energy, lowest))
             raise ValueError(f"energy = {energy} is not allowed: above {least}")
+        if not self.width >= 0:
+            raise ValueError(f"width = {self.width} is not allowed: at least 0")
 
     def __str__(self):
         values = (("k", self.k), ("g", self.g), ("E", self.energy))

@@ -24,6 +24,7 @@ from . import approximate_orbits
 from .certificate_text import fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
 from .periodic import centre_rows, polished
+from .rotation_numbers import quotients_near
 
 BITS = 320
 _IMPACTS = 40_000  # of the orbit whose averages start Newton's method
@@ -31,8 +32,7 @@ _SCAN = 120  # starts between the centre and the rim
 _NOISE = 1e-11  # Fourier coefficients from the orbit below this are rounding errors
 _SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
 _STEPS = 6
-_CLOSE = 5e-4  # of a noble number to the wanted rotation number
-_DIGITS_OF_ERROR = 18.5  # that the error has, besides those of the loss to the eighth power
+_DIGITS_OF_ERROR = 12.0  # that the error has, besides those of the loss to the fourth power
 
 
 class Strips(NamedTuple):
@@ -82,7 +82,7 @@ def search(theorem, rotation: float) -> tuple[str, Finding]:
     for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
         strip = part * decay / (2.0 * math.pi)
         loss = strip / 6.2
-        digits = math.ceil(_DIGITS_OF_ERROR + spare - 8.0 * math.log10(loss))
+        digits = math.ceil(_DIGITS_OF_ERROR + spare - 4.0 * math.log10(loss))
         modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
         columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
         rows = math.ceil(columns * strip)
@@ -93,23 +93,6 @@ def search(theorem, rotation: float) -> tuple[str, Finding]:
         except NotProvedError as error:
             reason = error
     raise reason
-
-
-def quotients_near(value: float) -> list[int]:
-    """Return partial quotients for which the number of `checks.circle.noble` is close to a value.
-
-    They are the first ones of the value's continued fraction. Raises ValueError for a value so
-    close to a fraction of small integers that this gives no number close to it.
-    """
-    rest, quotients = value, []
-    while True:
-        rest = 1.0 / rest
-        quotients.append(int(rest))
-        rest -= int(rest)
-        if abs(float(noble(quotients)[0]) - value) < _CLOSE:
-            return quotients
-        if rest < _CLOSE:
-            raise ValueError(f"{value:.10g} is too close to a fraction of small integers")
 
 
 def _start(theorem, quotients: Sequence[int]) -> _Start:
@@ -140,14 +123,20 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
     def excess(x, impacts=_IMPACTS):
         return turns(surface, x, points, impacts) - omega
 
-    previous = None
+    previous, seen = None, []
     for i in range(1, _SCAN):
         x = centre + reach * i / _SCAN
         value = excess(x, 4000)
         if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
             return bisect(excess, previous[0], x, xtol=1e-17)
         previous = x, value
-    raise ValueError(f"no curve with the rotation number {omega:.6g} was found on y = 0")
+        if not seen or (len(seen) == i - 1 and abs(value - seen[-1]) < 0.05):
+            seen.append(value)  # from the point on, as far as the numbers change without a jump
+    low, high = omega + min(seen), omega + max(seen)
+    raise ValueError(
+        f"no curve with the rotation number {omega:.6g} was found on y = 0: "
+        f"near the point the numbers go from {low:.4f} to {high:.4f}"
+    )
 
 
 def _nearest(points: Sequence) -> float:

@@ -23,7 +23,7 @@ def propose(theorem) -> str:
     """
     k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     with ctx.workprec(BITS):
-        edges = [Fraction(0)]
+        edges = [Fraction(0), _widest(k, g, Fraction(0))]
         while not energy_at(ball_of(k), ball_of(g), ball_of(edges[-1])) > ball_of(energy):
             edges.append(edges[-1] + _widest(k, g, edges[-1]))
         zeros = {}

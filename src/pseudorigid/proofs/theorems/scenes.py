@@ -10,7 +10,7 @@ from flint import arb, ctx
 
 from ...dynamics.ball import Ball
 from ...dynamics.variables import AREA, ENERGY, LENGTH, SPEED, described, of_type
-from ..checks import curve, graph, horseshoe
+from ..checks import curve, graph, horseshoe, no_circle
 from ..checks.birkhoff import normal_form
 from ..checks.certificate import Finding
 from ..checks.hsets import HSet
@@ -107,7 +107,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
                 orbit = prove(surface, centre, _RADIUS)
                 twists.append(float(normal_form(surface, orbit).twists[0]))
         except (NotProvedError, ValueError, ArithmeticError) as error:
-            raise ValueError(f"no twist is proved at {surface}: {error}") from None
+            raise ValueError(f"no twist is proved at {surface}: leave it out: {error}") from None
     zeros = (
         _zero(*surfaces[i : i + 2], points[i])
         for i, (low, high) in enumerate(pairwise(twists))
@@ -141,12 +141,12 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
 
     A curve around the fixed point that is a theorem at this ball and energy is proved from its
     certificate, if its rotation number is stated to be close to one of the list; others are
-    searched. Theorems about curves around longer orbits at this ball and energy are added. The
-    rotation numbers are clockwise turns per impact, between 0 and 1. ValueError is raised for a
-    curve that cannot be proved.
+    searched. Theorems about curves around longer orbits at this ball and energy are added, and the
+    points that no invariant circle has inside, by the theorem `no-circle`. The rotation numbers are
+    clockwise turns per impact, between 0 and 1. ValueError is raised for a curve that cannot be
+    proved.
 
-    >>> from pseudorigid import Ball
-    >>> scene_curves(Ball(k=0.2, g=0.04), 0.01, [0.17295]).sizes["curve"]  # doctest: +SKIP
+    >>> scene_curves(Ball(k=0.2, g=0.04), 0.01, [0.16885]).sizes["curve"]  # doctest: +SKIP
     2
     """
     surface = _surface_of(ball, energy)
@@ -160,6 +160,12 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
         for x, y in [*polygon, polygon[0], (np.nan, np.nan)]
     ]
     x, y, place = np.array(corners).T
+    saddles = [
+        (float(x), float(y))
+        for theorem in theorems_at(surface, no_circle.check)
+        for x, y in theorem.prove().parts["orbit"].points
+    ]
+    saddle_x, saddle_y = np.reshape(np.array(saddles), (-1, 2)).T
     rotation, share, area = (
         [float(finding.digits[name]) for finding in findings]
         for name in ("rotation number", "share", "area")
@@ -168,6 +174,8 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
         "x": ("corner", x, "corners of the polygons, x; NaN after each", LENGTH),
         "y": ("corner", y, "corners of the polygons, y; NaN after each", SPEED),
         "place": ("corner", place.astype(np.int64), "place of the corner's curve"),
+        "saddle_x": ("saddle", saddle_x, "x of a point inside no invariant circle", LENGTH),
+        "saddle_y": ("saddle", saddle_y, "y of a point inside no invariant circle", SPEED),
         "rotation": ("curve", rotation, "clockwise turns per period"),
         "share": ("curve", share, "area inside one curve, as a share of the section"),
         "area": ("curve", area, "area inside one curve", AREA),
@@ -187,20 +195,27 @@ def _near(surface: Surface, value: float, theorems: list) -> Finding:
 
 
 def scene_graph(ball: Ball, energy: float) -> xr.Dataset:
-    """Prove the graph of coverings that is a theorem at a ball and energy, and tabulate its sets.
+    """Prove the graph of coverings that is a theorem at this k and E/g^2, and tabulate its sets.
 
-    The sets that connections join come first, then those of the connections' chains. ValueError is
-    raised if no theorem states a graph at this ball and energy.
+    The sets that connections join come first, then those of the connections' chains. Lengths are
+    multiplied by the ratio of this ball's g to the theorem's. ValueError is raised if no theorem
+    states a graph at this k and E/g^2.
 
     >>> from pseudorigid import Ball
     >>> scene_graph(Ball(k=0.2, g=0.04), 0.005).sizes["connection"]
     4
     """
     surface = _surface_of(ball, energy)
-    here = theorems_at(surface, graph.check)
-    if not here:
-        raise ValueError(f"no graph is a theorem at {surface}")
-    proved = here[0].prove()
+    stated = {
+        (it.k, it.energy / it.g**2): theorem
+        for theorem in THEOREMS.values()
+        if theorem.checker is graph.check and (it := theorem.bounds["surface"])
+    }
+    theorem = stated.get((surface.k, surface.energy / surface.g**2))
+    if theorem is None:
+        known = " and ".join(f"k = {k}, E/g^2 = {ratio}" for k, ratio in stated)
+        raise ValueError(f"no graph is a theorem at {surface}: there are those at {known}")
+    proved, scale = theorem.prove(), float(surface.g / theorem.bounds["surface"].g)
     sets, connections = proved.parts["graph"].sets, proved.parts["graph"].connections
     chains = [(n, hset) for n, it in enumerate(connections) for hset in it.chain]
     owner = [-1] * len(sets) + [n for n, _ in chains]
@@ -211,8 +226,8 @@ def scene_graph(ball: Ball, energy: float) -> xr.Dataset:
     source, target, impacts = np.array([(it.source, it.target, it.impacts) for it in connections]).T
     corner = ("set", "corner")
     table = {
-        "corner_x": (corner, corner_x, "corners of the set, x", LENGTH),
-        "corner_y": (corner, corner_y, "corners of the set, y = xdot - k udot", SPEED),
+        "corner_x": (corner, scale * corner_x, "corners of the set, x", LENGTH),
+        "corner_y": (corner, scale * corner_y, "corners of the set, y = xdot - k udot", SPEED),
         "connection": ("set", np.array(owner), "connection of the set's chain; -1 at the ends"),
         "source": ("connection", source, "set that the connection leaves"),
         "target": ("connection", target, "set to which the connection leads"),

@@ -61,7 +61,9 @@ def true_orbit(
     ------
     ValueError
         A number is not exact or not allowed, the start is on or beyond the rim, a flight grazes to
-        within the precision, or the orbit needs more than MOST_BITS bits or too much memory.
+        within the precision, or the orbit needs more than MOST_BITS bits.
+    MemoryError
+        The orbit needs too much memory.
 
     References
     ----------
@@ -129,7 +131,7 @@ def follow(start: Start, impacts: int, progress: Callable | None = None) -> Run:
     impacts = whole_number("impacts", impacts)
     needed = _BYTES_PER_IMPACT * impacts
     if needed > os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2:
-        raise ValueError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
+        raise MemoryError(f"{impacts} impacts need {needed / 1e9:.0f} GB of memory")
     run = Run(start, impacts, _bits_needed(start, impacts))
     reported = time.monotonic()
     while run.count < impacts:

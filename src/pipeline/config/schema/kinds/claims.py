@@ -32,7 +32,6 @@ from ..scene import (
     not_elliptic,
 )
 
-LONGEST_FLIGHT = 1_000_000  # 1/omega: the histogram of flight times has ten bins a unit of time
 MOST_CELLS = 2_000  # of the regular share
 
 
@@ -44,7 +43,7 @@ class Spread(OfRecords):
 
     orbits: int = whole(2, 1000)
     """Number of long orbits. They start uniformly over the whole section, in islands as well as in
-    the chaotic sea; their exponents decide which of them are chaotic."""
+    the chaotic sea; their exponents decide which of them are chaotic. A run says if none is."""
     length: int = whole(100, 100_000_000)
     """Number of impacts of each long orbit, a multiple of `blocks`. The error of the long-run
     exponent falls as its square root grows."""
@@ -53,7 +52,7 @@ class Spread(OfRecords):
     block, so that one block is the shortest run whose distribution can be drawn."""
     regular: list[Fraction] = allowed("a list of fractions", min_length=1)
     """Starts of regular orbits, as fractions of the section's radius along y = 0. Their exponents
-    tend to zero and are drawn beside ln n/n."""
+    tend to zero and are drawn beside ln n/n. An orbit that is chaotic is drawn in grey."""
     regular_impacts: int = whole(16, 10_000_000)
     """Number of impacts of each regular orbit."""
     cells: int = whole(2, 1000)
@@ -89,7 +88,8 @@ class Clusters(OfSea):
         "a list of 1 to 7 times", min_length=1, max_length=7
     )
     """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
-    is repeated for each cut, to show what depends on the choice."""
+    is repeated for each cut, to show what depends on the choice. A run refuses a cut that leaves an
+    orbit fewer than lags + 2 clusters, and names the largest that does not."""
     lags: int = whole(1, 100)
     """A cluster is compared with this many later ones: the next, the next but one, and so on."""
     resamples: int = whole(10, 100_000)
@@ -100,14 +100,19 @@ class Clusters(OfSea):
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that all bootstrap samples fit into memory, and that no flight is too long."""
+        """Check that samples fit into memory, and that cuts are below the longest flight."""
         yield from super().cross_field_errors(block)
         yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        if block["lags"] > block["impacts"] - 2:
+            yield ("lags",), block["lags"], f"at most impacts - 2 = {block['impacts'] - 2}"
+        if not is_sound(block):
+            return
         (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
-        if is_sound(block) and 4 * (2 * energy + g * g / k) > (LONGEST_FLIGHT * g) ** 2:
-            longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
-            words = f"one with flights of at most {LONGEST_FLIGHT} at this energy"
-            yield ("ball", "g"), g, f"{words} (here {longest:.3g})"
+        longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
+        for i, cut in enumerate(block["cuts"]):
+            if not cut < longest:
+                words = f"a time below {longest:.4g}, which no flight at this energy exceeds"
+                yield ("cuts", i), cut, words
 
     @staticmethod
     def numbers(block: YamlMapping, clusters: Dataset) -> dict[str, str]:
@@ -173,7 +178,8 @@ class Flux(OfSea):
     headline = "lobes"
 
     period: int = whole(2, 12, 2)
-    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even."""
+    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even. A run
+    says if there is no such orbit, or if its branches enclose nothing."""
     distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
     """Largest distance between neighbouring points of the traced branches, in section radii. It
     decides how well areas of polygons agree with the exact areas of the lobes."""
@@ -214,7 +220,8 @@ class LastCurve(Scene):
     convergent has a period about 1.6 times as long."""
     between: Between
     """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
-    section's centre. The end nearer to the fixed point comes first."""
+    section's centre. The end nearer to the fixed point comes first. A run says if an orbit is not
+    found there."""
     impacts: int = whole(100, LARGEST)
     """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
     whether a curve confines the orbit."""
@@ -260,7 +267,7 @@ class Control(Scene):
         Predicate(rising),
     ]
     """Strengths eps of the changes of the map: about the largest displacement of a point, in
-    section radii. Each costs five runs of all orbits."""
+    section radii. Each costs ten runs of all orbits."""
     orbits: int = whole(10, 100_000)
     """Number of orbits of each map. They start evenly over the whole section. More orbits narrow
     the intervals of the shares."""
@@ -348,7 +355,10 @@ class Families(Scene):
         sound = low > 0 and high <= 1 and g * g + 2 * high * energy > 0
         if block["parameter"] == "k" and not sound:
             yield ("span",), block["span"], "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
-        if (high - low) / exact(block["step"]) > MOST_CELLS:
+        step = exact(block["step"])
+        if high // step <= -(-low // step):
+            yield ("step",), block["step"], "one with two multiples or more in the span"
+        if (high - low) / step > MOST_CELLS:
             least = float((high - low) / MOST_CELLS)
             yield ("step",), block["step"], f"at least {least:g}, {MOST_CELLS} values in the span"
         if block["drawn"] > block["period"]:

@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from annotated_types import Predicate
 
-from ..fields import ABSENT, Axis, Energy, Number, YamlMapping, allowed, rising
+from pseudorigid.proofs.search.rotation_numbers import quotients_near
+
+from ..fields import ABSENT, Axis, Energy, Number, YamlMapping, allowed, rising, whole
 from ..scene import (
     CrossFieldError,
     Dataset,
@@ -14,8 +16,13 @@ from ..scene import (
     OfChaoticOrbits,
     OfOrbits,
     Scene,
+    bounded,
+    exact,
     not_elliptic,
 )
+
+# k and E/g^2 of the theorems about graphs.
+GRAPHS = (exact(0.2), exact(3.125)), (exact(0.2), exact(6.25))
 
 
 class Horseshoe(OfBranches):
@@ -27,7 +34,8 @@ class Horseshoe(OfBranches):
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
     """Side of the branches along which the orbit is connected with itself, and along which the sets
-    of the horseshoe lie. The branches of this side should be among `branches`."""
+    of the horseshoe lie. The branches of this side should be among `branches`. A run says if no
+    horseshoe is found or proved along it."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
     """Stability of the periodic orbit. Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
@@ -56,7 +64,8 @@ class Twist(Scene):
         Predicate(rising),
     ]
     """Energies at which the twist coefficient is computed, in m omega^2 R^2. Straight lines join
-    the values."""
+    the values. A run names an energy at which no twist is proved, such as one at which the third or
+    fourth power of the fixed point's multiplier is 1."""
     marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
     """Energies, among `energies`, whose values are marked with a dot."""
     axes: dict[Literal["energy", "twist"], Axis] = ABSENT
@@ -79,6 +88,36 @@ class Twist(Scene):
         return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
 
 
+class Escape(Scene):
+    """how far orbits get from the fixed point"""
+
+    stages = ("escape",)
+    headline = "largest distance"
+
+    beside: list[Annotated[Number, allowed("a number from 0 to 0.01", ge=0, le=0.01)]] = allowed(
+        "a list of 1 to 6 numbers", min_length=1, max_length=6
+    )
+    """What is added to the scene's energy: there is a line for each sum."""
+    distance: Annotated[Number, allowed("above 0, at most 0.1", gt=0, le=0.1)]
+    """Distance from the fixed point at which orbits start, in section radii."""
+    orbits: int = whole(1, 1000)
+    """Number of orbits at each energy. They start evenly around the fixed point."""
+    impacts: int = whole(100, 100_000)
+    """Number of impacts of each orbit."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that all impacts fit into memory."""
+        yield from super().cross_field_errors(block)
+        yield from bounded(block, "orbits", "impacts", "impacts in all")
+
+    @staticmethod
+    def numbers(block: YamlMapping, escape: Dataset) -> dict[str, str]:
+        """Give the largest distance at each energy."""
+        rows = zip(block["beside"], escape["distance"].values[:, -1], strict=True)
+        return {"largest distance": ", ".join(f"{far:.4f} at +{more:g}" for more, far in rows)}
+
+
 class Curves(OfChaoticOrbits):
     """proved invariant curves on the section"""
 
@@ -90,8 +129,20 @@ class Curves(OfChaoticOrbits):
         allowed("a list of numbers between 0 and 1", min_length=1, max_length=10),
     ]
     """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. Each
-    curve has a number close to the given one. Proved curves around longer orbits at the scene's
-    energy are added."""
+    curve has a number close to the given one, which must not be too close to a fraction of small
+    integers. A run says if it finds or proves no such curve, and the numbers near the fixed point.
+    Proved curves around longer orbits at the scene's energy are added."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the fixed point is elliptic, and that its curves can be sought."""
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        for i, number in enumerate(block["rotation_numbers"]):
+            try:
+                quotients_near(number)
+            except ValueError as error:
+                yield ("rotation_numbers", i), number, f"another number, since {error}"
 
     @staticmethod
     def numbers(block: YamlMapping, curves: Dataset, orbits: Dataset) -> dict[str, str]:
@@ -106,6 +157,16 @@ class Graph(OfOrbits):
 
     stages = ("graph", "orbits")
     headline = "entropy"
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that there is a theorem about a graph."""
+        yield from super().cross_field_errors(block)
+        (k, g), energy = (exact(block["ball"][n]) for n in "kg"), exact(block["energy"])
+        if (k, energy / g**2) not in GRAPHS:
+            here = ", ".join(str(float(ratio * g**2)) for _, ratio in GRAPHS)
+            words = f"a theorem's energy: with k = 0.2 and this g, one of {here}"
+            yield ("energy",), block["energy"], words
 
     @staticmethod
     def numbers(block: YamlMapping, graph: Dataset, orbits: Dataset) -> dict[str, str]:

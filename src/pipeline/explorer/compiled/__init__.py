@@ -1,0 +1,1 @@
+"""The kernel as WebAssembly: its entry points, and the compiler that makes the module."""

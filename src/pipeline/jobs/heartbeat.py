@@ -1,0 +1,32 @@
+"""Lines that tell the user of a long computation what is being done."""
+
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+FIRST, GAP = 2.5, 4.5  # seconds to the first line, and without another one to the next
+
+
+class Heartbeat(threading.Thread):
+    """Print what `describe` returns, unless it is empty, when no line was printed for GAP seconds.
+
+    It does so until the process ends. `waited` is the number of seconds since the user's command.
+    """
+
+    def __init__(self, describe: Callable[[], str], waited: float = 0.0) -> None:
+        super().__init__(daemon=True)
+        self.describe, self.due = describe, time.monotonic() + FIRST - waited
+        self.start()
+
+    def run(self) -> None:
+        """Look a few times a second whether a line is due."""
+        while True:
+            if time.monotonic() >= self.due and (words := self.describe()):
+                self.print(words)
+            time.sleep(0.2)
+
+    def print(self, line: str) -> None:
+        """Print a line, after which the next one is due in GAP seconds."""
+        print(line, file=sys.stderr, flush=True)
+        self.due = time.monotonic() + GAP

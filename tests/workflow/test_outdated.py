@@ -1,0 +1,168 @@
+"""What snakemake is told of outdated results: by content, whatever times and traces of runs say."""
+
+import base64
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from project import ROOT, fresh_tree, of_scenes
+from runs import FIG3, VARIANTS, contents, rows
+from slowly import slowly
+
+from pipeline.cli import running
+
+PAPER = "results/paper"
+
+
+def mark_incomplete(tree, *results):
+    """Create the marker that a run leaves which is killed while snakemake runs a job."""
+    folder = tree.path / ".snakemake" / "incomplete"
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in results:
+        (folder / base64.b64encode(path.encode()).decode()).touch()
+
+
+def remove(tree, *results):
+    """Remove results and their records."""
+    for path in results:
+        file = tree.path / path
+        file.unlink()
+        (tree.path / PAPER / "provenance" / f"{file.name}.json").unlink()
+
+
+def plain(tree, *arguments):
+    """Run a plain snakemake that must succeed, and return what it prints."""
+    result = tree.python("-m", "snakemake", "--cores", "2", *arguments)
+    assert result.returncode == 0, result.stderr
+    return result.stdout + result.stderr
+
+
+@pytest.mark.parametrize("how", ["reproduce", "plain"])
+def test_a_missing_drawing_behind_an_incomplete_dataset_is_made(done, how):
+    drawings = {f"{PAPER}/figures/fig8.png", f"{PAPER}/figures/fig3.svg"}
+    before = {path: (done.path / path).read_bytes() for path in drawings}
+    remove(done, *drawings)
+    mark_incomplete(done, f"{PAPER}/orbits_fig8.nc", f"{PAPER}/periodic_fig3.nc")
+    mark_incomplete(done, f"{PAPER}/figures/fig4.png")  # of a figure that is current
+    if how == "reproduce":
+        states = rows(done.succeed())
+        again = {path for path, state in states.items() if state == "recomputed"}
+        assert again == {"paper_figures/fig8.png", "paper_figures/fig3.svg"}
+    else:
+        plain(done)
+    assert {path: (done.path / path).read_bytes() for path in drawings} == before
+
+
+@pytest.mark.slow
+def test_missing_pictures_of_variants_behind_incomplete_data_are_made(tmp_path):
+    tree = fresh_tree(tmp_path / "tree", of_scenes("fig3", "fig8", variants=VARIANTS))
+    tree.succeed("variant", "doubled")
+    drawing = tree.path / "results/doubled/figures/fig8.png"
+    before = drawing.read_bytes()
+    drawing.unlink()
+    (tree.path / "results/doubled/provenance/fig8.png.json").unlink()
+    mark_incomplete(tree, "results/doubled/orbits_fig8.nc", f"{PAPER}/orbits_fig8.nc")
+    tree.succeed("variant", "doubled")
+    assert drawing.read_bytes() == before
+
+
+@pytest.mark.parametrize("times", ["reversed", *slowly("future")])
+@pytest.mark.parametrize("how", ["reproduce", *slowly("plain")])
+def test_an_edit_reaches_its_drawings_whatever_the_times(done, how, times):
+    """Everything else stays as it is, and records are not touched."""
+    for i, file in enumerate(sorted((done.path / PAPER).rglob("*.*"), reverse=True)):
+        os.utime(file, (i, i) if times == "reversed" else (4e9, 4e9))
+    shutil.rmtree(done.path / ".snakemake", ignore_errors=True)
+    done.edit("fig3", duration=12)
+    outdated = {path.replace("periodic", "motion") for path in FIG3}
+    outdated |= {f"{PAPER}/figures/fig3.svg"}
+    assert done.planned() == outdated
+    others = {
+        file: file.stat().st_ino  # files are replaced as a whole
+        for file in (done.path / PAPER).rglob("*.*")
+        if str(file.relative_to(done.path)) not in outdated and "fig3" not in file.name
+        if file.suffix != ".log"  # of jobs that found their results current
+    }
+    if how == "reproduce":
+        done.succeed()
+    else:
+        plain(done, "-n")
+        assert done.planned() == outdated
+        plain(done)
+    assert done.planned() == set()
+    assert {file: file.stat().st_ino for file in others} == others
+    why = (done.path / PAPER / "why" / "motion_fig3.nc.txt").read_text()
+    assert why.startswith("made from another config: duration 16 -> 12\n")
+
+
+def test_dry_runs_change_no_record(done):
+    done.edit("fig3", duration=12)
+    (done.path / PAPER / "orbits_fig2.nc").write_bytes(b"damaged")
+    files = sorted((done.path / PAPER / "provenance").iterdir())
+    before = {file: (file.read_bytes(), file.stat().st_mtime_ns) for file in files}
+    for option in ("-n", "--lint"):
+        done.python("-m", "snakemake", "--cores", "1", option)
+        done.run("--", option)
+    assert {file: (file.read_bytes(), file.stat().st_mtime_ns) for file in before} == before
+
+
+def test_a_run_that_leaves_a_figure_out_is_no_success(done):
+    """A snakemake that makes nothing and reports success stands for any such cause."""
+    remove(done, f"{PAPER}/figures/fig3.png")
+    package = done.path / "src" / "snakemake"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "__main__.py").touch()
+    result = done.run()
+    assert result.returncode == 1
+    assert "reproduce: 1 of 11 results not made, or not current: fig3.png\n" in result.stdout
+    found = done.run("verify")
+    line = "fig3.png: not computed here: run ./reproduce, or verify --committed for committed files"
+    assert found.returncode == 1 and f"{line} alone\n" in found.stdout
+    assert done.run("report").returncode == 1
+
+
+def test_the_options_of_a_run_are_those_of_the_profile():
+    text = (ROOT / "profiles/default/config.yaml").read_text()
+    lines = [line.partition("#")[0].split(":") for line in text.splitlines()]
+    profile = {name: value.strip(" []") for name, value in (line for line in lines if line[1:])}
+    words = running.OPTIONS[3:]  # without the profile and the lock of snakemake
+    given = [f"--{name} {'' if value == 'true' else value}" for name, value in profile.items()]
+    assert sorted(" ".join(given).split()) == sorted(words)
+
+
+KILLS = int(os.environ.get("PSEUDORIGID_KILLS", "3"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(KILLS))
+@pytest.mark.parametrize("how", ["reproduce", "plain"])
+def test_a_run_after_a_kill_makes_every_figure_or_fails(done, how, number):
+    """Kill a run of missing and outdated results at a random moment."""
+    chance = random.Random(f"{how} {number}")
+    before = contents(done)
+    files = [f for f in sorted((done.path / PAPER).rglob("*.*")) if f.suffix != ".json"]
+    for file in chance.sample(files, len(files) // 2):
+        file.unlink()
+    command = ["-m", "snakemake", "--cores", "2"] if how == "plain" else done.command()[1:]
+    run = subprocess.Popen(
+        [sys.executable, *command],
+        env=done.environment(),
+        cwd=done.path,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    time.sleep(chance.uniform(0.5, 8))
+    os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+    again = done.run()
+    assert again.returncode == 0, again.stdout
+    assert contents(done) == before
+    assert done.planned() == set()
