@@ -19,6 +19,7 @@ from .schema import (
     Outcome,
     Series,
     enclosed,
+    energy_of,
     entropy_bound,
     formula,
     outcome_of,
@@ -193,8 +194,10 @@ def destroyed(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
         for a, b in rises
     ]
     numbers = {"first": share[0], "last": share[-1], "rows": rows, "rises": bool(rises)}
-    word = FALSE if not falls else CORRECTED if rises else HOLDS
-    return Outcome(word, numbers | {"width": _widest(line)} | dict(proved))
+    numbers |= {"width": _widest(line), "unstable": proved["unstable"]}
+    doubling = "six-elliptic-doubling"
+    numbers |= {"doubled": proved[doubling], "doubling": energy_of(doubling)}
+    return Outcome(FALSE if not falls else CORRECTED if rises else HOLDS, numbers)
 
 
 def _widest(line: xr.Dataset) -> float:
@@ -231,8 +234,9 @@ def discontinuous(rotation: xr.Dataset) -> Outcome:
     return outcome_of(switches.min() >= 3, **numbers)
 
 
-def mixture(plane: xr.Dataset) -> Outcome:
+def mixture(plane: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the pairs of k and E/g^2 whose regular share is neither near 0 nor near 1."""
+    chaotic = [name for name in proved if name != "twist-one-zero" and proved[name]]
     low, high = (plane[f"regular_{end}"].values for end in ("low", "high"))
     mixed, bare = (np.mean((low > m) & (high < 1.0 - m)) for m in (MARGIN, 1e-9))
     return outcome_of(
@@ -243,6 +247,8 @@ def mixture(plane: xr.Dataset) -> Outcome:
         low=MARGIN,
         high=1 - MARGIN,
         fixed_points=bool(np.isfinite(plane["trace"].values).all()),
+        proved=bool(chaotic) and proved["twist-one-zero"],
+        energies=Series(map(energy_of, chaotic)),
     )
 
 

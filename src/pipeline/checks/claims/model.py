@@ -20,6 +20,7 @@ from .schema import (
     PROVED,
     Outcome,
     Series,
+    bounds_of,
     derived,
     enclosed,
     formula,
@@ -152,7 +153,10 @@ def figure_8(orbits: xr.Dataset, line: xr.Dataset, proved: Mapping[str, bool]) -
     """Count the starts and points of Figure 8, and read the regular share at its energy."""
     verdict, numbers, _ = _portrait(orbits, "fig8")
     share = regular_share(line, 0, orbits.attrs["energy"] / orbits.attrs["g"] ** 2)
+    orbits_proved = [n for n, known in proved.items() if known and not n.startswith("curve-")]
+    periods = Series(bounds_of(name)["period"] for name in orbits_proved)
     numbers = numbers | share | {"curves": enclosed(proved)}
+    numbers |= {"elliptic": bool(periods), "periods": periods}
     return outcome_of(verdict == HOLDS and share["low"] > 0.5, **numbers)
 
 

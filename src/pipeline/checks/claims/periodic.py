@@ -26,6 +26,7 @@ from .schema import (
     Series,
     bounds_of,
     enclosed,
+    energy_of,
     formula,
     outcome_of,
 )
@@ -67,7 +68,10 @@ def period_six(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     word = FALSE if not both else CORRECTED if len(types) > 2 else HOLDS
     exist = all(proved[f"six-{kind}"] for kind in ("elliptic", "hyperbolic", "inverse"))
     born = proved["six-birth"] and proved["six-inverse-birth"]
-    return Outcome(word, {"count": len(types), "orbits": rows, "exist": exist, "born": born})
+    ends = "six-elliptic-end", "six-hyperbolic-end"
+    numbers = {"count": len(types), "orbits": rows, "exist": exist, "born": born}
+    numbers |= {"ended": all(proved[name] for name in ends), "ends": Series(map(energy_of, ends))}
+    return Outcome(word, numbers)
 
 
 def in_between(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
@@ -93,6 +97,7 @@ def dense(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     p, q, first, last = max(gaps, key=lambda gap: gap[3] - gap[2])
     numbers: dict[str, Any] = {"exist": proved["twist-fixed-point"], "curves": enclosed(proved)}
     numbers |= {"p": p, "q": q, "first": first, "last": last}
+    numbers["once"] = proved["fixed-point-elliptic"]
     return Outcome(CORRECTED, numbers | {"spacing": abs(place[1] - place[0])})
 
 

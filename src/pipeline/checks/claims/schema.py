@@ -242,6 +242,12 @@ def bounds_of(theorem: str) -> Mapping[str, Any]:
     return bounds
 
 
+def energy_of(theorem: str) -> float:
+    """Return the energy of a theorem, or the lower bound of the one that its statement encloses."""
+    bounds = bounds_of(theorem)
+    return float(bounds["surface"].energy if "surface" in bounds else bounds["energies"][0])
+
+
 def enclosed(proved: Mapping[str, bool]) -> list[dict[str, Any]]:
     """Return what the invariant curves among the proved theorems enclose, one row for each.
 
