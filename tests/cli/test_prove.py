@@ -1,10 +1,11 @@
-"""./reproduce prove --search replaces all certificates, or none."""
+"""./reproduce prove checks what changed; --search replaces all certificates, or none."""
 
 import pytest
+from project import fresh_tree, of_scenes
 
-from pipeline.cli import arguments
 from pipeline.cli.commands import prove
 from pipeline.cli.session import UsageError
+from pipeline.config import paths
 from pseudorigid import proofs
 from pseudorigid.proofs.enclosure.flight import NotProvedError
 
@@ -15,7 +16,7 @@ NAMES = ("fixed-point", "fixed-point-low")
 def folder(tmp_path, monkeypatch):
     """The folder of two certificates that are no certificates, in the place of this tree's."""
     monkeypatch.setattr(prove, "ROOT", tmp_path)
-    folder = tmp_path / prove.CERTIFICATES
+    folder = tmp_path / paths.CERTIFICATES
     folder.mkdir(parents=True)
     for name in NAMES:
         (folder / f"{name}.toml").write_text("old")
@@ -23,10 +24,10 @@ def folder(tmp_path, monkeypatch):
 
 
 def search(monkeypatch, second=proofs.THEOREMS[NAMES[1]].text):
-    """Run the command, whose second search is given; return its status."""
+    """Search for both certificates; the second search is given."""
     searches = {NAMES[0]: proofs.THEOREMS[NAMES[0]].text, NAMES[1]: second}
     monkeypatch.setattr(proofs, "search_certificate", lambda name: searches[name]())
-    return prove.run(arguments.read(["prove", "--search", *NAMES]))
+    prove.search(NAMES)
 
 
 def fail(error):
@@ -59,6 +60,59 @@ def test_a_certificate_that_cannot_be_written_leaves_the_others(folder, monkeypa
 
 
 def test_a_search_that_succeeds_replaces_them(folder, monkeypatch):
-    assert search(monkeypatch) == 0
+    search(monkeypatch)
     for name in NAMES:
         assert (folder / f"{name}.toml").read_text() == proofs.THEOREMS[name].text()
+
+
+def steps(output):
+    """Return the theorems that were checked, by the lines of the steps."""
+    return {line.split()[0] for line in output.splitlines() if line.split()[1:2] == ["theorem"]}
+
+
+def verdicts(output):
+    """Return theorem -> verdict."""
+    lines = [line for line in output.splitlines() if ".toml: " in line]
+    return {line.partition(".toml")[0]: line.rpartition("; ")[2] for line in lines}
+
+
+def edit(file, old, new):
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+def test_a_theorem_is_checked_again_if_its_certificate_or_the_code_changed(tmp_path):
+    """Also without the scenes of the claims, and if its certificate is no proof."""
+    tree = fresh_tree(tmp_path / "tree", of_scenes("fig3"))
+    names = {"fixed-point", "one-fixed-point", "unstable"}
+    proved = dict.fromkeys(names, "proved")
+    assert "fixed-point: not made yet: theorem" in tree.succeed("prove", *names, "-n")
+    first = tree.succeed("prove", *names)
+    assert (steps(first), verdicts(first)) == (names, proved)
+    again = tree.succeed("prove", *names)
+    assert again.splitlines() == [line for line in again.splitlines() if ".toml: " in line]
+    assert set(again.splitlines()) < set(first.splitlines())
+
+    certificates = tree.path / paths.CERTIFICATES
+    edit(certificates / "unstable.toml", "margin = 5.6", "margin = 5.7")
+    edit(certificates / "twist-six.toml", "points = [", "points = [[0, 0],")
+    wrong = tree.run("prove", *names)
+    assert (wrong.returncode, steps(wrong.stdout)) == (1, {"unstable"})
+    assert verdicts(wrong.stdout) == proved | {"unstable": "not proved"}
+    wrong = tree.run("prove", *names)  # a refusal is a result too
+    assert (wrong.returncode, steps(wrong.stdout)) == (1, set())
+    edit(certificates / "unstable.toml", "margin = 5.7", "margin = 5.6")
+
+    tree.append("pseudorigid/proofs/checks/periodic.py")
+    assert steps(tree.succeed("prove", "one-fixed-point", "unstable")) == names - {"fixed-point"}
+    assert steps(tree.succeed("prove", "unstable", "--again")) == {"unstable"}
+    (certificates / "unstable.toml").unlink()
+    result = tree.run("prove")
+    assert result.returncode == 1
+    assert f"{paths.CERTIFICATES}/unstable.toml was missing" in result.stdout
+
+
+def test_options_that_do_not_go_together_are_refused(tree):
+    for words in ("--again --impacts", "-n --again", "-n --search", "--search --impacts"):
+        assert tree.run("prove", *words.split()).returncode == 2

@@ -191,19 +191,20 @@ def test_the_entropy_solves_its_equation(results):
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
     whole = theorem_verdict("six-elliptic").attrs
     assert whole["verdict"] == "proved"
-    assert not whole["reason"]
+    assert whole["line"] == THEOREMS["six-elliptic"].check().line()
     other = THEOREMS["six-inverse"].text()
     monkeypatch.setattr(type(THEOREMS["six-elliptic"]), "text", lambda theorem: other)
     broken = theorem_verdict("six-elliptic").attrs
     assert broken["verdict"] == "not proved"
-    assert broken["reason"]
+    assert broken["line"] == THEOREMS["six-elliptic"].check(other).line() != whole["line"]
 
 
-def test_a_record_of_a_theorem_names_its_certificate_and_checkers():
+def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
     specs = build_specs.of_all(config.load(ROOT / "config.yaml"))
     for name in THEOREMS:
         sources = specs[f"results/claims/theorem_{name}.nc"].sources
-        assert f"src/pseudorigid/proofs/certificates/{THEOREMS[name].certificate}" in sources
+        certificates = [file for file in sources if file.endswith(".toml")]
+        assert certificates == [f"{config.paths.CERTIFICATES}/{THEOREMS[name].certificate}"]
         assert {f"src/pseudorigid/proofs/checks/{each}.py" for each in ("curve", "twist")} <= {
             *sources
         }

@@ -95,13 +95,16 @@ COMMANDS = {
         "follow periodic orbits from birth to end: more_figures/families/",
         details=" Takes minutes; a killed search continues.",
     ),
-    "prove": Command(
+    "prove": SnakemakeCommand(
         "check the theorems from their certificates",
         _names("theorem", "theorems; without a name, all"),
+        _switch("--again", "check them all, also those that did not change"),
         _switch("--search", "search for new certificates first"),
         _switch("--impacts", "prove the impacts behind the figures instead"),
         _switch("--pictures", "draw the pictures, in more_figures/proofs/"),
-        details=" The exit status is 1 if one is not proved.",
+        module="prove",
+        details=" Checks what changed since it was checked here, and prints a line for each "
+        "theorem. The exit status is 1 if one is not proved.",
     ),
     "report": SnakemakeCommand(
         "write one HTML page: figures, numbers beside the paper's, corrections, run times",

@@ -1,11 +1,13 @@
 """Stages of each scene, and paths of data and figures relative to the project's root."""
 
 import json
-from importlib import resources
-from pathlib import PurePath
+import os
+from pathlib import Path, PurePath
 
+from pseudorigid import proofs
 from pseudorigid.sweep import grid
 
+from ..records.sources import ROOT
 from .schema.fields import YamlMapping
 from .schema.kinds import KINDS
 from .schema.published import FOLDERS, PAPER, PUBLISHED
@@ -20,8 +22,8 @@ LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 EXPLORER = "results/explorer.html"
 ARTICLE = "results/article.pdf"
 DERIVATIONS = "results/claims/derivations.nc"
-CERTIFICATES = resources.files("pseudorigid.proofs") / "certificates"
-THEOREMS = sorted(file.name.removesuffix(".toml") for file in CERTIFICATES.iterdir())
+CERTIFICATES = os.path.relpath(Path(*proofs.__path__) / "certificates", ROOT)
+THEOREMS = sorted(file.stem for file in (ROOT / CERTIFICATES).iterdir())
 # Functions of a name that return a path.
 theorem = "results/claims/theorem_{}.nc".format  # the verdict on a theorem
 sweep_dataset = "results/sweep/{}.nc".format

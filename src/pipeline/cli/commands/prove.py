@@ -1,64 +1,86 @@
 """./reproduce prove: check each theorem from its certificate."""
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 
+from ...config import paths
 from ...jobs.heartbeat import Heartbeat
 from ...records.files import replacing
 from ...records.sources import ROOT
 from .. import figures
 from ..arguments import Arguments, hint
-from ..session import CommandLineError, UsageError, interruptible, locked, one_line, print_error
-
-CERTIFICATES = "src/pseudorigid/proofs/certificates"
+from ..session import CommandLineError, UsageError, interruptible, locked, one_line
 
 
 def run(args: Arguments) -> int:
-    """Print a line for each theorem; the status is 1 if one is not proved."""
+    """Check the theorems that changed and print a line for each; 1 if one is not proved."""
     if args.search + args.impacts + args.pictures > 1:
         raise CommandLineError("prove: use one of --search, --impacts and --pictures")
-    if args.theorem and (args.impacts or args.pictures):
+    if (args.theorem or args.again) and (args.impacts or args.pictures):
         raise CommandLineError("prove: --impacts and --pictures take no theorems")
-    if args.pictures:
-        with locked():
-            wanted = figures.of_scenes(args.checked, "proofs")
-            return figures.make(args.checked, "proofs", wanted, args)
-    if args.impacts:
-        from ...checks.proved_impacts import impacts
-
-        with locked(), interruptible(), one_line():
-            return int(impacts(args.checked))
-    from pseudorigid.proofs import THEOREMS, search_certificate
-    from pseudorigid.proofs.enclosure.flight import NotProvedError
+    if args.makes_nothing and (args.search or args.impacts or args.again):
+        raise CommandLineError("prove: --search, --impacts and --again do not take -n")
+    from pseudorigid.proofs import THEOREMS
 
     for name in args.theorem:
         if name not in THEOREMS:
-            meant = hint(name, list(THEOREMS)) or f": there are {', '.join(THEOREMS)}"
+            meant = hint(name, THEOREMS) or f": there are {', '.join(THEOREMS)}"
             raise CommandLineError(f"no theorem {name}{meant}")
-    files = {
-        name: f"{CERTIFICATES}/{THEOREMS[name].certificate}" for name in args.theorem or THEOREMS
-    }
-    found, checked = dict[str, str](), list[str]()
+    with locked():
+        if args.pictures:
+            wanted = figures.of_scenes(args.checked, "proofs")
+            return figures.make(args.checked, "proofs", wanted, args)
+        if args.impacts:
+            from ...checks.proved_impacts import impacts
+
+            with interruptible(), one_line():
+                return int(impacts(args.checked))
+        return _check(args, args.theorem or [*THEOREMS])
+
+
+def _check(args: Arguments, names: Sequence[str]) -> int:
+    """Check theorems, after a search if it is asked for, and print them."""
+    from ...records.artifacts import load
+
+    if args.search:
+        search(names)
+    for name in names:
+        if name not in paths.THEOREMS:
+            file = f"{paths.CERTIFICATES}/{name}.toml"
+            raise UsageError(f"{file} was missing when this run began: search for it, or run again")
+    results = [*map(paths.theorem, names)]
+    for path in results if args.again else ():
+        (ROOT / path).unlink(missing_ok=True)
+    status = figures.make(args.checked, "proofs", {}, args, results)
+    if status or args.makes_nothing:
+        return status
+    for path in results:
+        about = load(ROOT / path).attrs
+        print(about["line"])
+        status |= about["verdict"] != "proved"
+    return status
+
+
+def search(names: Sequence[str]) -> None:
+    """Replace the certificates of theorems by new ones if each of these is proved, or none."""
+    from pseudorigid.proofs import THEOREMS, search_certificate
+    from pseudorigid.proofs.enclosure.flight import NotProvedError
+
+    found = dict[str, str]()
 
     def progress() -> str:
-        searched = f"{len(found)} of {len(files)} certificates found, " if args.search else ""
-        return f"{searched}{len(checked)} of {len(files)} theorems checked"
+        running = len(found) < len(names)
+        return f"{len(found)} of {len(names)} certificates found" if running else ""
 
-    Heartbeat(progress)
-    for name in files if args.search else ():
-        print_error(f"searching for a certificate of {name}")
+    heartbeat = Heartbeat(progress)
+    for name in names:
+        heartbeat.print(f"reproduce: searching for a certificate of {name}")
         prefix = f"no certificate of {name}: "
         with one_line(prefix), one_line(prefix, NotProvedError):
-            found[name] = search_certificate(name)
-    status = 0
-    for name in files:
-        result = THEOREMS[name].check(found.get(name))
-        print(result.line(), flush=True)
-        checked.append(name)
-        status |= result.verdict != "proved"
-    if found and status:
-        raise UsageError("the certificates are left as they were: a new one is not proved")
-    with ExitStack() as replaced:  # all of them, once each is proved and written
+            text = search_certificate(name)
+            THEOREMS[name].prove(text)
+            found[name] = text
+    with ExitStack() as replaced:  # all of them, once each is written
         for name, text in found.items():
-            replaced.enter_context(replacing(ROOT / files[name])).write_text(text)
-    print("", *files.values(), sep="\n", flush=True)
-    return status
+            file = ROOT / paths.CERTIFICATES / f"{name}.toml"
+            replaced.enter_context(replacing(file)).write_text(text)
