@@ -70,7 +70,7 @@ class Outline(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags.append((tag, dict(attrs)))
-        if tag not in ("meta", "link", "img"):
+        if tag not in ("meta", "link", "img", "wbr", "input"):
             self.open.append(tag)
 
     def handle_endtag(self, tag):
@@ -97,12 +97,19 @@ def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
 def test_the_page_needs_no_network_and_its_links_have_targets(reported, text):
     outline = Outline(text)
     policy = [a["content"] for a in outline.all("meta") if "http-equiv" in a]
-    assert policy == ["default-src 'none'; img-src data:; style-src 'unsafe-inline'"]
+    (script,) = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert policy == [
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
+        f"script-src 'sha256-{digest}'"
+    ]
     assert [a["href"] for a in outline.all("link")] == ["data:,"]
-    assert not outline.all("script") and "@import" not in text and "url(" not in text
+    assert outline.all("script") == [{}] and "@import" not in text and "url(" not in text
     for image in outline.all("img"):
         assert image["src"].startswith("data:image/png;base64,")
-        assert len(image["alt"]) > 40 and image["width"] and image["height"]
+    whole = [image for image in outline.all("img") if image["alt"]]
+    assert all(len(image["alt"]) > 40 and image["width"] and image["height"] for image in whole)
+    assert len(outline.all("img")) == len(whole) + 3  # small copies of fig3, fig6 and fig7
     ids = Counter(a["id"] for _, a in outline.tags if "id" in a)
     assert set(ids.values()) == {1}
     links = [a["href"] for a in outline.all("a")]
@@ -112,28 +119,32 @@ def test_the_page_needs_no_network_and_its_links_have_targets(reported, text):
     scenes = {*collect(config.load(reported.config), reported.path)["scenes"]}
     assert {"fig3", "fig6", "fig7", "low/fig3"} <= opened <= scenes
     assert "../explorer.html" in explorer
-    assert {*links} - {*explorer} <= {f"#{name}" for name in ids}
+    files = {link for link in links if link.startswith("../../")}
+    assert all((reported.path / link[6:]).is_file() for link in files)
+    assert "../../results/paper/periodic_fig3.nc" in files
+    assert {*links} - {*explorer} - files <= {f"#{name}" for name in ids}
     levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h\d", tag)]
     assert levels[0] == 1 and levels.count(1) == 1
     assert all(b <= a + 1 for a, b in pairwise(levels))
     assert outline.all("html") == [{"lang": "en"}]
 
 
-def test_article_and_archives_are_linked_or_the_page_says_how_to_make_them(
-    reported, text, tmp_path
-):
-    for command in ("article", "archive"):
-        assert f"not made yet; run <code>./reproduce {command}</code>" in text
-    tree = reported.copy(tmp_path / "copy")
-    results = tree.path / "results"
-    files = [results / "article.pdf", results / "archive" / "pseudorigid-python3.13-x86_64.tar"]
-    (results / "archive").mkdir()
-    for file in files:
-        file.write_bytes(b"")
-    html = rendered(tree)
-    links = {f"../{file.relative_to(results)}" for file in files} | {"../explorer.html", "#claims"}
-    assert links <= {a["href"] for a in Outline(html).all("a")}
-    assert "not made yet" not in html
+def test_in_the_site_the_links_are_to_its_own_files(reported):
+    html = page.render(reported.path, config.load(reported.config), in_site=True)
+    links = {a["href"].partition("#")[0] for a in Outline(html).all("a")} - {""}
+    data = {f"paper/{name}.nc" for name in ("periodic_fig3", "motion_fig3", "lyapunov_fig7")}
+    assert {"explorer.html", "article.html", "article.pdf"} | data <= links
+    assert all(link.startswith("paper/") or "/" not in link for link in links)
+
+
+def test_the_first_screen_counts_the_verdicts(text):
+    rows = claims.read_json((ROOT / "CLAIMS.json").read_text(encoding="utf-8"))
+    first, _, _ = text.partition("<main")
+    for verdict, count in Counter(row.verdict for row in rows).items():
+        assert f'data-pick="{verdict}">{verdict}: {count}<' in first
+    assert len(re.findall(r'<tr role="row" id="claim-\d+" data-verdict="holds">', text)) == sum(
+        row.verdict == "holds" for row in rows
+    )
 
 
 def test_each_figure_has_its_caption_and_numbers(reported, text):
@@ -154,13 +165,14 @@ def test_corrections_first_and_the_whole_table(text):
     assert {f'href="#claim-{row.number}"' for row in wrong} == set(
         re.findall(r'href="#claim-\d+"', above)
     )
-    assert len(re.findall(r'<tr role="row" id="claim-\d+">', whole)) == len(claims.CLAIMS)
+    assert len(re.findall(r'<tr role="row" id="claim-\d+" ', whole)) == len(claims.CLAIMS)
 
 
 def test_the_page_depends_on_results_alone_but_for_provenance(reported, text, tmp_path):
     record = reported.path / "results" / "paper" / "provenance" / "fig3.png.json"
     assert json.loads(record.read_text())["output"]["sha256"] in text
-    made = re.findall(r'class="break">(results/\S+)</th>.*data-label="seconds">([^<]*)<', text)
+    plain = text.replace("<wbr>", "")
+    made = re.findall(r'>(results/[^<]+)</a></th>.*data-label="seconds">([^<]*)<', plain)
     assert len(made) == 8 + 5 and all(re.fullmatch(r"\d+\.\d", seconds) for _, seconds in made)
     assert rendered(reported) == text
     copy = reported.copy(tmp_path / "elsewhere")
@@ -210,7 +222,7 @@ def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
         files = sorted(folder.glob("*.png"))
         sums = [f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in files]
         (folder / "SHA256SUMS").write_text("".join(sums))
-    text = rendered(tree)
+    text = re.sub(r"<wbr>|</?a\b[^>]*>", "", rendered(tree))
     for path in pictures:
         assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1, path
         assert f"{path.parent.name}/{path.name}: the committed one (" in text
@@ -307,4 +319,34 @@ def test_in_a_browser(reported, text, tmp_path, width):
     results = reported.path / "results"
     files = [results / f"paper/figures/{name}.png" for name in ("fig3", "fig6", "fig7")]
     shapes = [pixels(file).shape for file in (*files, *sorted(results.glob("low/figures/*.png")))]
-    assert found["images"] == [[wide, high] for high, wide, _ in shapes]
+    assert found["images"][3:] == [[wide, high] for high, wide, _ in shapes]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
+def test_the_table_of_statements_is_filtered_and_a_link_shows_a_hidden_one(text, tmp_path):
+    """The numbers of rows in sight: all, proved, with a word, and after a link to another one."""
+    look = """
+    const seen = [], form = document.getElementById("filter");
+    const look = () => {
+      form.dispatchEvent(new Event("input", {bubbles: true}));
+      const rows = [...document.querySelectorAll("tr[data-verdict]")];
+      seen.push(rows.filter((row) => row.getClientRects().length).length);
+    };
+    look();
+    form.verdict.value = "proved"; look();
+    form.verdict.value = ""; form.words.value = "diffeomorphism smooth"; look();
+    addEventListener("hashchange", () => { look(); document.title = seen.join(" "); });
+    location.hash = "claim-1";
+    """
+    plain = re.sub(r"<meta http-equiv[^>]*>", "", text)
+    (tmp_path / "page.html").write_text(plain.replace("</body>", f"<script>{{{look}}}</script>"))
+    command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu"]
+    command += [f"--user-data-dir={tmp_path}/profile", "--virtual-time-budget=20000", "--dump-dom"]
+    command.append((tmp_path / "page.html").as_uri())
+    dom = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout
+    rows = claims.read_json((ROOT / "CLAIMS.json").read_text(encoding="utf-8"))
+    proved = sum(row.verdict == "proved" for row in rows)
+    whole, shown, found, after = map(int, re.search(r"<title>([\d ]+)<", dom)[1].split())
+    assert (whole, shown, after) == (len(rows), proved, len(rows))
+    assert 1 <= found < 10

@@ -5,6 +5,8 @@ import json
 import re
 import shutil
 import subprocess
+from collections import Counter
+from html.parser import HTMLParser
 
 import netCDF4
 import pytest
@@ -95,8 +97,69 @@ def test_the_article_has_the_same_bytes_each_time_and_is_valid(tree):
         fields = dict(line.split(":", 1) for line in info.splitlines())
         assert fields["Title"].strip() == data_title(tree)
         assert fields["Tagged"].strip() == "yes"
-        assert 8 <= int(fields["Pages"]) <= 14
+        assert 8 <= int(fields["Pages"]) <= 24
         assert not {"CreationDate", "ModDate"} & {*fields}
+
+
+class Links(HTMLParser):
+    """The targets of a page's links, its ids, and the sources of what it loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.ids, self.loaded = [], Counter(), []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        self.ids.update([attributes["id"]] if "id" in attributes else [])
+        if tag == "a" and "href" in attributes:
+            self.links.append(attributes["href"])
+        if "src" in attributes:
+            self.loaded.append(attributes["src"])
+
+
+def test_the_web_page_has_the_same_bytes_each_time_and_its_links_have_targets(tree):
+    pytest.importorskip("typst")
+    source = tree / "source" / SOURCE.name
+    made = [typesetting.web_page(tree, tree / "numbers.json", source) for _ in range(2)]
+    assert made[0] == made[1]
+    text = made[0].decode()
+    page = Links(text)
+    assert set(page.ids.values()) == {1}
+    assert {link for link in page.links if link.startswith("#")} <= {
+        f"#{name}" for name in page.ids
+    }
+    # Each number leads to its data, each statement to the row of the ledger.
+    assert '<a href="#data-fig7">b</a>' in text
+    assert "report.html#claim-21" in page.links
+    assert "paper/orbits_fig2.nc" in page.links
+    assert page.loaded and all(source.startswith("data:image/") for source in page.loaded)
+    assert "<script" not in text and "<math" in text
+
+
+def test_the_article_is_a_draft_until_citation_cff_is_complete(tree):
+    def first_page(**facts):
+        data = json.loads((tree / "numbers.json").read_text()) | facts
+        (tree / "numbers.json").write_text(json.dumps(data))
+        source = tree / "source" / SOURCE.name
+        return typesetting.web_page(tree, tree / "numbers.json", source).decode()
+
+    pytest.importorskip("typst")
+    assert "Draft." in first_page(missing=["names of the authors"])
+    person = {"name": "Ann Bee", "orcid": "https://orcid.org/0-1"}
+    whole = first_page(
+        missing=[], authors=[person], date="2026-01-01", addresses=["https://doi.org/10.1/x"]
+    )
+    assert "Draft." not in whole
+    for words in ("Ann Bee", "https://orcid.org/0-1", "2026-01-01", "https://doi.org/10.1/x"):
+        assert words in whole
+
+
+def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
+    ours = {scene: data["figures"][scene]["settings"]["axes"] for scene in numbers.PRINTED_TICKS}
+    for scene, axes in numbers.PRINTED_TICKS.items():
+        for axis, ticks in axes.items():
+            assert {*ticks} <= {*ours[scene][axis]["ticks"]}
 
 
 def data_title(tree):
@@ -110,6 +173,7 @@ def data_title(tree):
         ("@greene", "@green", "green"),
         ("#findings(42)", "#findings(4242)", "none"),
         ('#beside("fig2")', '#beside("fig9")', "fig9"),
+        ('#theorem("entropy")', '#theorem("no-theorem")', "none"),
     ],
 )
 def test_a_number_or_reference_that_does_not_exist_is_one_line(tree, old, new, problem):

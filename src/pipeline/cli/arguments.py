@@ -125,6 +125,12 @@ COMMANDS = {
         "set the replication article, results/article.pdf, from current results",
         details=" Installs the typesetter first (once).",
     ),
+    "site": SnakemakeCommand(
+        "write one folder to mail or serve: report, explorer and article, in results/site/",
+        module="site",
+        details=" All published files must be the committed ones. Installs the typesetter first "
+        "(once).",
+    ),
     "verify": Command(
         "check whether everything is as committed, and if not, show what differs",
         (

@@ -21,6 +21,7 @@ LEDGER = "CLAIMS.md"  # the verdicts on the paper's statements
 LEDGER_DATA = "CLAIMS.json"  # the data from which CLAIMS.md is rendered
 EXPLORER = "results/explorer.html"
 ARTICLE = "results/article.pdf"
+SITE = "results/site"
 DERIVATIONS = "results/claims/derivations.nc"
 CERTIFICATES = os.path.relpath(Path(*proofs.__path__) / "certificates", ROOT)
 THEOREMS = sorted(file.stem for file in (ROOT / CERTIFICATES).iterdir())

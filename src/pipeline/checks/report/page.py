@@ -4,11 +4,15 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 """
 
 import base64
+import hashlib
+import io
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import jinja2
+from PIL import Image
 
 from ...config import PAPER, PUBLISHED, build_specs, paths
 from ...config.schema.kinds import KINDS
@@ -23,9 +27,10 @@ from ..published_sets import IDENTICAL, committed_sets, committed_state
 from ..quantities import measured, printed
 from ..verify import Findings, inspect
 from .captions import caption_of
+from .links import Links
 
-# What the commands of these names write into results/: pattern of the files.
-_OTHERS = {"Article": "article.pdf", "Archive": "archive/pseudorigid*.tar"}
+# Of ./reproduce site, beside the report: name in the menu -> file.
+_ARTICLE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -33,38 +38,59 @@ _TEMPLATES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
+# What filters the table of statements; without it, the whole table is shown.
+_SCRIPT = Path(__file__).with_name("filter.js").read_text(encoding="utf-8")
+_THUMBNAIL_STEP = 5  # pixels of a picture per pixel of its thumbnail
 Picture = dict[str, Any]  # what the template shows of a picture
 
 
-def render(root: Path, checked: dict[str, Any]) -> str:
+def render(root: Path, checked: dict[str, Any], *, in_site: bool = False) -> str:
     """Return the page of the tree at `root`.
 
-    Raises ValueError, which names the file, if a result cannot be read.
+    In the folder of ./reproduce site the explorer and the article lie beside it. Raises ValueError,
+    which names the file, if a result cannot be read.
     """
-    page, results = _Page(root, checked), root / "results"
+    page = _Page(root, checked)
     figures = page.variant(PAPER)
     variants = {name: page.variant(name) for name in page.variants if name not in PUBLISHED}
     made = {name: shown for name, shown in variants.items() if any(p["image"] for p in shown)}
+    verdicts = page.claims()
+    on_request = page.on_request()
+    shown = [figures, *variants.values(), *(pictures for _, pictures in on_request)]
+    links = Links(root, {p["published"]: p["id"] for group in shown for p in group}, in_site)
     return _TEMPLATES.get_template("page.html").render(
+        linked=links.of,
         figures=figures,
         variants=made,
         unmade=[name for name in variants if name not in made],
-        more=page.on_request(),
-        claims=page.claims(),
+        more=on_request,
+        claims=verdicts,
         corrected=(FALSE, CORRECTED),
         results=list(page.provenance()),
-        others={
-            name: sorted(str(file.relative_to(results)) for file in results.glob(pattern))
-            for name, pattern in _OTHERS.items()
-        },
+        counts=_counts(verdicts),
+        policy=_source_of(_SCRIPT),
+        script=_SCRIPT,
+        explorer="explorer.html" if in_site else "../explorer.html",
+        article=_ARTICLE if in_site else {},
     )
+
+
+def _counts(verdicts: list[Verdict]) -> list[tuple[str, int]]:
+    """Return each verdict that occurs, in the order of the table, and how often it does."""
+    return list(Counter(row.verdict for row in verdicts).items())
+
+
+def _source_of(script: str) -> str:
+    """Return what a content security policy calls a script."""
+    digest = hashlib.sha256(script.encode()).digest()
+    return f"sha256-{base64.b64encode(digest).decode()}"
 
 
 def _described(identifier: str, variant: str, name: str, block: dict[str, Any] | None) -> Picture:
     """Return a picture's caption and its place in the explorer, without an image."""
     scene = block if block and "picture" in block else None
     picture: Picture = caption_of(name, block)._asdict()
-    picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
+    picture |= {"id": identifier, "image": None, "rows": [], "headline": None, "published": ""}
     return picture | {"explorer": address(variant, name, scene) if scene else None}
 
 
@@ -72,7 +98,15 @@ def _image(file: Path) -> Picture:
     """Return a PNG as text, with its size in pixels."""
     high, wide, _ = pixels(file).shape
     data = base64.b64encode(read_bytes(file)).decode()
-    return {"image": {"data": data, "wide": wide, "high": high}}
+    return {"image": {"data": data, "wide": wide, "high": high, "small": _thumbnail(file)}}
+
+
+def _thumbnail(file: Path) -> str:
+    """Return a small copy of a PNG as text."""
+    small = io.BytesIO()
+    with Image.open(file) as image:
+        image.convert("RGB").reduce(_THUMBNAIL_STEP).save(small, "png")
+    return base64.b64encode(small.getvalue()).decode()
 
 
 class _Page:
@@ -95,6 +129,7 @@ class _Page:
             else:
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
                 numbers = self._measured(name, scene) | {"file": _file(self.root, name, drawing)}
+                numbers["published"] = _published(name, drawing)
                 pictures.append(picture | self._made(drawing, data) | numbers)
         for scene, reason in self.left_out.get(name, {}).items():
             picture = _described(f"{name}-{scene}", name, scene, self.variants[PAPER][scene])
@@ -121,7 +156,9 @@ class _Page:
         if drawing and drawing not in findings.stale:
             numbers = self._measured(variant, scene) if variant in self.variants else {}
             made = self._made(drawing, published_set.data[scene].values())
-            return picture | made | numbers | {"rows": [], "file": published}
+            return (
+                picture | made | numbers | {"rows": [], "file": published, "published": published}
+            )
         if not (self.root / published).is_file():
             return None
         if drawing and committed_state(self.root, published) != IDENTICAL:
@@ -133,7 +170,7 @@ class _Page:
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
             origin += "; made from other values than config.yaml's"
         file = f"{published}: the committed one ({origin}), not made by this tree"
-        return picture | _image(self.root / published) | {"file": file}
+        return picture | _image(self.root / published) | {"file": file, "published": published}
 
     def _made(self, drawing: str, data: Iterable[str]) -> Picture:
         """Return the image of a current drawing, and list it with its data as shown."""
@@ -167,5 +204,9 @@ def _file(root: Path, variant: str, drawing: str) -> str:
     """Return where a picture is published, and how it compares with the commit."""
     if variant != PAPER:
         return drawing
-    path = f"{PUBLISHED[PAPER]}/{Path(drawing).name}"
+    path = _published(variant, drawing)
     return f"{path}: {committed_state(root, path)}"
+
+
+def _published(variant: str, drawing: str) -> str:
+    return f"{PUBLISHED[PAPER]}/{Path(drawing).name}" if variant == PAPER else drawing

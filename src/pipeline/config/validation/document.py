@@ -14,7 +14,7 @@ from .words import ConfigError, refusal
 # Commands of ./reproduce. A scene of the same name could not be asked for.
 COMMANDS = (
     *("list", "variant", "compare", "sweep", "atlas", "study", "claims", "families", "prove"),
-    *("report", "explore", "article", "archive", "verify", "accept", "clean", "benchmark"),
+    *("report", "explore", "article", "site", "archive", "verify", "accept", "clean", "benchmark"),
     *("test", "help", "all"),
 )
 _Scenes = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]

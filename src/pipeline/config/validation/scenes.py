@@ -17,7 +17,7 @@ from .mistakes import complete, has_types, mistakes
 from .words import Place, dotted, refusal, unknown
 
 # Names that a variant may not have: folders in results/, and commands.
-RESERVED = (*FOLDERS, "sweeps", "atlas", "compare", "report", "archive")
+RESERVED = (*FOLDERS, "sweeps", "atlas", "compare", "report", "archive", "site")
 _OF_ALL_SCENES = ("ball", "energy", "method")
 
 

@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+import tomllib
 from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -18,8 +20,12 @@ from ...config import PAPER, PUBLISHED, paths
 from ...records.files import read_text
 from .. import citation
 
-_HASH_DIGITS = 16  # of a hash in a caption
+_HASH_DIGITS = 16  # of a dataset's hash
 Table = dict[str, Any]
+# scene -> axis -> the labels that the paper prints at its ticks
+PRINTED_TICKS: dict[str, dict[str, list[float]]] = tomllib.loads(
+    Path(__file__).with_name("printed_ticks.toml").read_text(encoding="utf-8")
+)
 
 
 def numbers_of(root: Path, checked: Table) -> str:
@@ -35,17 +41,19 @@ def numbers_of(root: Path, checked: Table) -> str:
         committed = {each.folder: manifest.read(root, each.folder) for each in sets}
     except published_sets.ChecksumError as error:
         raise ValueError(str(error)) from None
-    figures = {
-        scene: _figure(each.folder, each.command, scene, entry, committed[each.folder]["data"])
-        for each in sets
-        for scene, entry in committed[each.folder]["scenes"].items()
-    }
+    figures: dict[str, Table] = {}
+    for each in sets:
+        for scene, entry in committed[each.folder]["scenes"].items():
+            name = f"{each.group}-{scene}" if scene in figures else scene
+            figures[name] = _figure(each, scene, entry, committed[each.folder]["data"])
     for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
         figures[scene] |= {"rows": _rows(root, checked, scene), "settings": entry["config"]}
     return json.dumps(
         {
             "title": citation.title(facts),
-            "authors": [citation.name_of(author) for author in facts["authors"]],
+            "authors": [_author(author) for author in facts["authors"]],
+            "missing": citation.missing(facts),
+            "date": str(facts.get("date-released", "")),
             "addresses": citation.addresses(facts),
             "keywords": facts["keywords"],
             "version": facts["version"],
@@ -54,6 +62,7 @@ def numbers_of(root: Path, checked: Table) -> str:
             "statements": claims.checkable(verdicts),
             "figures": figures,
             "printed": {"exponent": EXPONENT},
+            "lines": _source_lines(root),
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
             "packages": committed[PUBLISHED[PAPER]]["environment"],
         },
@@ -63,31 +72,52 @@ def numbers_of(root: Path, checked: Table) -> str:
     )
 
 
+def _author(author: citation.Facts) -> Table:
+    return {"name": citation.name_of(author), "orcid": author.get("orcid", "")}
+
+
+def _source_lines(root: Path) -> dict[str, int]:
+    """Return the lines of Python of the science alone, and of everything."""
+    folders = {"science": "src/pseudorigid", "all": "src"}
+    return {
+        name: sum(read_text(file).count("\n") for file in sorted((root / folder).rglob("*.py")))
+        for name, folder in folders.items()
+    }
+
+
 def _rows(root: Path, checked: Table, scene: str) -> Table:
-    """Return quantity -> the paper's value and the one measured in a scene's datasets."""
+    """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
     values = measured(root, checked["variants"], PAPER, scene)
-    return {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
+    rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
+    axes = checked["scenes"][scene]["axes"]
+    return rows | {
+        f"ticks, {axis}": {"paper": _listed(ticks), "ours": _listed(axes[axis]["ticks"])}
+        for axis, ticks in PRINTED_TICKS[scene].items()
+    }
 
 
-def _figure(folder: str, command: str, scene: str, entry: Table, data: Table) -> Table:
+def _listed(ticks: list[float]) -> str:
+    return ", ".join(f"{tick:g}" for tick in ticks)
+
+
+def _figure(published: published_sets.PublishedSet, scene: str, entry: Table, data: Table) -> Table:
     """Return what the article says of a committed picture."""
     caption = caption_of(scene, entry["config"])
-    title = caption.title[0].upper() + caption.title[1:]
-    hashes = []
-    for file in sorted(Path(path).name for path in entry["data"].values()):
-        variables = data[file]["variables"]
-        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
-        digest = hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]
-        hashes.append(f"{file} {digest}")
     # The SVG file of the picture if it has one, else its PNG file.
     file = min(entry["figures"], key=lambda name: not name.endswith(".svg"))
     return {
-        "name": caption.name,
-        "title": title if caption.name == scene else f"{caption.name}: {caption.title}",
+        "title": caption.title[0].upper() + caption.title[1:],
         "shows": caption.shows,
-        "see": caption.see,
-        "file": f"{folder}/{file}",
+        "file": f"{published.folder}/{file}",
         "scene": scene,
-        "command": command,
-        "datasets": ", ".join(hashes),
+        "command": published.command,
+        "datasets": list(_datasets(entry["data"].values(), data)),
     }
+
+
+def _datasets(files: Iterable[str], data: Table) -> Iterator[Table]:
+    """Yield file and hash of each dataset of a picture."""
+    for file in sorted(Path(path).name for path in files):
+        variables = data[file]["variables"]
+        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
+        yield {"file": file, "hash": hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]}

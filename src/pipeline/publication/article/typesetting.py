@@ -1,8 +1,19 @@
 """Set the article with typst, whose package brings the compiler and the fonts."""
 
 from pathlib import Path
+from typing import Any
 
 _SOURCE = Path(__file__).with_name("article.typ")
+_STYLE = Path(__file__).with_name("article.css")
+# typst says this of every page: its export may change, but its version is pinned.
+_KNOWN = "html export is under active development and incomplete"
+_HEAD = """\
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; \
+style-src 'unsafe-inline'">
+<link rel="icon" href="data:,">
+<style>
+{style}</style>
+</head>"""
 
 
 class TypesettingError(ValueError):
@@ -15,18 +26,32 @@ def typeset(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
     The bytes depend on the text, the numbers, the pictures and the version of typst alone. The PDF
     is tagged (PDF/UA-1). Warnings of typst are errors.
     """
+    return _compiled(root, numbers, source, pdf_standards=["ua-1"])
+
+
+def web_page(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
+    """Return the article as one HTML page, with the figures in it and formulas in MathML."""
+    page = _compiled(root, numbers, source, format="html").decode()
+    head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
+    return page.replace("</head>", head, 1).encode()
+
+
+def _compiled(root: Path, numbers: Path, source: Path, **options: Any) -> bytes:
     import typst
 
     try:
-        pdf, problems = typst.compile_with_warnings(
+        compiled, problems = typst.compile_with_warnings(
             str(source),
             root=str(root),
             ignore_system_fonts=True,
-            sys_inputs={"data": f"/{numbers.relative_to(root)}"},
-            pdf_standards=["ua-1"],
+            sys_inputs={
+                "data": f"/{numbers.relative_to(root)}",
+                "format": options.get("format", "pdf"),
+            },
+            **options,
         )
     except (RuntimeError, typst.TypstError) as error:
         raise TypesettingError(" ".join(str(error).split())) from None
-    if problems:
-        raise TypesettingError("; ".join(problem.message for problem in problems))
-    return bytes(pdf)
+    if problems := [each.message for each in problems if each.message != _KNOWN]:
+        raise TypesettingError("; ".join(problems))
+    return compiled.encode() if isinstance(compiled, str) else bytes(compiled)
