@@ -1,5 +1,7 @@
 """The theorems are proved, and other methods find their digits."""
 
+import re
+
 import mpmath
 import numpy as np
 import pytest
@@ -63,6 +65,36 @@ def test_a_new_search_gives_a_certificate_that_holds(name):
     assert THEOREMS[name].check(text).verdict == "proved"
     if name in HORSESHOES:
         assert text == THEOREMS[name].text()
+
+
+# ---- the page
+
+
+PAGE = (ROOT / "docs/proofs.md").read_text(encoding="utf-8")
+CELLS = {  # of each row about a theorem in a table of the page
+    name: row.split(" | ") for name, row in re.findall(r"^\| `(.*?)` \| (.*) \|$", PAGE, re.M)
+    if name in THEOREMS
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [n for n in CELLS if n in QUICK] + slowly("entropy", *CURVES))
+def test_the_tables_of_the_page_have_the_checkers_numbers(name, results):
+    """Digits before `...` are those of an enclosure; margins are cut, and distances rounded up."""
+    result = results[name] if name in QUICK else THEOREMS[name].check()
+    digits, cells = [middle(value) for value in result.digits.values()], CELLS[name]
+    for number in re.findall(r"(-?[\d.]+?)\.\.\.", " ".join(cells)):
+        assert any(value.startswith(number) for value in digits), number
+    margins, cut = [*result.margins.values()], []
+    if name in (*HORSESHOES, "horseshoe-smooth"):
+        cut = cells[2].split(", ")
+    elif name.startswith("entropy"):
+        cut = cells[4].split(", ")
+    elif name in CURVES:
+        cut = cells[4:5]
+        assert 0.5 < float(middle(result.digits["distance"])) / float(cells[5]) <= 1
+    assert len(cut) in (0, 1, len(margins))
+    for text, margin in zip(cut, margins, strict=False):
+        assert 1 <= margin / float(text) < 1.3
 
 
 # ---- digits against other methods
