@@ -386,6 +386,13 @@ def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wron
         claim.judge(datasets, {})
 
 
+def test_true_and_false_are_no_words_of_a_sentence():
+    found = schema.Outcome(HOLDS, {"seen": True})
+    changes = {"function": lambda *_: found, "value": "seen: {seen}", "data": []}
+    with pytest.raises(ConfigError, match="no number 'seen'"):
+        claims.CLAIMS[3].model_copy(update=changes).judge({}, {})
+
+
 # -- what single rows say -------------------------------------------------------------------------
 
 

@@ -149,11 +149,12 @@ class Claim(_Table):
         else:
             outcome = derived(*inputs, *self.formulas)
         sentences = self.cases[outcome.case] if outcome.case else self
-        numbers = dict(outcome.numbers)
+        # True and false choose a text of `parts`, and have none of their own.
+        texts = {n: v for n, v in outcome.numbers.items() if not isinstance(v, bool | np.bool_)}
         try:
-            for name in (name for name in self.parts if name in numbers):
-                numbers[name] = _part(self.parts[name], numbers[name], numbers)
-            value, error = (s.format_map(numbers) for s in (sentences.value, sentences.error))
+            for name in (name for name in self.parts if name in outcome.numbers):
+                texts[name] = _part(self.parts[name], outcome.numbers[name], texts)
+            value, error = (s.format_map(texts) for s in (sentences.value, sentences.error))
         except (LookupError, ValueError, AttributeError, TypeError) as mistake:
             wrong = f"no number {mistake}" if isinstance(mistake, KeyError) else str(mistake)
             raise ConfigError(f"claims.toml: claims.{self.number}: {wrong}") from None
