@@ -70,6 +70,9 @@ def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_difference
 
 @pytest.mark.parametrize("kind", ["sine", "versine"])
 def test_even_functions_enclose_their_taylor_coefficients(kind):
+    """To the present precision, whatever an earlier one was."""
+    one_zero._power_series.cache_clear()
+    one_zero._even_function(kind, arb("3.3"), 3)
     with ctx.workprec(one_zero.BITS):
         (z,) = Jet.series(algebra(1, 3), arb("3.3"))
         sine, cosine = z.sin_cos()

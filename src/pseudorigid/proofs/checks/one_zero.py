@@ -272,7 +272,8 @@ def _even_function(kind: str, value: arb, order: int) -> list[arb]:
     # C(2j, n) <= 4^j, their sum is less than the following.
     left_out = arb(0, arb(2 * 100**_TERMS) / factorial(2 * _TERMS))
     at_middle = [
-        sum((c * powers[p] for p, c in _power_series(kind, n)), left_out) for n in range(most + 1)
+        sum((c * powers[p] for p, c in _power_series(kind, n, ctx.prec)), left_out)
+        for n in range(most + 1)
     ]
     terms = []
     for n in range(order + 1):
@@ -285,8 +286,11 @@ def _even_function(kind: str, value: arb, order: int) -> list[arb]:
 
 
 @cache
-def _power_series(kind: str, n: int) -> list[tuple[int, arb]]:
-    """Return powers and coefficients of the series of the n-th Taylor coefficient."""
+def _power_series(kind: str, n: int, bits: int) -> list[tuple[int, arb]]:
+    """Return powers and coefficients of the series of the n-th Taylor coefficient.
+
+    `bits` is the context's precision, in which the coefficients are kept.
+    """
     sign, more = (-1, 3) if kind == "sine" else (1, 2)
     return [
         (2 * j - n, ball_of(Fraction(sign * (-1) ** j * comb(2 * j, n), factorial(2 * j + more))))
