@@ -124,12 +124,13 @@ class Person:
         chain.release().perform()
 
     def pixels(self):
-        """What the section shows."""
+        """What the section shows, seen from the top of the page."""
+        self.run("window.scrollTo(0, 0)")
         picture = self.find("section").screenshot_as_png
         return np.array(Image.open(io.BytesIO(picture)).convert("RGBA"))
 
-    def saved(self):
-        """Save the chosen orbit as CSV, and return its rows."""
+    def saved(self, name="csv"):
+        """Save the chosen orbit, or all, as CSV, and return the rows."""
         catch = (
             "window.saved = null; const make = URL.createObjectURL;"
             "URL.createObjectURL = blob => {"
@@ -137,9 +138,10 @@ class Person:
         )
         self.run(catch)
         self.unfold("record-panel")
-        self.press("csv")
+        self.press(name)
         text = self.wait(lambda: self.run("return window.saved"))
-        return list(csv.DictReader(io.StringIO(text)))
+        self.comments = [line[2:] for line in text.splitlines() if line.startswith("# ")]
+        return list(csv.DictReader(line for line in text.splitlines() if line[:1] != "#"))
 
     def every_point(self):
         """The impacts of all orbits on the page, joined as in a dataset of orbits."""

@@ -82,7 +82,7 @@ def test_only_the_scripts_of_the_page_may_run(text):
 def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     """Another folder, locale, time zone and order of sets."""
     tree = tmp_path / "another place"
-    for part in ("src", "paper_figures", "pyproject.toml", "config.yaml"):
+    for part in ("src", "paper_figures", "pyproject.toml", "CITATION.cff", "config.yaml"):
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         tree.mkdir(exist_ok=True)
         copy(ROOT / part, tree / part)

@@ -4,6 +4,9 @@ import json
 import tomllib
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote_plus
+
+import yaml
 
 from ..config.paths import PAPER, PUBLISHED
 from ..config.schema.fields import YamlMapping
@@ -23,6 +26,7 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
     project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
     return {
         "version": f"{project['name']} {project['version']}",
+        "citation": citation(),
         "scenes": {
             name: {field: value for field, value in block.items() if field != "formats"}
             for variant, scenes in checked["variants"].items()
@@ -32,6 +36,28 @@ def collect(checked: YamlMapping, root: Path = ROOT) -> dict[str, Any]:
         "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),
         "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
+    }
+
+
+def citation() -> dict[str, Any]:
+    """Return how to cite the software and the paper, and links, from CITATION.cff.
+
+    A paper without a DOI there is linked by a search for its title. Without an address of the
+    repository, links lead from the page's folder to files of the tree.
+    """
+    facts = yaml.safe_load(read_text(ROOT / "CITATION.cff"))
+    (paper,) = (each for each in facts["references"] if each["type"] == "article")
+    search = f"https://search.crossref.org/search/works?q={quote_plus(paper['title'])}"
+    people = [f"{one['given-names']} {one['family-names']}" for one in paper["authors"]]
+    names = ", ".join(one["name"] for one in facts["authors"] if "name" in one)
+    return {
+        "software": f"{names}: {facts['title']}, version {facts['version']}.",
+        "paper": f"{' and '.join(people)}: {paper['title']}. {paper['journal']}.",
+        "links": {
+            "paper": f"https://doi.org/{paper['doi']}" if "doi" in paper else search,
+            "source": facts.get("repository-code", "../README.md"),
+            "citation": "../CITATION.cff",
+        },
     }
 
 

@@ -27,7 +27,7 @@ BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "worker.js")
 APP = (
     *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js"),
-    *("presets.js", "export.js", "atlas.js", "controls.js", "main.js"),
+    *("presets.js", "svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
 )
 
 

@@ -1,8 +1,9 @@
 "use strict";
 /*
- * The atlas as a map: the share of regular motion over k and E/g^2. A click, or arrow keys and Enter,
- * go to a place of it.
+ * The atlas as a map: the share of regular motion over k and E/g^2. Beside it is a small section of
+ * the place under the pointer. A click, or arrow keys and Enter, go there.
  */
+const PEEK = { orbits: 24, impacts: 250 };
 class AtlasView {
   constructor(page, goTo) {
     this.page = page; // its state has the present place
@@ -92,10 +93,16 @@ class AtlasView {
   }
 
   tell(point) {
+    this.shown = point;
     if (!point) {
       setText("atlas-note", "");
+      fitted(element("peek"));
       return;
     }
+    this.peeking ??= requestAnimationFrame(() => {
+      this.peeking = null;
+      if (this.shown) this.peek(this.shown[0], 10 ** this.shown[1]);
+    });
     const { k, energy, bytes, steps } = this.atlas;
     const nearest = (list, value) => {
       const distances = list.map((entry) => Math.abs(entry - value));
@@ -104,6 +111,27 @@ class AtlasView {
     const byte = bytes[nearest(k, point[0]) * energy.length + nearest(energy.map(Math.log10), point[1])];
     const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
     setText("atlas-note", `k = ${shortNumber(point[0], 3)}, E/g² = ${shortNumber(10 ** point[1], 3)}: regular share ${share}`);
+  }
+
+  /** Draw a few short orbits of a ball as points of the disk; g changes the scale only. */
+  peek(k, ratio) {
+    const { pen, width, height } = fitted(element("peek"));
+    const colours = readColours();
+    const size = 0.5 * Math.min(width, height) - 3;
+    const middle = [0.5 * width, 0.5 * height];
+    strokePath(pen, colours.rim, 1.5, () => pen.arc(...middle, size, 0, 2 * Math.PI));
+    const at = Math.min(this.atlas.k.at(-1), Math.max(this.atlas.k[0], k));
+    const { centre, radius, height: tall } = geometry.section(at, 1, ratio);
+    pen.fillStyle = colours.ink;
+    for (let i = 0; i < PEEK.orbits; i++) {
+      const start = pseudorigid.start(at, 1, ratio, (2 * i + 1) / PEEK.orbits - 1);
+      const { x, xdot, udot } = pseudorigid.history(at, 1, ...start, PEEK.impacts);
+      for (let j = 0; j < PEEK.impacts; j++) {
+        const across = (x[j] - centre) / radius;
+        const up = (xdot[j] - at * udot[j]) / tall;
+        pen.fillRect(middle[0] + size * across - 0.5, middle[1] - size * up - 0.5, 1, 1);
+      }
+    }
   }
 }
 

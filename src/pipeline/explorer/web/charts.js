@@ -38,8 +38,8 @@ function drawRing(pen, [left, top], radius, ground, colour) {
 }
 
 class Plot {
-  constructor(pen, { width, height, frame, colours, across, up }) {
-    Object.assign(this, { pen, frame, colours, across, up });
+  constructor(pen, { width, height, frame, colours, across, up, logarithmic = false }) {
+    Object.assign(this, { pen, frame, colours, across, up, logarithmic });
     this.size = [width - frame.left - frame.right, height - frame.top - frame.bottom];
     pen.font = `13px ${colours.font}`;
   }
@@ -66,7 +66,9 @@ class Plot {
     const bottom = frame.top + size[1];
     [this.across, this.up].forEach(([low, high], index) => {
       const middle = 0.5 * (low + high);
-      const { offsets, labels } = ticksAround(middle, high - low, size[index] / (index ? 34 : 70));
+      const decades = !index && this.logarithmic;
+      const ticks = decades ? decadesAround(low, high) : ticksAround(middle, high - low, size[index] / (index ? 34 : 70));
+      const { offsets, labels } = ticks;
       offsets.forEach((offset, i) => {
         const [left, top] = this.at(index ? [this.across[0], middle + offset] : [middle + offset, this.up[0]]);
         strokePath(pen, colours.line, 1, () => {
@@ -132,21 +134,36 @@ class Plot {
   }
 }
 
-/** Exponents so far against the number of impacts, as in Figure 7. */
+/** Ticks at powers of ten between two logarithms, and at 2 and 5 times them where there are few. */
+function decadesAround(low, high) {
+  const ticks = [];
+  for (let n = Math.floor(low); n <= high; n++) {
+    for (const factor of high - low < 2.5 ? [1, 2, 5] : [1]) ticks.push(factor * 10 ** n);
+  }
+  const shown = ticks.filter((value) => Math.log10(value) >= low && Math.log10(value) <= high);
+  const offsets = shown.map((value) => Math.log10(value) - 0.5 * (low + high));
+  return { offsets, labels: shown.map((value) => COUNT.format(value)) };
+}
+
+/** Exponents so far against the logarithm of the number of impacts; Figure 7 has the number. */
 function drawExponents(canvas, orbits, cursor) {
   const { pen, width, height } = fitted(canvas);
   const colours = readColours();
   const shown = orbits.filter((orbit) => orbit.history.length > 1);
-  const values = shown.flatMap((orbit) => orbit.history.map(([, exponent]) => exponent)).filter(Number.isFinite);
-  const most = Math.max(100, ...shown.map((orbit) => orbit.count));
+  const late = (orbit) => orbit.history.filter(([impacts]) => impacts >= 10);
+  const values = shown.flatMap((orbit) => late(orbit).map(([, exponent]) => exponent)).filter(Number.isFinite);
+  const most = Math.max(1000, ...shown.map((orbit) => orbit.count));
   const top = Math.min(1, Math.max(0.1, ...values));
   const plot = new Plot(pen, {
-    width, height, colours, across: [0, most], up: [-0.06 * top, 1.08 * top],
+    width, height, colours, across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true,
     frame: { left: 50, top: 24, right: 26, bottom: 36 },
   });
   plot.axes("number of impacts", "largest exponent so far");
-  for (const orbit of shown) plot.line(orbit.history, orbit.colour(colours));
-  if (cursor >= 0 && shown.length) plot.vertical(cursor, colours.focus);
+  const order = [...shown].sort((a, b) => b.isSea() - a.isSea());
+  for (const orbit of order) {
+    plot.line(late(orbit).map(([impacts, exponent]) => [Math.log10(impacts), exponent]), orbit.colour(colours));
+  }
+  if (cursor > 0 && shown.length) plot.vertical(Math.log10(cursor), colours.focus);
 }
 
 /** Rotation numbers against the starts along y = 0, as in the picture `rotation`. */

@@ -3,6 +3,7 @@
 const NEAR_LINE = { mouse: 8, pen: 12, touch: 18 }; // pixels from y = 0 where a drag shoots a fan
 const CLICK = 6; // pixels that a pointer may move in a click
 const FAN = 12; // orbits of a fan that is shot by dragging
+const DOUBLE = 400; // ms within which a second click at the same place is not another start
 
 class Controls {
   constructor(page) {
@@ -25,15 +26,51 @@ class Controls {
 
   fill() {
     const option = (value, text) => node("option", { value, textContent: text });
-    const known = this.page.data.presets.filter(({ name }) => this.page.data.scenes[name]);
-    element("preset").append(option("", "My own"), ...known.map(({ name, title }) => option(name, title)));
+    const own = option("", "My own");
+    element("preset").append(own, ...this.menu(option));
     element("span").append(...[8, 16, 30, 60, 120].map((span) => option(span, `${span} / ω`)));
     for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
     element("period").append(option("all", "1 to 12"));
     element("period").value = "6";
     for (const field of document.querySelectorAll("input")) field.autocomplete = "off";
-    element("version").textContent = this.page.data.version;
+    const { version, citation } = this.page.data;
+    element("version").textContent = version;
+    element("cite").textContent = `To cite this page: ${citation.software} To cite the paper: ${citation.paper}`;
+    for (const [id, link] of Object.entries(citation.links)) element(id).href = link;
     this.option = option;
+  }
+
+  /** The pictures of the paper, its claims and proofs, and those of each variant. */
+  menu(option) {
+    const { presets, scenes } = this.page.data;
+    const titles = new Map(presets.map(({ name, title }) => [name, title]));
+    const groups = new Map();
+    for (const name of [...titles.keys(), ...Object.keys(scenes)]) {
+      const [variant, scene] = name.includes("/") ? name.split("/") : ["", name];
+      const group = groups.get(variant) ?? new Map();
+      const title = titles.get(scene) ?? scene;
+      if (scenes[name]) group.set(name, variant ? `${title.split(":")[0]}, ${variant}` : title);
+      groups.set(variant, group);
+    }
+    return [...groups].flatMap(([variant, group]) => {
+      const options = [...group].map(([name, title]) => option(name, title));
+      return variant ? [node("optgroup", { label: `Variant ${variant}` }, ...options)] : options;
+    });
+  }
+
+  /** Say under the picture what there is to see; a change of the picture makes it one's own. */
+  words() {
+    const { preset, k, g, energy } = this.state;
+    element("preset").value = preset;
+    const values = `k = ${shortNumber(k)}, g = ${shortNumber(g)}, E = ${shortNumber(energy)}`;
+    const [variant, scene] = preset.split("/");
+    const { presets } = this.page.data;
+    const title = presets.find(({ name }) => name === (scene ?? preset))?.title.split(":")[0] ?? scene;
+    let text = presets.find(({ name }) => name === preset)?.see;
+    const how = "Orbits on closed curves or small islands are regular, those that scatter are chaotic.";
+    if (scene) text = `${title} of the variant ${variant}, at ${values}. ${how}`;
+    else text ??= `A picture of your own, at ${values}. ${how}`;
+    setText("see", text);
   }
 
   /** Set all fields from the state. */
@@ -44,14 +81,7 @@ class Controls {
     }
     this.slides();
     this.validate();
-    const choices = element("preset");
-    if (this.page.data.scenes[state.preset] && ![...choices.options].some(({ value }) => value === state.preset)) {
-      choices.append(this.option(state.preset, state.preset));
-    }
-    choices.value = state.preset;
-    const preset = this.page.data.presets.find(({ name }) => name === state.preset);
-    element("see").textContent =
-      preset?.see ?? "Closed curves are regular motion, scattered points are chaos.";
+    this.words();
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
       element("span").append(this.option(state.span, `${state.span} / ω`));
     }
@@ -59,6 +89,8 @@ class Controls {
     element("impacts").value = String(state.impacts);
     element("back").checked = state.back;
     element("jump").checked = state.jump;
+    this.editing = false;
+    this.showBranches();
     this.press();
     this.listOrbits();
     this.listPeriodic();
@@ -215,20 +247,26 @@ class Controls {
     return errors.every((error) => !error);
   }
 
-  /** Take over k, g and E if they are allowed; the starts keep their places. */
+  /** Take over k, g and E soon if they are allowed. */
   applyBall(delay = 30) {
     clearTimeout(this.ballWaits);
-    if (!this.validate()) return;
+    if (this.validate()) this.ballWaits = setTimeout(() => this.takeBall(), delay);
+  }
+
+  /** Take over k, g and E; the starts keep their places. What one drag does is undone at once. */
+  takeBall() {
+    clearTimeout(this.ballWaits);
+    const { page, state } = this;
     const { k, g, E } = this.typed();
-    if (k === this.state.k && g === this.state.g && E === this.state.energy) return;
-    this.ballWaits = setTimeout(() => {
-      Object.assign(this.state, { k, g, energy: E, preset: "" });
-      element("preset").value = "";
-      this.slides();
-      this.atlas.draw();
-      this.page.restart(true);
-      this.listOrbits();
-    }, delay);
+    if (!this.validate() || (k === state.k && g === state.g && E === state.energy)) return;
+    if (!this.editing) page.mark();
+    this.editing = true;
+    Object.assign(state, { k, g, energy: E });
+    for (const orbit of page.orbits) orbit.xy = null;
+    this.slides();
+    this.atlas.draw();
+    page.restart(true);
+    page.changedOrbits();
   }
 
   // ---------------------------------------------------------------- listeners
@@ -240,6 +278,7 @@ class Controls {
       const name = element("preset").value;
       if (!name) return;
       page.pause();
+      page.mark();
       page.show(presetState(name, page.data.scenes));
       this.welcome();
     });
@@ -270,7 +309,30 @@ class Controls {
         element(name).value = String(this.slid(name));
         this.applyBall();
       });
+      for (const id of [name, `${name}-slide`]) {
+        on(id, "change", () => {
+          this.takeBall();
+          this.editing = false;
+        });
+      }
     }
+    on("undo", "click", () => page.undo());
+    document.addEventListener("keydown", (event) => {
+      const { key, target } = event;
+      const writes = target.matches("textarea, input:not([type])"); // fields undo what is typed
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || writes) return;
+      const further = key === "y" || (event.shiftKey && key.toLowerCase() === "z");
+      if (further) window.history.forward();
+      else if (key === "z") page.undo();
+      else return;
+      event.preventDefault();
+    });
+    document.addEventListener("toggle", () => page.saveSoon(), true);
+    on("speed", "change", () => page.saveSoon());
+    on("finger", "click", () => {
+      const turns = this.box.classList.toggle("turns");
+      element("finger").setAttribute("aria-pressed", turns);
+    });
     on("clear", "click", () => {
       page.clear();
       this.hint("Start an orbit anywhere on the section.");
@@ -332,13 +394,31 @@ class Controls {
     this.page.look();
     this.updateFacts();
     this.atlas.draw();
+    this.page.saveSoon();
+  }
+
+  /** What a reload restores besides the address. */
+  kept() {
+    const open = [...document.querySelectorAll("details[open]")].map(({ id }) => id);
+    return { theme: document.documentElement.dataset.theme, open, speed: element("speed").value };
+  }
+
+  restore(kept) {
+    if (!kept?.theme) return;
+    this.theme(kept.theme);
+    element("speed").value = kept.speed;
+    for (const id of kept.open) element(id).open = true;
+  }
+
+  showUndo() {
+    element("undo").disabled = this.page.at === 0;
   }
 
   startTyped() {
     const { k, g, energy } = this.state;
     const [x, y] = ["start-x", "start-y"].map((id) => readNumber(element(id).value));
-    const { centre, radius, height } = geometry.section(k, g, energy);
-    const [p, q] = [(x - centre) / radius, y / height];
+    const { centre, radius } = geometry.section(k, g, energy);
+    const [p, q] = geometry.placeAt(k, g, energy, x, y);
     let error = "";
     if (Number.isNaN(x) || Number.isNaN(y)) error = "x and y of a start are numbers";
     else if (!(p * p + q * q < 1)) {
@@ -346,7 +426,7 @@ class Controls {
       error = `x = ${shortNumber(x)}, y = ${shortNumber(y)} lies outside the section: on y = 0, x runs from ${low} to ${high}`;
     }
     complain("start", error, "start-x", "start-y");
-    if (!error) this.begin([[p, q]]);
+    if (!error) this.begin([[p, q]], [x, y]);
   }
 
   fanTyped() {
@@ -361,10 +441,11 @@ class Controls {
   }
 
   /** Start orbits of one's own. */
-  begin(places) {
-    this.state.preset = "";
-    element("preset").value = "";
-    this.page.startOrbits(places);
+  begin(places, xy = null) {
+    this.page.startOrbits(places, xy);
+    if (places.length > 1) return;
+    this.watched = this.page.orbits.at(-1);
+    this.hint("An orbit has started there, and its ball bounces.");
   }
 
   shoot(from, to, count = FAN) {
@@ -387,7 +468,7 @@ class Controls {
       [view.x, view.y] = [0, 0];
       section.project();
       const { k, g, energy } = this.state;
-      const at = section.screen(...geometry.stateAt(k, g, energy, ...place));
+      const at = section.screen(...geometry.stateAt(k, g, energy, { p: place[0], q: place[1] }));
       if (at) {
         view.x = (at[0] - section.middle[0]) / section.scale;
         view.y = (section.middle[1] - at[1]) / section.scale;
@@ -445,6 +526,7 @@ class Controls {
     this.drawing = requestAnimationFrame(() => {
       this.drawing = null;
       this.page.section.look();
+      if (this.hovered) element("where").textContent = this.describe(this.hovered);
       this.page.viewChanged();
     });
   }
@@ -471,7 +553,8 @@ class Controls {
       }
       if (down.size > 2) return;
       const place = this.onLine(point, event.pointerType);
-      gesture = { kind: "click", from: point, fan: place, pan: event.shiftKey || event.button === 1 };
+      const scrolls = event.pointerType === "touch" && !box.classList.contains("turns");
+      gesture = { kind: "click", from: point, fan: place, scrolls, pan: event.shiftKey || event.button === 1 };
       this.hideCross();
     });
     box.addEventListener("pointermove", (event) => {
@@ -494,15 +577,24 @@ class Controls {
     box.addEventListener("pointerup", lift);
     box.addEventListener("pointercancel", lift);
     box.addEventListener("pointerleave", () => {
+      this.hovered = null;
       element("where").textContent = "";
     });
+    box.addEventListener(
+      "touchmove",
+      (event) => {
+        if (event.touches.length > 1 && event.cancelable) event.preventDefault(); // no scrolling
+      },
+      { passive: false },
+    );
     box.addEventListener(
       "wheel",
       (event) => {
         event.preventDefault();
         const lines = event.deltaMode === 1 ? 30 : 1;
         const amount = Math.max(-240, Math.min(240, event.deltaY * lines));
-        this.zoom(Math.exp(0.0022 * amount), at(event));
+        this.hovered = at(event);
+        this.zoom(Math.exp(0.0022 * amount), this.hovered);
       },
       { passive: false },
     );
@@ -535,6 +627,7 @@ class Controls {
   }
 
   hover(point, type) {
+    this.hovered = point;
     this.box.classList.toggle("on-line", this.onLine(point, type) !== null);
     element("where").textContent = this.describe(point);
   }
@@ -552,6 +645,7 @@ class Controls {
     if (gesture.kind === "click") {
       if (Math.hypot(point[0] - gesture.from[0], point[1] - gesture.from[1]) < CLICK) return;
       gesture.kind = gesture.fan !== null && !gesture.pan ? "fan" : "move";
+      if (gesture.scrolls) gesture.kind = "scroll";
       before = gesture.from;
     }
     if (gesture.kind === "fan") {
@@ -562,6 +656,7 @@ class Controls {
       this.page.section.drawCursors();
       return;
     }
+    if (gesture.kind === "scroll") return;
     const step = [point[0] - before[0], point[1] - before[1]];
     if (this.state.view.kind === "surface" && !gesture.pan) this.turn(...step);
     else this.pan(...step);
@@ -585,15 +680,18 @@ class Controls {
     section.drawCursors();
     if (!gesture || cancelled) return;
     if (gesture.kind === "fan" && gesture.to !== undefined) this.shoot(gesture.fan, gesture.to);
-    if (gesture.kind === "click") this.startAt(gesture.from);
+    if (gesture.kind !== "click") return;
+    const { at = [Infinity, 0], when = 0 } = this.clicked ?? {};
+    const now = performance.now();
+    const again = now - when < DOUBLE && Math.hypot(at[0] - point[0], at[1] - point[1]) < CLICK;
+    this.clicked = { at: point, when: now };
+    if (!again) this.startAt(gesture.from);
   }
 
   startAt(point) {
     const place = this.page.section.place(...point);
-    if (place) {
-      this.begin([place]);
-      this.watched = this.page.orbits.at(-1);
-    } else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+    if (place) this.begin([place]);
+    else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
   }
 
   // ---------------------------------------------------------------- keys
@@ -707,11 +805,13 @@ class Controls {
     on("find", "click", () => {
       const value = element("period").value;
       const periods = value === "all" ? Array.from({ length: 12 }, (_, i) => i + 1) : [Number(value)];
+      page.mark();
       this.state.periods = [...new Set([...this.state.periods, ...periods])].sort((a, b) => a - b);
       page.search();
       page.saveSoon();
     });
     on("forget", "click", () => {
+      page.mark();
       this.state.periods = [];
       page.searcher.restart();
       this.listPeriodic();
@@ -724,7 +824,9 @@ class Controls {
       this.drawBranches();
     });
     on("no-branches", "click", () => {
-      this.state.branches = [];
+      page.mark();
+      Object.assign(this.state, { branches: [], preset: "" });
+      this.words();
       page.branchLines = [];
       page.searcher.restart();
       this.noteBranches("");
@@ -780,9 +882,27 @@ class Controls {
         return this.option(i, `period ${period}, ${type}${number}`);
       }),
     );
+    const { wanted } = this;
+    const at = saddles.findIndex((one) => wanted && writeMotion(one) === writeMotion(wanted));
     if (!saddles.length) select.append(this.option("", "find a saddle first"));
+    else if (at >= 0) select.value = at;
     else if (chosen && saddles[Number(chosen)]) select.value = chosen;
     this.listPoints();
+    if (at >= 0) {
+      element("saddle-point").value = wanted.saddle;
+      this.wanted = null;
+    }
+  }
+
+  /** Set the fields of branches to those that are drawn. */
+  showBranches() {
+    const [first, ...more] = this.state.branches;
+    this.wanted = first;
+    if (!first) return;
+    const both = more.some(({ side, length }) => side !== first.side && length === first.length);
+    element("branch-side").value = both ? "both" : first.side;
+    element("branch-kind").value = first.kind;
+    element("branch-length").value = String(first.length);
   }
 
   periodicRow(orbit, nth) {
@@ -824,8 +944,9 @@ class Controls {
       side: element("branch-side").value,
       length,
     };
-    this.state.branches = [spec];
-    this.state.preset = "";
+    page.mark();
+    Object.assign(this.state, { branches: [spec], preset: "" });
+    this.words();
     page.branchLines = [];
     page.searcher.restart();
     page.search();
@@ -843,7 +964,9 @@ class Controls {
     element("k").value = String(k);
     element("g").value = String(g);
     element("E").value = String(Number((ratio * g * g).toPrecision(6)));
-    this.applyBall();
+    this.editing = false;
+    this.takeBall();
+    this.editing = false;
     const note = g === present ? "" : ` g became ${g}, which changes the scale only.`;
     this.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
   }
@@ -860,20 +983,31 @@ class Controls {
       const first = copied ? "Copied." : "Copy the lines above.";
       setText("scene-note", `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
     });
-    on("csv", "click", () => {
-      const orbit = page.orbits[this.state.chosen];
-      if (!orbit?.count) {
-        setText("record-note", "Choose an orbit first.");
-        return;
-      }
-      download("orbit.csv", new Blob([orbitCsv(orbit)], { type: "text/csv" }));
-      setText("record-note", `orbit.csv has ${COUNT.format(orbit.count)} impacts after the start, to the last bit.`);
-    });
-    on("png", "click", () => {
-      page.section.picture().toBlob((blob) => {
-        download("section.png", blob);
-        setText("record-note", "section.png has the section as it is drawn.");
+    for (const [id, all] of [["csv", false], ["csv-all", true]]) {
+      on(id, "click", () => {
+        const orbits = (all ? page.orbits : [page.orbits[this.state.chosen]]).filter((orbit) => orbit?.count);
+        if (!orbits.length) {
+          setText("record-note", all ? "Start an orbit first." : "Choose an orbit first.");
+          return;
+        }
+        const name = all ? "orbits.csv" : "orbit.csv";
+        download(name, orbitsCsv(page, orbits));
+        const count = orbits.reduce((sum, orbit) => sum + orbit.count, 0);
+        setText("record-note", `${name} has ${COUNT.format(count)} impacts after the start, to the last bit.`);
       });
+    }
+    for (const [id, ratio, name] of [["png2", 2, "section.png"], ["png4", 4, "section.png"], ["svg", null, "section.svg"]]) {
+      on(id, "click", async () => {
+        download(name, await picture(page, ratio));
+        setText("record-note", `${name} has the section as it is drawn, with k, g, E and the address.`);
+      });
+    }
+    on("link", "click", async () => {
+      page.save();
+      const field = element("address");
+      field.value = window.location.href;
+      const copied = await copyText(field.value, field);
+      setText("record-note", copied ? "The link is copied." : "Copy the link above.");
     });
   }
 

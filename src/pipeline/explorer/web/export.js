@@ -1,5 +1,5 @@
 "use strict";
-/* From play to record: a block for config.yaml, CSV of an orbit, PNG of the view. */
+/* From play to record: a block for config.yaml, orbits as CSV, the view as PNG and SVG, the link. */
 
 /** A number as YAML reads it back to the last bit: an exponent needs a point before it. */
 function yamlNumber(value) {
@@ -30,9 +30,10 @@ function sceneBlock(kind, state, orbits, periodic) {
   const shown = orbits.filter((orbit) => !orbit.back);
   if (kind !== "motion" && kind !== "closeup") {
     const starts = shown.map((orbit) => {
-      if (orbit.q === 0) return number(orbit.p);
+      if (orbit.q === 0 && !orbit.xy) return number(orbit.p);
       const { x, y } = geometry.pointAt(k, g, energy, orbit.p, orbit.q);
-      return `{x: ${number(x)}, y: ${number(y)}}`;
+      const point = orbit.xy ?? [x, y];
+      return `{x: ${number(point[0])}, y: ${number(point[1])}}`;
     });
     const impacts = shown.map((orbit) => orbit.impacts);
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
@@ -126,14 +127,56 @@ function windowLines({ k, g, energy, view }, periodic, period, type) {
   return [`point: ${point}`, `window: {x: ${range(across)}, xdot: ${range(up)}}`];
 }
 
-/** An orbit as CSV, numbers to the last bit; the first row is its start. */
-function orbitCsv(orbit) {
-  const rows = ["impact,x,xdot,udot,tau", `0,${orbit.start.join(",")},`];
-  const sign = orbit.back ? -1 : 1;
-  for (let i = 0; i < orbit.count; i++) {
-    rows.push([sign * (i + 1), orbit.x[i], orbit.xdot[i], orbit.udot[i], orbit.tau[i]].join(","));
+/** What a file says about itself: the version, the ball and energy, and how to see it again. */
+function aboutLines(page) {
+  const { k, g, energy } = page.state;
+  return [page.data.version, `k = ${k}, g = ${g}, E = ${energy}`, link(page)];
+}
+
+/** The page's address with its state; a page that was opened from a file has no better name. */
+function link(page) {
+  page.save();
+  const { protocol, href, hash } = window.location;
+  return protocol.startsWith("http") ? href : `explorer.html${hash}`;
+}
+
+/** Orbits as CSV, numbers to the last bit; the first row of each is its start. */
+function orbitsCsv(page, orbits) {
+  const lines = aboutLines(page).map((line) => `# ${line}\n`);
+  const parts = [...lines, "orbit,impact,x,xdot,udot,tau\n"];
+  for (const orbit of orbits) {
+    const name = page.orbits.indexOf(orbit) + 1;
+    const rows = [`${name},0,${orbit.start.join(",")},`];
+    const sign = orbit.back ? -1 : 1;
+    for (let i = 0; i < orbit.count; i++) {
+      rows.push([name, sign * (i + 1), orbit.x[i], orbit.xdot[i], orbit.udot[i], orbit.tau[i]].join(","));
+    }
+    parts.push(`${rows.join("\n")}\n`);
   }
-  return `${rows.join("\n")}\n`;
+  return new Blob(parts, { type: "text/csv" });
+}
+
+/** The section as it is drawn, with a margin that tells what it shows: PNG at a ratio, or SVG. */
+async function picture(page, ratio = null) {
+  const { width, height, colours } = page.section;
+  const about = aboutLines(page);
+  const each = Math.floor((width - 20) / 6.7); // characters in a line
+  const lines = about.flatMap((line) => line.match(new RegExp(`.{1,${each}}`, "g")));
+  const tall = height + 15 * lines.length + 16;
+  const box = { append() {}, getBoundingClientRect: () => ({ width, height }) };
+  const svg = ratio ? null : new SvgPen();
+  const canvas = document.createElement("canvas");
+  Object.assign(canvas, { width: width * (ratio ?? 1), height: tall * (ratio ?? 1) });
+  const pen = svg ?? canvas.getContext("2d");
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.fillStyle = colours.page;
+  pen.fillRect(0, 0, width, tall);
+  const { layers } = new SectionView(box, () => page.scene(), { ratio: ratio ?? 1, svg });
+  for (const layer of layers) pen.drawImage(layer, 0, 0, width, height);
+  pen.font = "11px monospace";
+  lines.forEach((line, i) => write(pen, line, 10, height + 8 + 15 * i, colours.muted));
+  if (svg) return new Blob([svg.file(width, tall, about.join("\n"))], { type: "image/svg+xml" });
+  return new Promise((done) => canvas.toBlob(done));
 }
 
 function download(name, blob) {

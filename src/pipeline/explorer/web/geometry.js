@@ -22,8 +22,9 @@ const geometry = {
     return g * g * (1 + 0.5 * k);
   },
 
-  /** The state at a place, with the bits of the pipeline's `start` and `state_xy`; null outside. */
-  stateAt(k, g, energy, p, q) {
+  /** The state of a start, with the bits of the pipeline's `start` and `state_xy`; null outside. */
+  stateAt(k, g, energy, { p, q, xy }) {
+    if (xy) return geometry.chartState(k, g, energy, ...xy);
     if (!(p * p + q * q < 1)) return null;
     if (q === 0) return pseudorigid.start(k, g, energy, p);
     const { x, y } = geometry.pointAt(k, g, energy, p, q);
@@ -42,6 +43,11 @@ const geometry = {
   pointAt(k, g, energy, p, q) {
     const { centre, radius, height } = geometry.section(k, g, energy);
     return { x: centre + p * radius, y: q * height };
+  },
+
+  placeAt(k, g, energy, x, y) {
+    const { centre, radius, height } = geometry.section(k, g, energy);
+    return [(x - centre) / radius, y / height];
   },
 
   /** The largest number in (0, end) up to which `below` holds. */

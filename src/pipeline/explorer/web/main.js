@@ -4,6 +4,8 @@
  * draws it. controls.js turns what a person does into calls of these methods.
  */
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
+const HUES = 7; // of the style sheet
+const SLOW = 200; // impacts asked for at once, up to which one can watch
 
 class Explorer {
   constructor(data) {
@@ -17,7 +19,8 @@ class Explorer {
     this.follower = new Computer();
     this.searcher = new Computer();
     this.generation = 0;
-    this.batch = 12000; // impacts of all orbits in an answer of the worker
+    this.round = 0; // of `run`, which a change of the ball ends
+    this.at = window.history.state?.at ?? 0; // the place in the browser's history
     this.playing = false;
     this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.section = new SectionView(element("section"), () => this.scene());
@@ -42,18 +45,38 @@ class Explorer {
 
   // ---------------------------------------------------------------- states
 
-  /** Show a state: from the address, a preset, or a change of the ball. */
+  /** Show a state: from the address, or a preset. Orbits that were on the page before stay. */
   show(state) {
+    const same = ["k", "g", "energy"].every((name) => state[name] === this.state[name]);
+    const before = new Map(same ? this.orbits.map((orbit) => [writeOrbit(orbit), orbit]) : []);
     this.state = state;
-    this.orbits = [];
-    for (const spec of state.orbits) this.orbits.push(this.newOrbit(spec));
-    this.restart(false);
+    this.orbits = state.orbits.map((spec) => {
+      const kept = before.get(writeOrbit(spec));
+      before.delete(writeOrbit(spec));
+      return kept ?? new Orbit(spec, () => this.state.colour);
+    });
+    if (same) {
+      this.follower.ask("close", { keys: [...before.values()].map(({ key }) => key) });
+      for (const orbit of this.orbits) if (!orbit.start) this.open(orbit);
+      this.lookAgain();
+    } else this.restart(false);
     this.controls.refresh();
   }
 
-  newOrbit(spec) {
-    const hue = spec.sea ? 0 : this.orbits.filter((orbit) => !orbit.sea).length;
-    return new Orbit(spec, hue, () => this.state.colour);
+  /** Draw everything anew, and search for what the state asks for, at the same ball and energy. */
+  lookAgain() {
+    this.searcher.restart();
+    this.tracing = (this.tracing ?? 0) + 1;
+    this.branchLines = [];
+    this.jumpLines = [];
+    this.jumpLength = null;
+    this.controls.noteBranches("");
+    assignHues(this.orbits, this.section.section, HUES);
+    this.chooseMotion();
+    this.look();
+    this.search();
+    this.run();
+    this.saveSoon();
   }
 
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
@@ -61,7 +84,7 @@ class Explorer {
     this.generation += 1;
     this.follower.restart();
     this.follower.ask("reset", {});
-    if (this.asking) this.running = this.asking = false; // that reply will not come
+    this.round += 1; // what is asked for will not come
     this.searcher.restart();
     this.periodic.clear();
     this.branchLines = [];
@@ -70,8 +93,8 @@ class Explorer {
     this.controls.noteBranches("");
     for (const orbit of this.orbits) {
       orbit.clear();
-      if (fast || this.calm) orbit.pace = 2000;
       this.open(orbit);
+      if (fast) orbit.pace = 2000;
     }
     this.fresh = true; // the old picture stays until there are new impacts
     if (!this.orbits.length) this.look();
@@ -83,7 +106,8 @@ class Explorer {
 
   open(orbit) {
     const { k, g, energy } = this.state;
-    orbit.start = geometry.stateAt(k, g, energy, orbit.p, orbit.q);
+    orbit.start = geometry.stateAt(k, g, energy, orbit);
+    if (this.calm) orbit.pace = 2000;
     if (!orbit.start) return;
     const state = orbit.back ? pseudorigid.reverse(k, ...orbit.start) : orbit.start;
     this.follower.ask("open", { key: orbit.key, k, g, energy, state });
@@ -99,17 +123,18 @@ class Explorer {
 
   // ---------------------------------------------------------------- orbits
 
-  /** Start orbits at places [p, q]; the last one is shown in time. */
-  startOrbits(places, impacts = this.state.impacts, back = this.state.back) {
+  /** Start orbits at places [p, q], or at one point `xy`; the last one is shown in time. */
+  startOrbits(places, xy = null) {
     const room = MOST_ORBITS - this.orbits.length;
     if (room <= 0) {
       this.controls.hint(`There are ${MOST_ORBITS} orbits: remove some, or clear them.`);
       return;
     }
+    this.mark();
+    const { impacts, back } = this.state;
     for (const [p, q] of places.slice(0, room)) {
-      const orbit = this.newOrbit({ p, q, impacts, back, sea: false });
+      const orbit = new Orbit({ p, q, xy, impacts, back, sea: false }, () => this.state.colour);
       this.orbits.push(orbit);
-      if (this.calm) orbit.pace = 2000;
       this.open(orbit);
     }
     this.changedOrbits();
@@ -118,12 +143,15 @@ class Explorer {
   }
 
   changedOrbits() {
-    this.state.orbits = this.orbits.map(({ p, q, impacts, back, sea }) => ({ p, q, impacts, back, sea }));
+    this.state.preset = "";
+    this.state.orbits = this.orbits.map(({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea }));
+    this.controls.words();
     this.controls.listOrbits();
     this.saveSoon();
   }
 
   remove(orbit) {
+    this.mark();
     const at = this.orbits.indexOf(orbit);
     this.orbits.splice(at, 1);
     this.follower.ask("close", { keys: [orbit.key] });
@@ -135,9 +163,10 @@ class Explorer {
   }
 
   clear() {
+    this.mark();
     this.follower.ask("close", { keys: this.orbits.map((orbit) => orbit.key) });
     this.orbits = [];
-    Object.assign(this.state, { chosen: -1, motion: null, preset: "" });
+    Object.assign(this.state, { chosen: -1, motion: null });
     this.pause();
     this.chooseMotion();
     this.changedOrbits();
@@ -147,59 +176,64 @@ class Explorer {
 
   /** Follow an orbit over as many impacts again. */
   extend(orbit) {
+    this.mark();
     orbit.impacts = Math.min(MOST_IMPACTS, 2 * orbit.impacts);
     this.changedOrbits();
     this.run();
   }
 
-  /** Ask for impacts of all orbits that are not complete, frame by frame. */
-  run() {
-    if (this.running) return;
-    this.running = true;
-    requestAnimationFrame(() => this.ask());
+  /** Have the worker follow all orbits that are not complete, while the page draws what it has. */
+  async run() {
+    if (this.running === this.round) return;
+    const { round } = this;
+    this.running = round;
+    await nextFrame();
+    let pieces = round === this.round && (await this.ask());
+    while (pieces && round === this.round) {
+      const added = this.append(pieces);
+      const asked = this.ask();
+      this.draw(added);
+      await nextFrame();
+      pieces = round === this.round && (await asked);
+    }
+    if (this.running === round) this.running = null;
+    if (round === this.round && this.orbits.some((orbit) => !orbit.done)) this.run(); // begun since
   }
 
-  async ask() {
+  /** Ask for further impacts; null if no orbit needs them. */
+  ask() {
     const waiting = this.orbits.filter((orbit) => !orbit.done);
-    if (!waiting.length) {
-      this.running = false;
-      return;
-    }
-    const { generation } = this;
-    const most = Math.max(60, Math.floor(this.batch / waiting.length));
-    const wanted = waiting.map((orbit) => {
-      const count = Math.min(Math.round(orbit.pace), most, orbit.impacts - orbit.count);
-      orbit.pace = Math.min(1.18 * orbit.pace + 1, most);
-      return [orbit.key, count];
+    if (!waiting.length) return null;
+    const orbits = waiting.map((orbit) => {
+      const most = Math.min(Math.round(orbit.pace), orbit.impacts - orbit.count);
+      orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
+      return [orbit.key, most];
     });
-    this.asking = true;
-    const begin = performance.now();
-    const pieces = await this.follower.ask("advance", { orbits: wanted });
-    const slow = performance.now() - begin > BATCH_TIME;
-    this.batch = Math.min(Math.max((slow ? 0.7 : 1.2) * this.batch, 2000), MOST_IMPACTS);
-    this.asking = false;
-    this.reply(generation, pieces);
+    return this.follower.ask("advance", { orbits, time: BATCH_TIME });
   }
 
-  reply(generation, pieces) {
-    this.running = false;
-    if (generation !== this.generation) {
-      this.run();
-      return;
-    }
-    let whole = this.fresh;
+  /** Add impacts to the orbits; returns [orbit, its impacts before] and whether colours changed. */
+  append(pieces) {
+    const plots = [];
+    let recoloured = false;
     for (const piece of pieces) {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
-      const from = orbit.count;
-      const before = [orbit.isSea(), orbit.facts?.verdict];
+      const before = String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
+      plots.push([orbit, orbit.count]);
       orbit.append(piece, this.state.k);
-      const after = [orbit.isSea(), orbit.facts?.verdict];
-      if (String(before) !== String(after)) whole ||= from > 0;
-      if (!whole) this.section.plot(orbit, from);
+      recoloured ||= before !== String([orbit.isSea(), orbit.settled, orbit.facts.verdict]);
     }
-    if (whole) this.look();
-    else this.section.showPoints();
+    if (recoloured) assignHues(this.orbits, this.section.section, HUES);
+    return { plots, recoloured };
+  }
+
+  draw({ plots, recoloured }) {
+    if (recoloured || this.fresh) this.look();
+    else {
+      for (const [orbit, from] of plots) this.section.plot(orbit, from);
+      this.section.showPoints();
+    }
     this.controls.updateFacts();
     if (!this.orbits.some((orbit) => !orbit.done)) this.controls.completed();
     this.drawChartSoon();
@@ -208,7 +242,6 @@ class Explorer {
       this.controls.moment();
     }
     this.section.drawCursors();
-    this.run();
   }
 
   // ---------------------------------------------------------------- what takes longer
@@ -309,6 +342,7 @@ class Explorer {
   }
 
   setJump(on) {
+    this.mark();
     this.state.jump = on;
     this.jumpLines = [];
     this.jumpLength = null;
@@ -432,18 +466,45 @@ class Explorer {
     }, 120);
   }
 
+  /** Begin another entry of the browser's history with the change that follows. */
+  mark() {
+    this.save();
+    this.marked = true;
+  }
+
   saveSoon() {
-    if (this.saveWaits) return;
-    this.saveWaits = setTimeout(() => {
-      this.saveWaits = null;
-      const address = writeAddress(this.state);
-      if (address !== window.location.hash) window.history.replaceState(null, "", address);
-    }, 400);
+    if (this.marked) {
+      clearTimeout(this.saveWaits);
+      this.saveWaits = setTimeout(() => this.save());
+    } else this.saveWaits ??= setTimeout(() => this.save(), 400);
+  }
+
+  /** Write the state into the address, and what a reload needs besides it into the history. */
+  save() {
+    clearTimeout(this.saveWaits);
+    this.saveWaits = null;
+    const address = writeAddress(this.state);
+    const further = this.marked && address !== this.saved;
+    if (further) this.at += 1;
+    this.marked = false;
+    this.saved = address;
+    const entry = { at: this.at, ...this.controls.kept() };
+    window.history[further ? "pushState" : "replaceState"](entry, "", address);
+    this.controls.showUndo();
+  }
+
+  undo() {
+    this.save();
+    if (this.at > 0) window.history.back();
   }
 }
 
 function element(id) {
   return document.getElementById(id);
+}
+
+function nextFrame() {
+  return new Promise((resolve) => requestAnimationFrame(resolve));
 }
 
 /** Begin with the address, or with Figure 2. */
@@ -457,18 +518,27 @@ function begin() {
   const explorer = new Explorer(data);
   const load = () => {
     const address = window.location.hash;
-    if (address.length > 1 && address === writeAddress(explorer.state)) return;
     try {
       const name = decodeURIComponent(address.slice(1)) || "fig2"; // a scene's name is an address too
       const known = Object.hasOwn(data.scenes, name);
-      explorer.show(known ? presetState(name, data.scenes) : readAddress(address));
+      const state = known ? presetState(name, data.scenes) : readAddress(address);
+      if (!Object.hasOwn(data.scenes, state.preset)) state.preset = "";
+      explorer.show(state);
       explorer.controls.welcome();
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));
       explorer.controls.hint(error instanceof URIError ? "The address cannot be read." : `${error.message}.`);
     }
   };
-  window.addEventListener("hashchange", load);
+  window.addEventListener("popstate", ({ state }) => {
+    clearTimeout(explorer.saveWaits);
+    explorer.saveWaits = null;
+    explorer.marked = false;
+    explorer.pause();
+    explorer.at = state?.at ?? explorer.at + 1; // an address that was typed is a new entry
+    load();
+  });
+  explorer.controls.restore(window.history.state);
   load();
 }
 

@@ -1,9 +1,27 @@
 "use strict";
 /* The orbits on the screen: their impacts so far, and what is known about each. */
+const NEAR = 300; // impacts by which an orbit's curve is known
+
+/**
+ * Give each regular orbit the hue whose nearest bearer is furthest, so that curves next to each other
+ * differ. It depends on the orbits before it in the list only.
+ */
+function assignHues(orbits, section, hues) {
+  const before = [];
+  for (const orbit of orbits) {
+    if (orbit.isSea() || !orbit.settled) continue;
+    const nearest = Array(hues).fill(Infinity);
+    for (const other of before) {
+      nearest[other.hue] = Math.min(nearest[other.hue], orbit.distance(other, section));
+    }
+    orbit.hue = nearest.indexOf(Math.max(...nearest));
+    before.push(orbit);
+  }
+}
 
 class Orbit {
-  constructor({ p, q, impacts, back, sea }, hue, mode) {
-    Object.assign(this, { p, q, impacts, back, sea, hue, mode });
+  constructor({ p, q, xy, impacts, back, sea }, mode) {
+    Object.assign(this, { p, q, xy, impacts, back, sea, mode });
     this.clear();
   }
 
@@ -13,6 +31,7 @@ class Orbit {
     this.count = 0;
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
+    this.hue = null; // one of the style sheet's, if it is regular
     this.history = []; // [impacts, exponent so far]
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
@@ -23,6 +42,7 @@ class Orbit {
 
   /** Add impacts that the worker has computed; those of a backward orbit are mirrored. */
   append(piece, k) {
+    this.k = k;
     const size = piece.x.length;
     for (const name of ["x", "xdot", "udot", "tau"]) {
       if (this.count + size > this[name].length) {
@@ -54,7 +74,27 @@ class Orbit {
 
   colour(colours) {
     if (this.mode() === "verdict") return colours[this.facts?.verdict || "young"];
-    return this.sea ? colours.sea : colours.hues[this.hue % colours.hues.length];
+    if (this.isSea()) return colours.sea;
+    return this.hue === null ? colours.ink : colours.hues[this.hue];
+  }
+
+  /** Whether it is known well enough to get a colour. */
+  get settled() {
+    return Boolean(this.facts?.verdict || (this.count && this.done));
+  }
+
+  /** The least distance between the start of each of two orbits and the other's curve, squared. */
+  distance(other, { radius, height }) {
+    let least = Infinity;
+    for (const [a, b] of [[this, other], [other, this]]) {
+      const y = a.q * height;
+      for (let i = 0; i < Math.min(b.count, NEAR); i++) {
+        const p = (b.x[i] - a.start[0]) / radius;
+        const q = (b.xdot[i] - b.k * b.udot[i] - y) / height;
+        least = Math.min(least, p * p + q * q);
+      }
+    }
+    return least;
   }
 
   /** The rotation number with the digits that mean something. */
@@ -64,6 +104,7 @@ class Orbit {
   }
 
   get startText() {
+    if (this.xy) return `x = ${shortNumber(this.xy[0])}, y = ${shortNumber(this.xy[1])}`;
     return this.q === 0 ? shortNumber(this.p, 5) : `${shortNumber(this.p, 4)}, ${shortNumber(this.q, 4)}`;
   }
 }

@@ -55,12 +55,14 @@ function closeUp(scene) {
 }
 
 /** The place of a start: a fraction, or a point with x and either y or xdot. */
-function placeOf(start, { ball: { k, g }, energy }) {
-  if (typeof start === "number") return [start, 0];
-  const { x, xdot, y } = start;
-  const { centre, radius, height } = geometry.section(k, g, energy);
+function placeOf(start, scene) {
+  const { k, g } = scene.ball;
+  return typeof start === "number" ? [start, 0] : geometry.placeAt(k, g, scene.energy, ...pointOf(start, scene));
+}
+
+function pointOf({ x, xdot, y }, { ball: { k, g }, energy }) {
   const udot = Math.sqrt((2 * energy + 2 * g * x - k * x * x - xdot * xdot) / k);
-  return [(x - centre) / radius, (y ?? xdot - k * udot) / height];
+  return [x, y ?? xdot - k * udot];
 }
 
 function orbitsOf(scene) {
@@ -68,7 +70,8 @@ function orbitsOf(scene) {
   return starts.slice(0, MOST_ORBITS).map((start, i) => {
     const [p, q] = placeOf(start, scene);
     const count = Array.isArray(impacts) ? impacts[i] : impacts;
-    return { p, q, impacts: Math.min(count, MOST_IMPACTS), back: false, sea: sea.includes(i) };
+    const xy = typeof start === "number" ? null : pointOf(start, scene);
+    return { p, q, xy, impacts: Math.min(count, MOST_IMPACTS), back: false, sea: sea.includes(i) };
   });
 }
 
@@ -102,6 +105,6 @@ function branchesOf({ period, type, branches }) {
 function fan(from, to, count, impacts) {
   return Array.from({ length: count }, (_, i) => ({
     p: count > 1 ? Number((from + ((to - from) * i) / (count - 1)).toPrecision(12)) : from,
-    q: 0, impacts, back: false, sea: false,
+    q: 0, xy: null, impacts, back: false, sea: false,
   }));
 }

@@ -1,22 +1,26 @@
 "use strict";
 /*
  * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on four canvases: the ground with
- * its axes, the impacts of orbits, lines over them, and cursors. Impacts are written pixel by pixel.
+ * its axes, the impacts of orbits, lines over them, and cursors. Impacts are written pixel by pixel. For
+ * a file all are drawn anew: at another `ratio` of pixels, or by an `svg` pen.
  */
 const SNAP = 4; // pixels from the symmetry line within which a start lies on it
 const LAYERS = ["ground", "points", "lines", "cursors"];
 
 class SectionView {
-  constructor(box, read) {
+  constructor(box, read, { ratio = null, svg = null } = {}) {
     this.box = box;
     this.read = read; // returns {state, orbits, overlays, cursor} of the page
-    this.layers = LAYERS.map((name) => {
+    this.given = ratio;
+    this.svg = svg;
+    this.layers = (svg ? [] : LAYERS).map((name) => {
       const canvas = document.createElement("canvas");
       canvas.className = name;
       box.append(canvas);
       return canvas;
     });
-    [this.ground, this.points, this.lines, this.cursors] = this.layers.map((c) => c.getContext("2d"));
+    const pens = this.layers.map((canvas) => canvas.getContext("2d"));
+    [this.ground, this.points, this.lines, this.cursors] = svg ? [svg, svg, svg, svg] : pens;
     this.cross = null; // the keyboard's pointer on the screen
     this.fan = null; // [p, p] of the fan that is being drawn
     this.resize();
@@ -26,7 +30,7 @@ class SectionView {
     const { width, height } = this.box.getBoundingClientRect();
     this.width = Math.max(50, Math.round(width));
     this.height = Math.max(50, Math.round(height));
-    this.ratio = Math.min(3, window.devicePixelRatio || 1);
+    this.ratio = this.given ?? Math.min(3, window.devicePixelRatio || 1);
     for (const canvas of this.layers) {
       canvas.width = Math.round(this.width * this.ratio);
       canvas.height = Math.round(this.height * this.ratio);
@@ -34,8 +38,10 @@ class SectionView {
     for (const pen of [this.ground, this.lines, this.cursors]) {
       pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     }
-    this.image = this.points.createImageData(this.points.canvas.width, this.points.canvas.height);
-    this.pixels = new Uint32Array(this.image.data.buffer);
+    if (!this.svg) {
+      this.image = this.points.createImageData(this.points.canvas.width, this.points.canvas.height);
+      this.pixels = new Uint32Array(this.image.data.buffer);
+    }
     this.look();
   }
 
@@ -55,7 +61,8 @@ class SectionView {
   project() {
     const { state } = this.read();
     const { k, g, energy, view } = state;
-    const { centre, radius, height } = geometry.section(k, g, energy);
+    this.section = geometry.section(k, g, energy);
+    const { centre, radius, height } = this.section;
     Object.assign(this, { k, centre, radius, sectionHeight: height, kind: view.kind });
     const disk = view.kind === "disk";
     const margin = disk ? { left: 52, top: 10, right: 10, bottom: 40 } : null;
@@ -237,32 +244,28 @@ class SectionView {
     if (this.scale > 1e4) {
       if (this.place(...this.middle)) ground.rect(0, 0, this.width, this.height);
     } else {
-      // The surface is drawn as many patches, rings from the middle of the disk to its rim. All run
-      // round in one direction, so that overlapping ones fill.
-      const [rings, sectors] = [36, 120];
-      const corner = (a, b) => {
-        const slope = ((a / rings) * Math.PI) / 2;
-        const angle = (b / sectors) * 2 * Math.PI;
-        const y = Math.sin(slope) * Math.sin(angle) * this.sectionHeight;
-        const s = Math.sqrt(1 + k) * radius * Math.cos(slope);
-        const dx = Math.sin(slope) * Math.cos(angle) * radius;
-        return this.flat(dx, (y + k * s) / (1 + k), (s - y) / (1 + k));
-      };
-      for (let i = 0; i < rings; i++) {
-        for (let j = 0; j < sectors; j++) {
-          const patch = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
-          const [ax, ay] = [patch[2][0] - patch[0][0], patch[2][1] - patch[0][1]];
-          const [bx, by] = [patch[3][0] - patch[1][0], patch[3][1] - patch[1][1]];
-          if (ax * by - ay * bx < 0) patch.reverse();
-          patch.forEach(([left, top], n) => (n ? ground.lineTo(left, top) : ground.moveTo(left, top)));
-          ground.closePath();
-        }
-      }
+      // What one sees of it is convex: the hull of its rim and of its outline against the eye.
+      const [e0, e1, e2] = this.eye;
+      const turns = Array.from({ length: 720 }, (_, i) => (i * Math.PI) / 360);
+      const rim = turns.map((a) => {
+        const w = (-Math.sin(a) * this.sectionHeight) / (1 + k);
+        return this.flat(Math.cos(a) * radius, -w, w);
+      });
+      // On the unit sphere, (dx, v / sqrt(k), w) / radius, the outline is at right angles to this.
+      const pole = [k * e0, Math.sqrt(k) * e1, k * e2];
+      const level = Math.hypot(pole[0], pole[1]);
+      const side = [-pole[1] / level, pole[0] / level, 0];
+      const size = Math.hypot(...pole);
+      const top = [(-pole[0] * pole[2]) / level / size, (-pole[1] * pole[2]) / level / size, level / size];
+      const outline = turns
+        .map((a) => side.map((value, i) => radius * (Math.cos(a) * value + Math.sin(a) * top[i])))
+        .map(([dx, v, w]) => [dx, v * Math.sqrt(k), w])
+        .filter(([, v, w]) => v + w >= 0);
+      const corners = hull([...rim, ...outline.map((point) => this.flat(...point))]);
+      corners.forEach(([left, up], n) => (n ? ground.lineTo(left, up) : ground.moveTo(left, up)));
     }
     ground.fillStyle = colours.surface;
-    ground.strokeStyle = colours.surface;
-    ground.fill("nonzero");
-    ground.stroke(); // closes the seams between patches
+    ground.fill();
     this.drawTriad();
   }
 
@@ -287,7 +290,7 @@ class SectionView {
   // ---------------------------------------------------------------- impacts
 
   drawPoints() {
-    this.pixels.fill(0);
+    this.pixels?.fill(0);
     const { orbits } = this.read();
     const order = [...orbits].sort((a, b) => (b.isSea() ? 1 : 0) - (a.isSea() ? 1 : 0));
     for (const orbit of order) this.plot(orbit, 0);
@@ -295,41 +298,61 @@ class SectionView {
   }
 
   showPoints() {
-    this.points.putImageData(this.image, 0, 0);
+    if (!this.svg) this.points.putImageData(this.image, 0, 0);
   }
 
   /** Write the impacts of an orbit from one on into the pixels. */
   plot(orbit, from) {
-    const { pixels, image, ratio, frame } = this;
-    const colour = packed(orbit.colour(this.colours));
-    const size = Math.max(1, Math.round((orbit.isSea() ? 0.7 : 1.7) * ratio));
-    const left = frame.left * ratio;
-    const top = frame.top * ratio;
-    const right = (this.width - frame.right) * ratio - size;
-    const bottom = (this.height - frame.bottom) * ratio - size;
-    const { x, xdot, udot, count } = orbit;
+    const { pixels, image, ratio, svg } = this;
+    const colour = orbit.colour(this.colours);
+    const size = orbit.isSea() ? 0.7 : 1.7;
+    if (svg) {
+      const places = [];
+      this.eachPoint(orbit, from, 1, size, (left, top) => places.push(left, top));
+      svg.dots(places, size, colour);
+      return;
+    }
+    const width = Math.max(1, Math.round(size * ratio));
     const wide = image.width;
-    const disk = this.kind === "disk";
-    const { k, radius, sectionHeight, scale, origin } = this;
-    const [fx, fy] = [(scale * ratio) / radius, (scale * ratio) / sectionHeight];
-    const [mx, my] = [this.middle[0] * ratio - size / 2, this.middle[1] * ratio - size / 2];
+    const ink = packed(colour);
+    this.eachPoint(orbit, from, ratio, width, (column, row) => {
+      const first = Math.round(row - width / 2) * wide + Math.round(column - width / 2);
+      for (let a = 0; a < width; a++) {
+        for (let b = 0; b < width; b++) pixels[first + a * wide + b] = ink;
+      }
+    });
+  }
+
+  /** Call `act` with the place of each impact that is in sight, as `screen` has it, times a ratio. */
+  eachPoint({ x, xdot, udot, count }, from, ratio, size, act) {
+    const { frame, k, centre, radius } = this;
+    const left = frame.left * ratio + size / 2;
+    const top = frame.top * ratio + size / 2;
+    const right = (this.width - frame.right) * ratio - size / 2;
+    const bottom = (this.height - frame.bottom) * ratio - size / 2;
+    const scale = (this.scale * ratio) / radius;
+    const [mx, my] = [this.middle[0] * ratio, this.middle[1] * ratio];
+    const [ox, oy] = this.origin;
+    if (this.kind === "disk") {
+      const fy = (this.scale * ratio) / this.sectionHeight;
+      for (let i = from; i < count; i++) {
+        const column = mx + (x[i] - ox) * scale;
+        const row = my - (xdot[i] - k * udot[i] - oy) * fy;
+        if (column >= left && row >= top && column <= right && row <= bottom) act(column, row);
+      }
+      return;
+    }
+    const [[e0, e1, e2], [a0, a1], [u0, u1, u2]] = [this.eye, this.across, this.up];
+    const through = (-2 * (e1 + e2)) / this.eyeSquare;
     for (let i = from; i < count; i++) {
-      let column;
-      let row;
-      if (disk) {
-        column = mx + (x[i] - origin[0]) * fx;
-        row = my - (xdot[i] - k * udot[i] - origin[1]) * fy;
-      } else {
-        const at = this.screen(x[i], xdot[i], udot[i]);
-        if (!at) continue;
-        column = at[0] * ratio - size / 2;
-        row = at[1] * ratio - size / 2;
-      }
-      if (!(column >= left && row >= top && column <= right && row <= bottom)) continue;
-      const first = Math.round(row) * wide + Math.round(column);
-      for (let a = 0; a < size; a++) {
-        for (let b = 0; b < size; b++) pixels[first + a * wide + b] = colour;
-      }
+      const dx = x[i] - centre;
+      const v = xdot[i];
+      const w = udot[i];
+      const facing = k * dx * e0 + v * e1 + k * w * e2;
+      if (facing < -1e-9 * radius && v + w + facing * through >= 0) continue;
+      const column = mx + (a0 * dx + a1 * v - ox) * scale;
+      const row = my - (u0 * dx + u1 * v + u2 * w - oy) * scale;
+      if (column >= left && row >= top && column <= right && row <= bottom) act(column, row);
     }
   }
 
@@ -446,18 +469,23 @@ class SectionView {
     }
     cursors.restore();
   }
+}
 
-  /** All layers on the page's ground, for a file. */
-  picture() {
-    const canvas = document.createElement("canvas");
-    canvas.width = this.points.canvas.width;
-    canvas.height = this.points.canvas.height;
-    const pen = canvas.getContext("2d");
-    pen.fillStyle = this.colours.page;
-    pen.fillRect(0, 0, canvas.width, canvas.height);
-    for (const layer of this.layers) pen.drawImage(layer, 0, 0);
-    return canvas;
-  }
+/** The corners of the convex hull of points, in order around it. */
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const half = (list) => {
+    const chain = [];
+    for (const [x, y] of list) {
+      for (; chain.length > 1; chain.pop()) {
+        const [[ax, ay], [bx, by]] = chain.slice(-2);
+        if ((bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0) break;
+      }
+      chain.push([x, y]);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
 }
 
 /** The point of a segment from `near` towards `away` at the edge of a square of half size `far`. */

@@ -2,8 +2,9 @@
 /*
  * The state of the page: everything that decides what is on it. It fits into the address.
  *
- * Starts are places (p, q) on the section, see geometry.js. The view's centre is a place too, or on
- * the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
+ * Starts are places (p, q) on the section, see geometry.js. One that was given by its numbers has them
+ * in `xy`, which the state of the ball there is computed from. The view's centre is a place too, or
+ * on the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
  */
 const MOST_ORBITS = 64;
 const MOST_IMPACTS = 1000000; // of an orbit
@@ -16,7 +17,7 @@ function freshState() {
     energy: 0.01,
     view: { ...HOME_VIEW },
     colour: "orbit",
-    orbits: [], // {p, q, impacts, back, sea}
+    orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
     periods: [], // periods of the periodic orbits on the section
@@ -92,8 +93,8 @@ function writeAddress(state) {
   return "#" + parts.map((part) => part.join("=")).join("&");
 }
 
-function writeOrbit({ p, q, impacts, back, sea }) {
-  const place = q === 0 ? p : `${p}:${q}`;
+function writeOrbit({ p, q, xy, impacts, back, sea }) {
+  const place = xy ? `@${xy.join(":")}` : q === 0 ? p : `${p}:${q}`;
   return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
 }
 
@@ -145,13 +146,11 @@ function readAddress(text) {
     colour: (value) => (state.colour = one("colour", value, ["orbit", "verdict"])),
     orbits(value) {
       state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
-        const match = /^([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
-        if (!match) fail("orbits", part, "a start like 0.5*3000 or 0.1:0.2*3000 is needed");
-        const p = number("a start", match[1]);
-        const q = match[2] ? number("a start", match[2]) : 0;
-        if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");
-        const impacts = number("impacts", match[3], "1 to 1000000", whole(1, MOST_IMPACTS));
-        return { p, q, impacts, back: match[4] !== "", sea: match[5] !== "" };
+        const match = /^(@?)([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
+        if (!match) fail("orbits", part, "a start like 0.5*3000, 0.1:0.2*3000 or @x:y*3000 is needed");
+        const at = [number("a start", match[2]), match[3] ? number("a start", match[3]) : 0];
+        const impacts = number("impacts", match[4], "1 to 1000000", whole(1, MOST_IMPACTS));
+        return { part, at, typed: match[1] !== "", impacts, back: match[5] !== "", sea: match[6] !== "" };
       });
     },
     chosen: (value) => (state.chosen = number("chosen", value, "an index", whole(-1, MOST_ORBITS))),
@@ -187,12 +186,18 @@ function readAddress(text) {
     const at = part.indexOf("=");
     const name = part.slice(0, at);
     if (at > 0 && Object.hasOwn(readers, name)) readers[name](part.slice(at + 1));
-    else fail(name || part, part.slice(at + 1), "no such field");
+    else if (at > 0) fail(name, part.slice(at + 1), "no such field");
+    else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
   }
   for (const [name, value] of Object.entries({ k: state.k, g: state.g, E: state.energy })) {
     const error = parameterError(name, String(value), state);
     if (error) throw new Error(`the address has ${error}`);
   }
+  state.orbits = state.orbits.map(({ part, at, typed, ...rest }) => {
+    const [p, q] = typed ? geometry.placeAt(state.k, state.g, state.energy, ...at) : at;
+    if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");
+    return { p, q, xy: typed ? at : null, ...rest };
+  });
   if (state.chosen >= state.orbits.length) state.chosen = state.orbits.length - 1;
   return state;
 }

@@ -204,10 +204,14 @@ class TimeView {
       }
     });
     pen.restore();
-    // The undeformed ball, for comparison, and the centre.
+    // The undeformed ball above the floor, for comparison, and the centre.
+    pen.save();
+    pen.beginPath();
+    pen.rect(0, 0, width, floor);
+    pen.clip();
     pen.setLineDash([3, 4]);
     strokePath(pen, colours.muted, 1, () => outline(scale));
-    pen.setLineDash([]);
+    pen.restore();
     pen.fillStyle = colours.ink;
     pen.fillRect(width / 2 - 2, middle - 2, 4, 4);
   }

@@ -4,6 +4,7 @@
  * {id, result} or {id, error}.
  */
 const followers = new Map();
+let rate = 200; // impacts in a ms, as measured last
 
 const jobs = {
   /** Begin to follow an orbit; the state of a backward one has been mirrored by the page. */
@@ -19,15 +20,21 @@ const jobs = {
     for (const key of keys) followers.delete(key);
   },
 
-  /** Follow orbits, [[key, impacts], ...], and return the new impacts and the facts of each. */
-  advance({ orbits }) {
-    return orbits
-      .filter(([key]) => followers.has(key))
-      .map(([key, impacts]) => {
-        const follower = followers.get(key);
-        const { x, xdot, udot, tau } = follower.advance(impacts);
-        return { key, x, xdot, udot, tau, facts: follower.facts() };
-      });
+  /**
+   * Follow orbits, [[key, impacts at most], ...], for about `time` ms, which they share, and return
+   * the new impacts and the facts of each.
+   */
+  advance({ orbits, time }) {
+    const known = orbits.filter(([key]) => followers.has(key));
+    return known.map(([key, most]) => {
+      const follower = followers.get(key);
+      const impacts = Math.max(1, Math.min(most, Math.round((rate * time) / known.length)));
+      const begin = performance.now();
+      const { x, xdot, udot, tau } = follower.advance(impacts);
+      const measured = impacts / Math.max(0.01, performance.now() - begin); // clocks may be coarse
+      if (impacts > 100) rate = Math.min(2 * rate, Math.max(rate / 2, measured));
+      return { key, x, xdot, udot, tau, facts: follower.facts() };
+    });
   },
 
   periodic({ k, g, energy, period }) {
