@@ -77,6 +77,33 @@ def test_a_million_impacts_of_a_chaotic_orbit(browser):
     assert theirs == {name: digest(ours[name].values) for name in data.STATE}
 
 
+@pytest.mark.slow
+def test_starts_at_own_balls_and_energies_after_many_impacts(browser):
+    """After 1, 1,000 and 100,000 impacts: 30 points, each at its own k, g and E."""
+    random = np.random.default_rng(36)
+    points = []
+    for i in range(30):
+        k = random.uniform(0.02, 1.0 / 3.0)
+        ball = Ball(k, k * random.uniform(0.01, 0.9))
+        lowest, bound = ball.energy_bounds()
+        energy = lowest + (bound - lowest) * random.uniform(0.05, 0.95)
+        x, y = (float(values[i]) for values in chart(k, *sea(30, energy, ball)))
+        points.append((ball, energy, x, y))
+    for impacts in (1, 1000, 100_000):
+        theirs = browser.run(
+            """const [impacts, points] = args;
+            return points.map(([k, g, energy, x, y]) => {
+              const start = pseudorigid.stateXY(k, g, energy, x, y);
+              const orbit = pseudorigid.history(k, g, ...start, impacts);
+              return text(Float64Array.from(Object.values(orbit), a => a.at(-1)));
+            });""",
+            *(impacts, [(ball.k, ball.g, energy, x, y) for ball, energy, x, y in points]),
+        )
+        for (ball, energy, x, y), text in zip(points, theirs, strict=True):
+            ours = np.ravel(ball.after(ball.state_xy(x, y, energy), impacts))
+            assert np.array_equal(bits(ours), bits(unpacked(text))), (ball, energy, x, y, impacts)
+
+
 def test_starts_over_the_section_also_of_other_balls_and_energies(browser):
     rows = section_rows(0.2, 0.04, 10_000, [ENERGY])
     for k, g in BALLS:

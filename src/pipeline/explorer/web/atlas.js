@@ -12,9 +12,7 @@ class AtlasView {
     this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
     this.canvas = element("atlas");
     this.listen(([k, logarithm]) => {
-      const within = (list, value) => Math.min(list.at(-1), Math.max(list[0], value));
-      const [place, ratio] = [within(atlas.k, k), within(atlas.energy, 10 ** logarithm)];
-      goTo(...[place, ratio].map((value) => Number(value.toPrecision(3))));
+      goTo(...[k, 10 ** logarithm].map((value) => Number(value.toPrecision(3))));
     });
   }
 
@@ -24,19 +22,18 @@ class AtlasView {
       const { left, top } = canvas.getBoundingClientRect();
       return this.plot.valuesAt(event.clientX - left, event.clientY - top);
     };
-    canvas.addEventListener("click", (event) => goTo(at(event)));
-    canvas.addEventListener("pointermove", (event) => this.tell(at(event)));
+    const logs = this.atlas.energy.map(Math.log10);
+    const clamp = (list, value) => Math.min(list.at(-1), Math.max(list[0], value));
+    const within = ([k, logarithm]) => [clamp(this.atlas.k, k), clamp(logs, logarithm)];
+    canvas.addEventListener("click", (event) => goTo(within(at(event))));
+    canvas.addEventListener("pointermove", (event) => this.tell(within(at(event))));
     canvas.addEventListener("pointerleave", () => this.tell());
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     canvas.addEventListener("keydown", (event) => {
-      const { k, energy } = this.atlas;
-      this.aim ??= this.here().map((value, i) => (i ? Math.max(Math.log10(energy[0]), value) : value));
+      const [across, up] = arrows[event.key] ?? [0, 0];
+      const [k, logarithm] = this.aim ?? this.here();
+      this.aim = within([k + 0.01 * across, logarithm + 0.05 * up]);
       if (arrows[event.key]) {
-        const [across, up] = arrows[event.key];
-        this.aim[0] = Math.min(k.at(-1), Math.max(k[0], this.aim[0] + across * 0.01));
-        const [low, high] = [energy[0], energy.at(-1)].map(Math.log10);
-        this.aim[1] = Math.min(high, Math.max(low, this.aim[1] + up * 0.05));
-        this.tell(this.aim);
         this.draw();
       } else if (event.key === "Enter") {
         goTo(this.aim);
@@ -90,19 +87,22 @@ class AtlasView {
     if (here[1] > -Infinity) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
     if (this.aim) drawRing(pen, plot.at(this.aim), 7, "#000000", "#ff7fc0");
     this.plot = plot;
+    this.tell(this.aim ?? this.shown);
   }
 
+  /** Say what is at a point, and show its section; without one, that of the present place. */
   tell(point) {
     this.shown = point;
-    if (!point) {
-      setText("atlas-note", "");
-      fitted(element("peek"));
-      return;
-    }
     this.peeking ??= requestAnimationFrame(() => {
       this.peeking = null;
+      const { k, g, energy } = this.page.state;
       if (this.shown) this.peek(this.shown[0], 10 ** this.shown[1]);
+      else this.peek(k, energy / (g * g));
     });
+    if (!point) {
+      setText("atlas-note", "");
+      return;
+    }
     const { k, energy, bytes, steps } = this.atlas;
     const nearest = (list, value) => {
       const distances = list.map((entry) => Math.abs(entry - value));
@@ -120,15 +120,14 @@ class AtlasView {
     const size = 0.5 * Math.min(width, height) - 3;
     const middle = [0.5 * width, 0.5 * height];
     strokePath(pen, colours.rim, 1.5, () => pen.arc(...middle, size, 0, 2 * Math.PI));
-    const at = Math.min(this.atlas.k.at(-1), Math.max(this.atlas.k[0], k));
-    const { centre, radius, height: tall } = geometry.section(at, 1, ratio);
+    const { centre, radius, height: tall } = geometry.section(k, 1, ratio);
     pen.fillStyle = colours.ink;
     for (let i = 0; i < PEEK.orbits; i++) {
-      const start = pseudorigid.start(at, 1, ratio, (2 * i + 1) / PEEK.orbits - 1);
-      const { x, xdot, udot } = pseudorigid.history(at, 1, ...start, PEEK.impacts);
+      const start = pseudorigid.start(k, 1, ratio, (2 * i + 1) / PEEK.orbits - 1);
+      const { x, xdot, udot } = pseudorigid.history(k, 1, ...start, PEEK.impacts);
       for (let j = 0; j < PEEK.impacts; j++) {
         const across = (x[j] - centre) / radius;
-        const up = (xdot[j] - at * udot[j]) / tall;
+        const up = (xdot[j] - k * udot[j]) / tall;
         pen.fillRect(middle[0] + size * across - 0.5, middle[1] - size * up - 0.5, 1, 1);
       }
     }

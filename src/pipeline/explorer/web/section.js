@@ -272,7 +272,7 @@ class SectionView {
   /** Draw the directions of the axes in a corner. */
   drawTriad() {
     const { ground, colours } = this;
-    const size = Math.min(46, 0.1 * this.width + 10);
+    const size = Math.min(46, 0.07 * this.width + 6);
     const at = [size + 22, this.height - size - 26];
     ["x", "ẋ⁻", "u̇⁻"].forEach((name, i) => {
       const tip = [this.across[i] * size, -this.up[i] * size];
