@@ -17,7 +17,7 @@ from selenium.webdriver import ActionChains
 from selenium.webdriver.remote.websocket_connection import WebSocketConnection
 
 PROGRAMS = {"chromium": ("chromium", "chromedriver"), "firefox": ("firefox-esr",)}
-_TIMEOUT = 600  # seconds that a script may take
+_TIMEOUT = 180  # seconds that a script may take
 
 
 @contextmanager
