@@ -175,7 +175,7 @@ def test_a_box_has_whole_sentences_with_mathematics(tree):
     pytest.importorskip("typst")
     source = tree / "source" / SOURCE.name
     text = typesetting.web_page(tree, tree / "numbers.json", source).decode()
-    box = re.search(r"Statement <a href=.report.html#claim-21.*?</div>", text, re.DOTALL)[0]
+    (box,) = re.findall(r'<div class="finding">[^.]*"report.html#claim-21".*?</div>', text)
     plain = re.sub(r"<[^>]*>", "", box)
     assert re.search(r"Here: The elliptic fixed point is at x = 0\.\d+, and there is no", plain)
     assert "Accuracy: 10−12." in plain and "<sup>−12</sup>" in box
