@@ -30,6 +30,7 @@ from typing import Any
 _MODULES = {
     "Ball": "dynamics.ball",
     "orbit": "dynamics.orbits",
+    "motion": "dynamics.motion",
     "symmetric_orbits": "dynamics.periodic",
     "trace_manifold": "dynamics.manifolds",
     "lyapunov_spectrum": "dynamics.lyapunov",
@@ -37,6 +38,7 @@ _MODULES = {
     "residue": "sweep.quantities",
     "classify_orbits": "sweep.quantities",
     "turnstile_flux": "sweep.quantities",
+    "Picture": "figures.picture",
     "prove_orbit": "proofs.theorems.requests",
     "prove_curve": "proofs.theorems.requests",
 }

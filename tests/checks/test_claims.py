@@ -425,7 +425,7 @@ def test_x_and_y_are_told_apart_where_clusters_are_compared(datasets):
     """Row 33: each number is that of its own coordinate, and the widest interval is the error."""
     clusters = datasets["clusters/clusters"]
     verdict = claims.CLAIMS[33].judge(datasets, {})
-    of_y, of_x = verdict.value.split("; and ")
+    of_y, of_x = verdict.value.split(". It explains")
     for i, text in enumerate((of_x, of_y)):
         correlation = clusters["correlation"].values[:, 0, i, i]
         for numbers in (correlation, clusters["dependence"].values[:, 0, i]):
@@ -446,7 +446,7 @@ def test_a_cell_is_mixed_only_where_its_interval_excludes_both_ends(datasets):
     high[0, 0], low[0, 1] = 0.9, 0.0
     mixed = changed("atlas/plane", regular_low=lambda v: low, regular_high=lambda v: high)
     value = claims.CLAIMS[46].judge(mixed(datasets), {}).value
-    assert "(11 % exclude just 0 and 1)" in value
+    assert "In 11 % of them the interval excludes 0 and 1" in value
 
 
 def test_rises_are_counted_by_the_share_and_its_intervals():

@@ -1,6 +1,7 @@
 """Pictures have the same bytes for everyone, and hold exactly what was drawn."""
 
 import os
+import re
 import shutil
 import sys
 from io import BytesIO
@@ -12,6 +13,7 @@ from samples import KINDS, draw, drawn
 
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels, render
+from pseudorigid.figures.canvas.sheet import Sheet
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -81,3 +83,17 @@ def test_a_drawing_imports_only_what_it_uses():
     )
     result = run(sys.executable, "-c", code, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
     assert result.stdout == "[]\n", result.stderr
+
+
+def test_thousands_of_dots_in_an_svg_are_one_path_of_the_same_dots():
+    sheet = Sheet(300, 300)
+    x = 20.0 + 0.1 * np.arange(2500)
+    sheet.draw(x, x, ls="none", marker="o", ms=2.0, mew=0, color="#0072b2")
+    sheet.draw(x[:50], x[:50] + 20, ls="none", marker="o", ms=2.0, mew=0, color="#d55e00")
+    svg = render(sheet.figure, "svg").decode()
+    (dots, line_style) = re.search(r'<path d="(M[^"]*h0)" style="([^"]*)"/>', svg).groups()
+    assert "stroke-linecap: round; stroke: #0072b2; stroke-width: 2" in line_style
+    points = np.array([dot[1:-2].split() for dot in re.findall(r"M[^M]*", dots)], dtype=float)
+    shown = (np.floor(x * 256) + 0.25) / 256 * 72 / style.DPI
+    assert np.abs(points - np.array([shown, 72.0 - shown]).T).max() < 1e-3
+    assert svg.count("<use ") == 50

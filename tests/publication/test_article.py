@@ -162,6 +162,25 @@ def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
             assert {*ticks} <= {*ours[scene][axis]["ticks"]}
 
 
+def test_print_takes_the_vector_file_and_the_web_page_the_smaller_one(data):
+    for figure in data["figures"].values():
+        vector = (ROOT / figure["file"]).with_suffix(".svg")
+        picture = ROOT / figure["web_file"]
+        assert (ROOT / figure["file"] == vector) == vector.exists()
+        for other in (vector, vector.with_suffix(".png")):
+            assert not other.exists() or picture.stat().st_size <= other.stat().st_size
+
+
+def test_a_box_has_whole_sentences_with_mathematics(tree):
+    pytest.importorskip("typst")
+    source = tree / "source" / SOURCE.name
+    text = typesetting.web_page(tree, tree / "numbers.json", source).decode()
+    (box,) = re.findall(r'<div class="finding">[^.]*"report.html#claim-21".*?</div>', text)
+    plain = re.sub(r"<[^>]*>", "", box)
+    assert re.search(r"Here: The elliptic fixed point is at x = 0\.\d+, and there is no", plain)
+    assert "Accuracy: 10−12." in plain and "<sup>−12</sup>" in box
+
+
 def data_title(tree):
     return json.loads((tree / "numbers.json").read_text())["title"]
 

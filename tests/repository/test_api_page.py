@@ -83,6 +83,18 @@ def test_the_residue_tells_the_types_apart():
     assert pseudorigid.residue(six.isel(orbit=0)).shape == ()
 
 
+def test_a_motion_has_the_impacts_of_its_orbit():
+    state = BALL.start(CHAOTIC, 0.01)
+    impacts = pseudorigid.orbit(BALL, state, 20)
+    path = pseudorigid.motion(BALL, state, float(impacts["tau"].sum()) + 0.01)
+    assert np.array_equal(path["impact_position"][1:], impacts["x"])
+    assert np.allclose(path["impact_t"][1:], np.cumsum(impacts["tau"]), rtol=0, atol=1e-12)
+    assert (path["position"] + path["strain"]).max() < 1e-12  # never through the floor
+    six = symmetric_orbits(BALL, 0.01, 6).isel(orbit=0)
+    cycle = pseudorigid.motion(BALL, six, 2 * float(six["total_time"]))["impact_position"].values
+    assert np.array_equal(cycle[:12], np.tile(six["x"], 2))
+
+
 @pytest.mark.slow
 def test_the_flux_through_both_turnstiles():
     """The inner branches almost coincide; certified digits are those of CLAIMS.md."""
@@ -108,6 +120,10 @@ STATE = BALL.start(REGULAR, 0.01)
         ("classify_orbits", (BALL, STATE, "many"), "impacts = 'many' "),
         ("residue", (3,), "orbits = 3 "),
         ("residue", (xr.Dataset(),), "orbits = 'this Dataset' "),
+        ("motion", (BALL, BALL.start([REGULAR, CHAOTIC], 0.01), 1.0), "start = "),
+        ("motion", (BALL, STATE, -1.0), "duration = -1.0 "),
+        ("motion", (BALL, STATE, 1e9), "duration = 1000000000.0 "),
+        ("motion", (BALL, symmetric_orbits(BALL, 0.01, 6), 1.0), "start = "),
         ("turnstile_flux", (BALL, "low", 6), "energy = 'low' "),
         ("turnstile_flux", (BALL, -1, 6), "energy = -1.0 "),
         ("turnstile_flux", (BALL, 0.01, 5), "period = 5 "),

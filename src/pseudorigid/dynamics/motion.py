@@ -1,6 +1,7 @@
-"""Motion in time between the impacts of a periodic orbit."""
+"""Motion in time, between the impacts of an orbit."""
 
 import itertools
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -8,7 +9,8 @@ import xarray as xr
 from ..kernel.arithmetic import sincos_each
 from ..kernel.impact_law import impact_coefficients, rebound
 from .ball import Ball
-from .variables import LENGTH, TIME, of_type, variables
+from .inputs import not_allowed, number, state_of
+from .variables import LENGTH, TIME, of_type, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
 SAMPLES = 200
@@ -16,47 +18,61 @@ SAMPLES = 200
 MOST_FLIGHTS = 10_000
 
 
-def _flights(ball, orbit):
-    """Yield (x, xdot, udot, tau) of each flight from a periodic orbit's first point."""
-    columns = (orbit[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
-    points = list(zip(*columns, strict=True))
-    if ball.map.certified:
-        yield from itertools.cycle(points)
-    *state, _ = points[0]
+def _flights(ball, state, repeated):
+    """Yield (x, xdot, udot, tau) of each flight: the repeated ones, or else those from a state."""
+    yield from itertools.cycle(repeated)
     while True:
         *after, tau = ball.impact(*state)
         yield (*state, tau)
         state = after
 
 
-def scene_motion(
-    ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
-) -> xr.Dataset:
-    """Compute x(t) and u(t), eq. (26), of a periodic orbit from an impact on (Figures 3 and 4).
+def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
+    """Compute x(t) and u(t), eq. (26), from an impact on.
 
-    The orbit's own points are repeated. If the ball's map may miss impacts, they are no orbit of
-    it, and the first point is followed impact by impact instead. `duration` is in 1/omega; a
-    ValueError is raised if it is that of more than MOST_FLIGHTS flights. On `sample`, both ends of
-    each flight are included, where position = -strain exactly.
+    Parameters
+    ----------
+    ball : Ball
+    start : (x, xdot, udot) or xarray.Dataset
+        One state, as for `orbit`, or one orbit of `symmetric_orbits`, whose points are repeated.
+    duration : float
+        In 1/omega.
 
-    >>> from pseudorigid import Ball, symmetric_orbits
+    Returns
+    -------
+    xarray.Dataset
+        t, position and strain on `sample`, with both ends of each flight, where position = -strain
+        exactly; impact_t and impact_position on `impact`.
+
+    Raises
+    ------
+    ValueError
+        More than one state, a state with xdot + udot < 0, or more than MOST_FLIGHTS flights.
+
+    Examples
+    --------
+    >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
-    >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
-    6
+    >>> motion(ball, ball.start(0.6, energy=0.01), duration=16).sizes["impact"]
+    7
     """
-    orbit = of_type(periodic, type, period)
-    mean = float(orbit["tau"].mean())
-    if not duration <= MOST_FLIGHTS * mean:
-        raise ValueError(
-            f"duration = {duration!r} is not allowed: at most {MOST_FLIGHTS:,} flights, whose mean "
-            f"along this orbit is {mean:.3g}"
-        )
-    flights = _flights(ball, orbit)
+    duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
+    repeated = ()
+    if "point" in getattr(start, "dims", ()):
+        columns = (start[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
+        repeated = tuple(zip(*columns, strict=True))
+        start = repeated[0][:3]
+    state = ball.on_section(*state_of(start))
+    if state[0].shape:
+        raise not_allowed("start", start, "one state or one orbit")
+    flights = _flights(ball, [float(a) for a in state], repeated)
     following = next(flights)
     coefficients = impact_coefficients(ball.k)
     columns, impacts, time = [], [], 0.0
     while time <= duration:
         (x, xdot, udot, tau), following = following, next(flights)
+        if len(impacts) == MOST_FLIGHTS:
+            raise not_allowed("duration", duration, f"at most {MOST_FLIGHTS:,} flights")
         impacts.append((time, x))
         b, c, _ = rebound(xdot, udot, ball.k, coefficients)
         t = tau * (np.arange(SAMPLES + 1) / SAMPLES)
@@ -76,3 +92,21 @@ def scene_motion(
     position_text = "position at impact, downwards", LENGTH
     names = {"impact_t": ("time of impact", TIME), "impact_position": position_text}
     return xr.Dataset(data | variables("impact", np.transpose(impacts), names))
+
+
+def scene_motion(
+    ball: Ball, energy: float, periodic: xr.Dataset, period: int, type: str, duration: float
+) -> xr.Dataset:
+    """Compute the motion of a periodic orbit from an impact on (Figures 3 and 4).
+
+    If the ball's map may miss impacts, the points are no orbit of it, and the first one is followed
+    impact by impact instead.
+
+    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> ball = Ball(k=0.2, g=0.04)
+    >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
+    6
+    """
+    orbit = of_type(periodic, type, period)
+    first = states_of(orbit)[:, 0]
+    return motion(ball, orbit if ball.map.certified else first, duration)

@@ -45,7 +45,7 @@ def numbers_of(root: Path, checked: Table) -> str:
     for each in sets:
         for scene, entry in committed[each.folder]["scenes"].items():
             name = f"{each.group}-{scene}" if scene in figures else scene
-            figures[name] = _figure(each, scene, entry, committed[each.folder]["data"])
+            figures[name] = _figure(root, each, scene, entry, committed[each.folder]["data"])
     for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
         figures[scene] |= {"rows": _rows(root, checked, scene), "settings": entry["config"]}
     return json.dumps(
@@ -100,15 +100,18 @@ def _listed(ticks: list[float]) -> str:
     return ", ".join(f"{tick:g}" for tick in ticks)
 
 
-def _figure(published: published_sets.PublishedSet, scene: str, entry: Table, data: Table) -> Table:
+def _figure(
+    root: Path, published: published_sets.PublishedSet, scene: str, entry: Table, data: Table
+) -> Table:
     """Return what the article says of a committed picture."""
     caption = caption_of(scene, entry["config"])
-    # The SVG file of the picture if it has one, else its PNG file.
-    file = min(entry["figures"], key=lambda name: not name.endswith(".svg"))
+    # For print an SVG file if there is one, for the web page the file that loads faster.
+    files = [f"{published.folder}/{name}" for name in sorted(entry["figures"])]
     return {
         "title": caption.title[0].upper() + caption.title[1:],
         "shows": caption.shows,
-        "file": f"{published.folder}/{file}",
+        "file": files[-1],
+        "web_file": min(files, key=lambda file: (root / file).stat().st_size),
         "scene": scene,
         "command": published.command,
         "datasets": list(_datasets(entry["data"].values(), data)),
