@@ -144,13 +144,13 @@ def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
         assert_text_is_whole_and_apart(figure, margin=1, slack=5)
 
 
-def test_eight_energies_have_eight_hues(data):
-    many = data("rotation")[0].isel(energy=[0, 1] * 4)
-    energies = [0.001, 0.005, 0.01, 0.015, 0.02, 0.026, 0.028, 0.03]
-    figure = draw("rotation", [many.assign(energy=("energy", energies))])
-    inks = {line.get_color() for line in figure.artists if line.get_linewidth() == 1.0}
-    assert len(inks) == 8
-    assert not [line for line in figure.artists if line.get_linestyle() == "--"]
+def test_lines_of_energies_differ_in_colour_or_dash_and_neighbours_in_both(data):
+    many = data("rotation")[0].isel(energy=[0, 1] * 5)
+    figure = draw("rotation", [many.assign(energy=("energy", [0.003 * i for i in range(10)]))])
+    lines = [line for line in figure.artists if line.get_linewidth() == 1.0]
+    inks = [(line.get_color(), line.get_linestyle()) for line in lines]
+    assert len(set(inks)) == 10 and len({color for color, _ in inks}) == 8
+    assert [dash for _, dash in inks[:8]] == ["-", "--"] * 4
 
 
 def test_names_of_plateaus_lie_within_their_panel(data, monkeypatch):
