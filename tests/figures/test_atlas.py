@@ -16,7 +16,7 @@ PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "
 WIDTH, HEIGHT = atlas.WIDE / 4, atlas.HIGH // 3  # pixels of a cell of PLANE
 # The lower ends of the two panels of PLANE.
 LOWER = 320
-UPPER = LOWER + 3 * HEIGHT + 195
+UPPER = LOWER + 3 * HEIGHT + 225
 LINE = {"k": [0.2], "g": 0.04, "energy": [0.625 * i for i in range(1, 21)]}
 
 

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from legible import assert_text_is_whole_and_apart
+from legible import assert_text_is_whole_and_apart, frames_of
 from samples import module
 from sections import BALL
 from small_curve import SMALL
@@ -15,6 +15,7 @@ from pseudorigid.analyses.families import families
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels, render
 from pseudorigid.proofs.theorems import scenes
 from pseudorigid.sweep.shares import shares
@@ -119,6 +120,9 @@ def test_a_picture_is_reproducible_and_fits_a_column(data, name):
     assert 0.01 < ink.mean() < 0.6
     for side in (ink[0], ink[-1], ink[:, 0], ink[:, -1]):  # the sheet cuts nothing off
         assert not side.any()
+    letters = [text for text in first.texts if "mathbf" in text.get_text()]
+    frames = 5 if name == "control" else len(frames_of(first))  # one letter for all portraits
+    assert len(letters) == (frames if frames > 1 else 0)
 
 
 @pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
@@ -144,13 +148,27 @@ def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
         assert_text_is_whole_and_apart(figure, margin=1, slack=5)
 
 
-def test_eight_energies_have_eight_hues(data):
-    many = data("rotation")[0].isel(energy=[0, 1] * 4)
-    energies = [0.001, 0.005, 0.01, 0.015, 0.02, 0.026, 0.028, 0.03]
-    figure = draw("rotation", [many.assign(energy=("energy", energies))])
-    inks = {line.get_color() for line in figure.artists if line.get_linewidth() == 1.0}
-    assert len(inks) == 8
-    assert not [line for line in figure.artists if line.get_linestyle() == "--"]
+def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
+    held, regular = data("families")
+    span, energy = rows(held)[0], held["energy"].values
+    residue = np.full(energy.size, 0.5)
+    residue[span] = np.linspace(0.5, 4.0, residue[span].size)
+    figure = draw("families", [held.assign(trace=("point", 2.0 - 4.0 * residue)), regular])
+    marks = [line for line in figure.artists if line.get_marker() in ("^", "v")]
+    places = np.hstack([line.get_data() for line in marks]) * style.DPI
+    (x,) = places[0][(places[1] > 340) & (places[1] < 695)]  # in the lowest panel
+    low, high = FAMILIES["span"]
+    leaves = np.interp(1.6, residue[span], energy[span])
+    assert x == pytest.approx(125 + 875 * (leaves - low) / (high - low), abs=0.1)
+
+
+def test_lines_of_energies_differ_in_colour_or_dash_and_neighbours_in_both(data):
+    many = data("rotation")[0].isel(energy=[0, 1] * 5)
+    figure = draw("rotation", [many.assign(energy=("energy", [0.003 * i for i in range(10)]))])
+    lines = [line for line in figure.artists if line.get_linewidth() == 1.0]
+    inks = [(line.get_color(), line.get_linestyle()) for line in lines]
+    assert len(set(inks)) == 10 and len({color for color, _ in inks}) == 8
+    assert [dash for _, dash in inks[:8]] == ["-", "--"] * 4
 
 
 def test_names_of_plateaus_lie_within_their_panel(data, monkeypatch):

@@ -8,7 +8,7 @@ import numpy as np
 from ..dynamics import fixed_point
 from .axes import raster
 from .axes.limits import decades, linear
-from .axes.panel import Panel, Window, corner, log10, title, upright
+from .axes.panel import Panel, Window, corner, letters, log10, title, upright
 from .canvas import style
 from .canvas.ragged_rows import pieces
 from .canvas.sheet import POINT, Sheet
@@ -37,20 +37,23 @@ def draw(sweep, data):
 def plane(sweep, data):
     """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k."""
     lower = 320
-    upper = lower + pixels(sweep)[1] + 195
+    upper = lower + pixels(sweep)[1] + 225
     sheet = sheet_above(upper, sweep)
     share, exponent = data["regular"].values, data["exponent"].values
     largest = float(np.nanmax(exponent, initial=0.05))
     panels = (
         (upper, "Regular share of the section", share, 1.0, "viridis"),
-        (lower, "Lyapunov exponent of the sea, an impact", exponent, largest, "magma"),
+        (lower, "Lyapunov exponent of the sea, per impact", exponent, largest, "magma"),
     )
+    frames = []
     for bottom, text, values, most, table in panels:
         panel = cells(sheet, bottom, sweep, values, most, table, text)
+        frames.append(panel.frame)
         _curves(panel, named=bottom == upper)
         for energy in PAPER_ENERGIES.values():
             panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
             panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
+    letters(sheet, *frames)
     _plane_key(sheet, 170)
     return sheet.figure
 
@@ -113,6 +116,8 @@ def line(sweep, data):
     exponent = linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
     below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
+    *sides, top = above.frame  # its title stands above the names of resonances
+    letters(sheet, (*sides, top + 10 * POINT), below.frame)
     for panel, text, bars, rise in (
         (above, "Regular share of the section", "bars: 95 %", 14),
         (below, "Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles", 4),

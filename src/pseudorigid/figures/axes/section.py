@@ -31,6 +31,7 @@ class Section(Panel):
         spans = (self.centre - half, self.centre + half), (-up, up)
         axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
         super().__init__(sheet, frame, *axes, grid=False)
+        self.minor()
 
     def orbits(self, orbits, chaotic):
         """Draw orbits as dots, first and paler those whose indices are in `chaotic`."""
@@ -54,7 +55,7 @@ def at_top(sheet, scene):
     return Section(sheet, frame, scene["ball"], Ball(**scene["ball"]).section(scene["energy"])[1])
 
 
-def over_orbits(scene, orbits, high=1125):
+def over_orbits(scene, orbits, high=1200):
     """Draw the section with its rim and orbits at the top of a new sheet.
 
     Return the panel, and the entries of a key for regular and for chaotic orbits, None for one that

@@ -5,17 +5,16 @@ from dataclasses import replace
 import numpy as np
 
 from ..axes.limits import linear, ticks
-from ..axes.panel import Axis, Panel, corner, key
+from ..axes.panel import Axis, Panel, corner, key, letters
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005  # pixels
-_COLUMNS = (1, 135, 550), (0, 590, 1005)  # index in _NAMES, left and right of a column of panels
+_COLUMNS = (1, 135, 540), (0, 600, 1005)  # index in _NAMES, left and right of a column of panels
 _LOWER = 240  # pixels: bottom of the lowest panels
 _NAMES = "$x$", "$y$"
 _MARKS = ("o", "s", "^", "D")
 _ROOM = 1.1  # upper end of an axis, in units of the largest number
-_CAP = 0.04  # half the width of the line at a bar's end, in lags
 
 
 @style.pinned()
@@ -23,19 +22,24 @@ def draw(scene, clusters):
     """Draw flight times, and the correlation and dependence between clusters against their lag."""
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
-    _flights(sheet, (_LEFT, 1180, _RIGHT, 1500), clusters)
+    frames = [(_LEFT, 1180, _RIGHT, 1500)]
+    frames += [
+        (a, low, b, high) for low, high in ((680, 1010), (_LOWER, 560)) for _, a, b in _COLUMNS
+    ]
+    letters(sheet, *frames)
+    _flights(sheet, frames[0], clusters)
     correlations = [clusters[f"correlation{end}"].values for end in ("", "_low", "_high")]
     span = 0.1 * (int(_ROOM * 10.0 * float(np.abs(correlations).max())) + 1)
     shares = [clusters[f"dependence{end}"].values for end in ("", "_low", "_high")]
     most = max(np.ceil(_ROOM * 10.0 * float(np.max(shares))), 7.0) / 10.0
-    for i, left, right in _COLUMNS:
+    for column, (i, *_) in enumerate(_COLUMNS):
         up = linear(-span, span, 9, f"Correlation of {_NAMES[i]}")
-        panel = _panel_by_lag(sheet, (left, 680, right, 1010), clusters, up)
+        panel = _panel_by_lag(sheet, frames[1 + column], clusters, up)
         panel.line(panel.across.limits, [0.0, 0.0], color=style.BLACK, lw=0.7)
         _marks(panel, clusters, [values[..., i, i] for values in correlations])
         name = f"Variance of {_NAMES[i]} explained"
         up = linear(min(0.0, _ROOM * float(np.min(shares))), most, 5, name)
-        panel = _panel_by_lag(sheet, (left, _LOWER, right, 560), clusters, up)
+        panel = _panel_by_lag(sheet, frames[3 + column], clusters, up)
         _marks(panel, clusters, [values[..., i] for values in shares])
     entries = [
         (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4])
@@ -82,10 +86,7 @@ def _marks(panel, clusters, estimates):
     for i in range(cuts.size):
         at = lags + min(0.2, 0.8 / cuts.size) * (i - 0.5 * (cuts.size - 1))
         panel.bars(at, low[i], high[i], color=style.HUES[i], lw=0.7)
-        for x, *ends in zip(at, low[i], high[i], strict=True):
-            for end in ends:
-                panel.line([x - _CAP, x + _CAP], [end, end], color=style.HUES[i], lw=0.5)
-        panel.dots(at, value[i], style.HUES[i], size=2.0, marker=_MARKS[i % 4])
+        panel.dots(at, value[i], style.HUES[i], size=3.2, marker=_MARKS[i % 4])
     widest = 0.5 * float((high - low).max())
     _, _, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"

@@ -3,73 +3,81 @@
 import numpy as np
 
 from ..axes.limits import decades, linear
-from ..axes.panel import Axis, Window, key, log10, title
+from ..axes.panel import Axis, Window, key, letters, log10, title
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import Sheet
 
 _LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
-_CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.SEA))
+_CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.BACKDROP))
 _UNCHANGED = "the impact map"
-# What a changed map keeps, in the order of the portraits' columns.
+# What a changed map keeps, the colour, and whether marks are hollow. All but the first have a
+# column of portraits, in this order.
 _KEPT = {
-    "both": ("area, reversor", style.BLACK),
-    "area": ("area alone", style.PURPLE),
-    "reversor": ("reversor alone", style.GREEN),
-    "neither": ("neither", style.ORANGE),
+    "both": ("area, reversor", style.BLACK, False),
+    "area": ("area alone", style.PURPLE, True),
+    "reversor": ("reversor alone", style.GREEN, False),
+    "neither": ("neither", style.ORANGE, True),
 }
 _FORMS = {"twist": "o", "stir": "s", "shift": "^"}  # in the order of the portraits' rows
-_ROWS = 1040, 655, 270  # pixels: the bottoms of the charts' rows
-_HIGH = 225  # pixels: the height of a chart
+_ROWS = 690, 290  # pixels: the bottoms of the charts' rows
+_HIGH = 240  # pixels: the height of a chart
 _LONG = 5  # digits of numbers of impacts that fit beside one another
-_SIDE = 222  # pixels: the side of a portrait
+_SIDE, _APART = 282, 346  # pixels: the side of a portrait, and from one to the next below
 
 
 @style.pinned()
 def draw(scene, control):
-    """Draw portraits of the maps, and shares, exponents and rates against the strength."""
-    sheet = Sheet(style.COLUMN, 2325)
+    """Draw portraits of maps, and shares and rates of all maps against the strength."""
+    sheet = Sheet(style.COLUMN, 2175)
     drawn = set(control["kind"].values.ravel().tolist())
     entries = [(*_CLASSES[kind], "o", False, 3.0) for kind in range(3) if kind in drawn]
-    key(sheet, entries, sheet.high - 32, 5, 45, 800, 7.0)
+    key(sheet, entries, sheet.high - 32, 3, _LEFT, 450, 7.0)
     sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
-    _portraits(sheet, control)
-    _charts(sheet, control)
-    entries = [(text, hue, "o", False, 3.4) for text, hue in _KEPT.values()]
-    entries += [(form, style.BLACK, mark, True, 3.4) for form, mark in _FORMS.items()]
+    text = rf"the changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
+    sheet.text(_RIGHT, _ROWS[0] + _HIGH + 80, text, ha="right", va="center", size=7.0)
+    letters(sheet, _portraits(sheet, control), *_charts(sheet, control))
+    entries = [(text, hue, "o", hollow, 3.4) for text, hue, hollow in _KEPT.values()]
+    entries += [(form, style.SEA, mark, False, 3.4) for form, mark in _FORMS.items()]
     entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
-    key(sheet, entries, 105, 4, _LEFT - 90, 990, 7.0)
-    sheet.text(
-        _LEFT - 90, 25, "colours: what is kept; marks: form of the change; bars: 95 %", size=7.0
-    )
+    key(sheet, entries, 125, 4, _LEFT - 90, 990, 7.0)
+    text = "colour and filling: what is kept; shape: form of the change; bars: 95 %"
+    sheet.text(_LEFT - 90, 30, text, size=7.0)
     return sheet.figure
 
 
 def _portraits(sheet, control):
-    """Draw the orbits of each panel, chaotic ones first."""
+    """Draw the orbits of each panel, chaotic ones first; return the first frame."""
     from ...kernel.arithmetic import sincos_each
 
-    bottom = 0.0
+    first = _LEFT, sheet.high - 105 - _SIDE, _LEFT + _SIDE, sheet.high - 105
+    columns, last = [*_KEPT][1:], len(_FORMS) - 1
     for i, name in enumerate(control["panel"].values.tolist()):
         form, _, kept = name.partition(" ")
-        row = len(_FORMS) - 1 if name == "none" else list(_FORMS).index(form)
-        left = 45 + (0 if name == "none" else list(_KEPT).index(kept)) * (_SIDE + 24)
-        bottom = sheet.high - 110 - row * (_SIDE + 62) - _SIDE
-        unit = Axis((-1.04, 1.04), ())
-        panel = Window(sheet, (left, bottom, left + _SIDE, bottom + _SIDE), unit, unit)
+        if kept == "both":  # like the unchanged map
+            continue
+        row = last if name == "none" else [*_FORMS].index(form)
+        column = 0 if name == "none" else columns.index(kept)
+        left, bottom = _LEFT + column * (_SIDE + 22), first[1] - row * _APART
+        frame = left, bottom, left + _SIDE, bottom + _SIDE
+        across, up = (
+            Axis((-1.04, 1.04), (-0.5, 0, 0.5), labels=[style.number(-0.5), name, "0.5"])
+            for name in ("$a$", "$b$")
+        )
+        across = across if row == last else across.blank()
+        up = up if column == 0 else up.blank()
+        panel = Window(sheet, frame, across, up, grid=False)
         sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
-        panel.line(cosine, sine, color=style.RIM, lw=0.5)
+        panel.line(cosine, sine, color=style.BLACK, lw=0.5)
         kinds = control["kind"].values[i]
         for kind in (2, 1, 0):
             a, b = (control[axis].values[i][kinds == kind].ravel() for axis in "ab")
-            panel.dots(a, b, _CLASSES[kind][1], 0.35 if kind == 2 else 0.7)
-        text = _UNCHANGED if name == "none" else f"{form}: {_KEPT[kept][0]}"
-        title(sheet, panel.frame, text, size=6.2)
-    text = rf"the changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
-    sheet.text(_RIGHT, bottom - 4 * POINT, text, ha="right", va="top", size=7.0)
+            panel.dots(a, b, _CLASSES[kind][1], 0.5 if kind == 2 else 0.7)
+        title(sheet, frame, _UNCHANGED if name == "none" else f"{form}: {_KEPT[kept][0]}")
+    return first
 
 
 def _charts(sheet, control):
-    """Draw shares, exponents and rates."""
+    """Draw shares and rates; return the frames."""
     strength = control["strength"].values[1:]
     logs = log10(strength)
     low, high = float(logs.min()), float(logs.max())
@@ -77,7 +85,6 @@ def _charts(sheet, control):
     if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
         low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
     across = decades((low - room, high + room), r"Strength $\epsilon$")
-    blank = across.blank()
     left, right = ((at, at + _HALF) for at in (_LEFT, _RIGHT - _HALF))
     frames = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in (left, right)]
     last = control.isel(length=-1)
@@ -85,31 +92,22 @@ def _charts(sheet, control):
         [last[f"class_{name}"].sel({"class": kind}).values for name in ("share", "low", "high")]
         for kind in ("regular", "spiral")
     )
-    exponent, attraction, rate = (
-        [control[f"{name}{end}"].values for end in ("", "_low", "_high")]
-        for name in ("exponent", "attraction", "rate")
-    )
-    attraction = [-values for values in attraction]
-    for frame, axis, up, text, estimate in (
-        (frames[0], blank, _share_axis(regular[2]), "Regular share", regular),
-        (frames[1], blank, linear(0.0, 1.0, 5), "Share of spirals", spiral),
-        (frames[2], blank, _axis_to(exponent[2]), "Exponent of chaotic orbits", exponent),
-        (frames[3], across, _axis_to(attraction[1]), "Contraction of area on spirals", attraction),
+    for frame, up, text, estimate in (
+        (frames[0], _share_axis(regular[2]), "Regular share", regular),
+        (frames[1], linear(0.0, 1.0, 5), "Share of spirals", spiral),
     ):
-        panel = _chart(sheet, frame, axis, up, text)
-        unchanged = estimate[0][0, 0]
-        if np.isfinite(unchanged):
-            limits = [10.0 ** axis.limits[0], 10.0 ** axis.limits[1]]
-            panel.line(limits, [unchanged] * 2, color=style.BACKDROP, lw=1.2, ls="--")
+        panel = _chart(sheet, frame, across, up, text)
+        panel.line([1e-9, 1.0], [estimate[0][0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
         _maps(panel, control, strength, [part[:, 1:] for part in estimate])
-    rate = [part[:, 1:, 0] / strength for part in rate]
+    rate = [control[f"rate{end}"].values[:, 1:, 0] / strength for end in ("", "_low", "_high")]
     finite = np.abs(rate[0][np.isfinite(rate[0])])
     most = 1.15 * float(finite.max()) if finite.size else 1.0
     up = linear(-most, most, 5)
-    panel = _chart(sheet, frames[4], across, up, r"Rate at the fixed point, / $\epsilon$")
+    panel = _chart(sheet, frames[2], across, up, r"Rate at the fixed point, / $\epsilon$")
     panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
     _maps(panel, control, strength, rate, joined=False)
-    _lengths(sheet, frames[5], control)
+    _lengths(sheet, frames[3], control)
+    return frames
 
 
 def _chart(sheet, frame, across, up, text, minor_across=True):
@@ -118,12 +116,6 @@ def _chart(sheet, frame, across, up, text, minor_across=True):
     panel.minor(minor_across)
     title(sheet, frame, text)
     return panel
-
-
-def _axis_to(values):
-    """Return an axis from 0 to above the largest of some values."""
-    finite = values[np.isfinite(values)]
-    return linear(0.0, 1.08 * float(finite.max()) if finite.size and finite.max() > 0.0 else 1.0, 4)
 
 
 def _share_axis(values):
@@ -135,14 +127,14 @@ def _maps(panel, control, at, estimate, apart=1.04, joined=True):
     """Draw the changed maps' values with intervals, (map, abscissa), side by side."""
     for i, name in enumerate(control["map"].values.tolist()):
         form, _, kept = name.partition(" ")
-        hue, mark = _KEPT[kept][1], _FORMS[form]
+        _, hue, hollow = _KEPT[kept]
         beside = at * apart ** (i - 4.5)
         value, low, high = (part[i] for part in estimate)
         if joined:
             panel.line(beside, value, color=style.pale(hue), lw=0.8)
         panel.bars(beside, low, high, color=hue, lw=0.7)
         shown = np.isfinite(value)
-        panel.dots(beside[shown], value[shown], hue, 3.0, False, mark)
+        panel.dots(beside[shown], value[shown], hue, 3.0, hollow, _FORMS[form])
 
 
 def _lengths(sheet, frame, control):

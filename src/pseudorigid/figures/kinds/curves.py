@@ -28,13 +28,13 @@ def draw(scene, curves, orbits):
     panel.dots(*saddles, style.BLUE, size=2.6)
     entries = [
         ("proved curve", style.VERMILION),
-        ("no orbit enters or leaves", _SHADE),
+        ("no orbit enters or leaves", _SHADE, "s", False, 5.0),
         ("inside no invariant circle", style.BLUE, "o") if saddles[0].size else None,
         regular,
         chaotic,
     ]
     entries = [entry for entry in entries if entry]
-    key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    key(panel.sheet, entries, panel.frame[1] - 128, 2, section.LEFT, section.SIDE)
     return panel.sheet.figure
 
 

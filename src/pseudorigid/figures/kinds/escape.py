@@ -21,7 +21,9 @@ def draw(scene, escape):
     entries = []
     for i, (line, more) in enumerate(zip(distance, scene["beside"], strict=True)):
         hue = style.HUES[i % len(style.HUES)]
-        panel.line(impact, line, color=hue, lw=1.1)
-        entries.append((f"at $E$ + {style.number(more)}" if more else "at $E$", hue))
+        wide = 1.1 + 0.5 * (len(distance) - 1 - i)  # all can be seen where they coincide
+        panel.line(impact, line, color=hue, lw=wide)
+        text = "at $E$" + (f" + {more:.10f}".rstrip("0") if more else "")
+        entries.append((text, hue, "", False, wide))
     key(sheet, entries, _FRAME[3] - 30, 1, _FRAME[0] + 30, 400)
     return sheet.figure

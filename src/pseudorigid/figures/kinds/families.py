@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..axes.limits import around, inside, linear
-from ..axes.panel import Window, key, title, upright
+from ..axes.panel import Window, key, letters, title, upright
 from ..canvas import style
 from ..canvas.ragged_rows import rows
 from ..canvas.sheet import POINT, Sheet
@@ -17,6 +17,7 @@ _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
 _NAMES = {"doubling": "period doubling"}  # of marks in the key
 _NAME = 50  # pixels: room for the name of a resonance
 _RESIDUES = -0.6, 1.6
+_BEYOND = "; triangles: beyond the axis"
 
 
 @style.pinned()
@@ -39,22 +40,17 @@ def draw(scene, families, shares):
         up = around(np.append(x, rim[1:]), 0.04, 8)
     middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
     below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
-    for panel, text, rise in (
-        (
-            above,
-            "Regular share of the section" + "; triangles: above the axis" * bool(beyond.any()),
-            14,
-        ),
-        (middle, "Position $x$ of the orbit's point on a symmetry line", 4),
-        (below, "Residue $(2-$trace$)/4$", 4),
-    ):
+    *sides, top = above.frame  # its title stands above the names of resonances
+    letters(sheet, (*sides, top + 10 * POINT), middle.frame, below.frame)
+    title(sheet, above.frame, "Regular share of the section" + _BEYOND * bool(beyond.any()), 14)
+    title(sheet, middle.frame, "Position $x$ of the orbit's point on a symmetry line")
+    for panel in (above, middle, below):
         panel.minor()
-        title(sheet, panel.frame, text, rise)
     _resonances((above, middle, below), scene, families)
-    values = [shares[name].values for name in (scene["parameter"], "regular")]
+    at, share = (shares[name].values for name in (scene["parameter"], "regular"))
     ends = (shares[f"regular_{end}"].values for end in ("low", "high"))
-    above.estimates(*values, *ends, style.BLUE)
-    above.dots(values[0][beyond], values[1][beyond] * 0.0 + highest, style.BLUE, 2.6, marker="^")
+    above.estimates(at, share, *ends, style.BLUE)
+    above.dots(at[beyond], 0.0 * at[beyond] + 0.98 * highest, style.BLUE, 2.6, marker="^")
     for end in rim[1:]:
         middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
     shown = [i for i, n in enumerate(families["period"].values) if n <= scene["drawn"]]
@@ -65,6 +61,8 @@ def draw(scene, families, shares):
     for i in shown:
         _family(middle, scene, families, i, x)
         _family(below, scene, families, i, residue)
+    leaves = [_exits(below, scene, families, i, residue) for i in shown]
+    title(sheet, below.frame, "Residue $(2-$trace$)/4$" + _BEYOND * any(leaves))
     marks = _events(middle, scene, families, set(shown))
     _keys(sheet, families, shown, marks)
     fixed = {name: scene["ball"][name] for name in "kg" if name != scene["parameter"]}
@@ -92,6 +90,20 @@ def _family(panel, scene, families, index, values):
         end = min(last + 1, types.size)
         dashes = {"ls": (0, (4.0, 2.5))} if kind == "inverse hyperbolic" else {}
         panel.line(across[first:end], up[first:end], color=hue, lw=_WIDTHS[kind], **dashes)
+
+
+def _exits(panel, scene, families, index, residue):
+    """Mark where a family leaves the axis of residues, and return how often it does."""
+    span = rows(families)[index]
+    at, values = families[scene["parameter"]].values[span], residue[span]
+    hue, count = _hue(int(families["period"].values[index])), 0
+    for end, inner, marker in ((_RESIDUES[1], 1.56, "^"), (_RESIDUES[0], -0.56, "v")):
+        beyond = (values > end) == (end > 0.0)
+        i = np.flatnonzero(beyond[1:] != beyond[:-1])
+        x = at[i] + (end - values[i]) / (values[i + 1] - values[i]) * (at[i + 1] - at[i])
+        panel.dots(x, 0.0 * x + inner, hue, 2.6, marker=marker)
+        count += i.size
+    return count
 
 
 def _hue(period):

@@ -7,11 +7,11 @@ import numpy as np
 from ...analyses.flux import SIDES
 from ..axes import section
 from ..axes.limits import around, linear
-from ..axes.panel import Panel, corner, key, title, vacant
+from ..axes.panel import Panel, corner, key, letters, title, vacant
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet, width
 
-_SIDES = (1, style.ORANGE), (0, style.PURPLE)  # index in SIDES: outer and inner
+_SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index in SIDES, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
@@ -23,15 +23,17 @@ def draw(scene, flux):
     frame = _regions(sheet, scene, flux)
     corner(sheet, frame, style.setting(scene))
     entries = [
-        (_edge_name(flux, side), hue if _has_edge(flux, side) else "white")  # the text alone
-        for side, hue in reversed(_SIDES)
+        (_edge_name(flux, side), hue if _has_edge(flux, side) else "white", "", False, wide)
+        for side, hue, wide in reversed(_SIDES)  # white: the text alone
     ]
     entries.append(("grazing rim", style.BLACK))
     entries.append(("crossing, and its lobe's area", style.FRAME, "o"))
     key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
     entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
     key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
-    for side, frame in ((1, (section.LEFT, 105, 505, 405)), (0, (680, 105, 1005, 405))):
+    lobes = (section.LEFT, 105, 505, 405), (680, 105, 1005, 405)
+    letters(sheet, frame, *lobes)
+    for side, frame in zip((1, 0), lobes, strict=True):
         title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18)
     return sheet.figure
 
@@ -55,11 +57,11 @@ def _regions(sheet, scene, flux):
     """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
     panel = section.at_top(sheet, scene)
     panel.rim(zorder=2)
-    for side, hue in _SIDES:
+    for side, hue, wide in _SIDES:
         if np.isnan(flux["area"].values[side]):
             continue
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
-        panel.line(x, y, color=hue, lw=1.1)
+        panel.line(x, y, color=hue, lw=wide)
         digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
         text = rf"area ${digits}\times 10^{{{int(power)}}}$"
         crossing = float(flux["crossing_x"].values[side].max())
@@ -75,7 +77,7 @@ def _regions(sheet, scene, flux):
             across, ha = (right, "right") if side else (left, "left")
             across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
             sheet.text(across, up, f"{SIDES[side]}: {text}", ha=ha, va="top", size=panel.small)
-    if not any(_has_edge(flux, side) for side, _ in _SIDES):
+    if not any(_has_edge(flux, side) for side, *_ in _SIDES):
         text = "neither region has an edge that can be drawn"
         panel.note(panel.centre, 0.5 * panel.high * panel.radius, text, ha="center")
     return panel.frame
@@ -89,7 +91,7 @@ def _lobe(sheet, frame, side, flux):
         vacant(sheet, frame, textwrap.fill(f"no lobe: {reason}", _LONGEST))
     elif side == 0 and (np.all(np.diff(y) >= 0.0) or np.all(np.diff(y) <= 0.0)):
         _difference(sheet, frame, x, y)
-        return "Inner: unstable less stable"
+        return "Inner: unstable minus stable"
     else:
         up = around([y, -y], 0.06, 5, "$y$")
         panel = Panel(sheet, frame, around(x, 0.06, 3, "$x$"), up)

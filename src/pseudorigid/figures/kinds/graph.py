@@ -22,10 +22,10 @@ def draw(scene, graph, orbits):
         for outline in corners[sets]:
             panel.line(*np.hstack([outline, outline[:, :1]]), color=hue, lw=wide, zorder=6)
     entries = [
-        ("sets at the saddles", style.VERMILION),
+        ("sets at the saddles", style.VERMILION, "D", True),
         ("connections", _LINK),
-        ("sets on the way", style.BLUE),
+        ("sets on the way", style.BLUE, "D", True, 2.2),
         *filter(None, (regular, chaotic)),
     ]
-    key(panel.sheet, entries, panel.frame[1] - 110, 2, section.LEFT, section.SIDE)
+    key(panel.sheet, entries, panel.frame[1] - 128, 2, section.LEFT, section.SIDE)
     return panel.sheet.figure

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...dynamics.variables import chart, states_of
 from ..axes.limits import complete, inside, of_data, refuse_empty
-from ..axes.panel import Axis, Window, corner, key
+from ..axes.panel import Axis, Window, corner, key, letters
 from ..canvas import style
 from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
@@ -40,6 +40,7 @@ def draw(scene, manifolds, horseshoe):
     _sets(panel, horseshoe)
     _relation(Window(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
+    letters(sheet, _ABOVE, _BELOW)
     return sheet.figure
 
 

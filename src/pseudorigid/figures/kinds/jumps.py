@@ -3,10 +3,10 @@
 import numpy as np
 
 from ..axes import section
-from ..axes.panel import key, title, vacant
+from ..axes.panel import key, letters, title, vacant
 from ..canvas import style
 
-_SMALL = 270  # pixels: side of the small panels
+_SMALL, _LEFTS = 230, (115, 445, 775)  # pixels: side and lefts of the small panels
 MAP, INVERSE = style.VERMILION, style.BLUE
 
 
@@ -30,7 +30,7 @@ def draw(scene, jumps, orbits):
     ]
     entries = [*filter(None, entries)]
     key(panel.sheet, entries, panel.frame[1] - 128, 3, section.LEFT - 50, section.SIDE + 60)
-    _births(panel.sheet, jumps)
+    letters(panel.sheet, panel.frame, *_births(panel.sheet, jumps))
     return panel.sheet.figure
 
 
@@ -41,7 +41,7 @@ def _curves(panel, jumps, row):
 
 
 def _births(sheet, jumps):
-    """Draw whole sections at energies above that of the birth, each in its own proportions."""
+    """Draw sections at energies above that of the birth, each on its own scale; return frames."""
     energies = jumps["energy"].values
     born = jumps["length"].values > 0.0
     rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
@@ -49,11 +49,11 @@ def _births(sheet, jumps):
         text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
         frame = section.LEFT, 60, section.LEFT + section.SIDE, 60 + _SMALL
         vacant(sheet, frame, text)
-    for number, row in enumerate(rising[:3]):
-        left = 60 + number * (_SMALL + 60)
-        frame = (left, 60, left + _SMALL, 60 + _SMALL)
+    frames = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(rising)]]
+    for frame, row in zip(frames, rising, strict=False):
         radius = float(jumps["radius"].values[row])
-        panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 0, ("", ""))
+        panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 4, ("", ""))
         panel.rim()
         _curves(panel, jumps, row)
         title(sheet, frame, f"$E$ = {style.number(float(energies[row]))}")
+    return frames

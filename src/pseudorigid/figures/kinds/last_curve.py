@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..axes.limits import around, decades
-from ..axes.panel import Panel, corner, key, log10
+from ..axes.panel import Panel, corner, key, letters, log10
 from ..axes.section import NAME
 from ..canvas import style
 from ..canvas.sheet import Sheet
@@ -18,19 +18,24 @@ def draw(scene, last_curve):
     rows = -(-last_curve.sizes["noble"] // 2)  # of a key
     extra = 75 * -(-48 * (rows - 1) // 75)
     sheet = Sheet(style.COLUMN, 1575 + 2 * extra)
-    _residues(sheet, (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), last_curve)
-    below = _LEFT, 105, _RIGHT, 760
-    _orbits(sheet, below, last_curve)
+    above, below = (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), (_LEFT, 105, _RIGHT, 760)
+    letters(sheet, above, below)
+    _residues(sheet, above, last_curve)
+    # An orbit above the critical residue fills much of the plane.
+    wide = np.abs(last_curve["residue"].values[:, -1]) > _CRITICAL
+    hues = [style.pale(c) if fills else c for c, fills in zip(style.MANY_HUES, wide, strict=False)]
+    _orbits(sheet, below, last_curve, hues)
     corner(sheet, below, style.setting(scene))
     names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
-    _key(sheet, names, sheet.high - 29)
+    _key(sheet, names, sheet.high - 29, style.MANY_HUES)
     periods = last_curve["period"].values[:, -1]
-    _key(sheet, [f"orbit from period {period:.0f}" for period in periods], 850 + 48 * (rows - 1))
+    names = [f"orbit from period {period:.0f}" for period in periods]
+    _key(sheet, names, 850 + 48 * (rows - 1), hues)
     return sheet.figure
 
 
-def _key(sheet, names, top):
-    entries = [(name, hue, "o") for name, hue in zip(names, style.MANY_HUES, strict=False)]
+def _key(sheet, names, top, hues):
+    entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=False)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
@@ -42,6 +47,7 @@ def _residues(sheet, frame, last_curve):
     limits = np.floor(log10(ends_up)).tolist()
     up = decades(limits, "Residue, its modulus")
     panel = Panel(sheet, frame, decades(ends.tolist(), "Period"), up)
+    panel.minor()
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
     for i in range(len(periods)):
         hue = style.MANY_HUES[i]
@@ -54,8 +60,8 @@ def _residues(sheet, frame, last_curve):
         corner(sheet, frame, "hollow: negative")
 
 
-def _orbits(sheet, frame, last_curve):
+def _orbits(sheet, frame, last_curve, hues):
     x, y = last_curve["x"].values, last_curve["y"].values
     panel = Panel(sheet, frame, around(x, 0.04, 6, "$x$"), around(y, 0.04, 6, NAME), grid=False)
     for i in reversed(range(x.shape[0])):
-        panel.dots(x[i], y[i], style.MANY_HUES[i], size=0.9)
+        panel.dots(x[i], y[i], hues[i], size=0.9)

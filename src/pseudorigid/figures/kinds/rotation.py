@@ -5,7 +5,7 @@ import numpy as np
 from ...analyses.regularity import regular
 from ...analyses.rotation import island, plateaus
 from ..axes.limits import around, inside, linear, ticks
-from ..axes.panel import Axis, Panel, corner, key, vacant
+from ..axes.panel import Axis, Panel, corner, key, letters, vacant
 from ..canvas import style
 from ..canvas.sheet import Sheet
 
@@ -17,7 +17,7 @@ _FAR = 4.0  # a curve longer than this times the median does not set the lowest 
 @style.pinned()
 def draw(scene, rotation):
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
-    sheet = Sheet(style.COLUMN, 2025)
+    sheet = Sheet(style.COLUMN, 2100)
     good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
     detail = _regular_detail(rotation)
     entries = [
@@ -27,30 +27,33 @@ def draw(scene, rotation):
         plateaus(*detail) and ("islands", style.VERMILION, "", False, 1.6),
     ]
     key(sheet, [*filter(None, entries)], sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
-    _first_energy(sheet, scene, rotation)
-    _detail(sheet, (_LEFT, 715, _RIGHT, 1065), rotation)
-    _energies(sheet, (_LEFT, 105, _RIGHT, 515), rotation)
+    spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
+    frames = [(_LEFT, low, _RIGHT, high) for low, high in spans]
+    letters(sheet, *frames)
+    _first_energy(sheet, frames[:2], scene, rotation)
+    _detail(sheet, frames[2], rotation)
+    _energies(sheet, frames[3], rotation)
     return sheet.figure
 
 
-def _first_energy(sheet, scene, rotation):
-    """Draw rotation number and exponent against the start at the first energy."""
+def _first_energy(sheet, frames, scene, rotation):
+    """Draw rotation numbers up to the last regular start, and exponents, at the first energy."""
     start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
     good = regular(growth, rotation.attrs["impacts"])
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
-    across = linear(at - 0.03, 1.0, 10, _STARTS)
     regular_turns = turns[good] if good.any() else turns
-    above = _LEFT, 1565, _RIGHT, 1875
+    last = min(start[good].max() + 0.03, 1.0) if good.any() else 1.0
+    across = linear(at - 0.03, last, 10, _STARTS)
     up = around(np.append(regular_turns, fixed), 0.1, 5, "Rotation number")
-    panel = Panel(sheet, above, across.blank(), up)
-    shown = ~good & (turns > up.limits[0]) & (turns < up.limits[1])
+    panel = Panel(sheet, frames[0], across, up)
+    shown = ~good & inside((across.limits, up.limits), (start, turns))
     panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
     panel.dots(start[good], turns[good], style.BLUE, size=1.6)
     panel.dots([at], [fixed], style.VERMILION, size=3.4)
-    corner(sheet, above, style.setting(scene))
+    corner(sheet, frames[0], style.setting(scene))
     top = max(np.ceil(10.0 * growth.max()), 1.0) / 10.0
     up = linear(min(-top / 15.0, growth.min()), top, 5, "Exponent")
-    panel = Panel(sheet, (_LEFT, 1265, _RIGHT, 1465), across, up)
+    panel = Panel(sheet, frames[1], linear(at - 0.03, 1.0, 10, _STARTS), up)
     panel.dots(start[~good], growth[~good], style.SEA, size=1.6)
     panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 
@@ -102,10 +105,16 @@ def _energies(sheet, frame, rotation):
     panel = Panel(sheet, frame, across, up)
     entries = []
     for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
-        hue, dashed = style.MANY_HUES[number % len(style.MANY_HUES)], number >= len(style.MANY_HUES)
+        turn, place = divmod(number, len(style.MANY_HUES))
+        hue, dashed = style.MANY_HUES[place], (place + turn) % 2 == 1
         last = np.logical_and.accumulate(shown).sum()
         panel.line(start[:last], change[:last], color=hue, lw=1.0, ls="--" if dashed else "-")
+        if last < start.size:
+            marker = "v" if change[last] < up.limits[0] else "^"
+            panel.dots(start[last - 1], change[last - 1], hue, marker=marker)
         entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
+    if not np.concatenate(within).all():
+        corner(sheet, frame, "triangles: beyond the axis")
     rows = -(-len(entries) // 2)
     key(sheet, entries, frame[1] + 18 + 39 * (rows - 1), 2, _LEFT + 20, 370, 6.5)
 
@@ -120,4 +129,4 @@ def _departure_axis(curves):
     low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps, with half a step
     tick_values = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
     limits = -(low + 0.5) * step, (high + 0.5) * step
-    return Axis(limits, tick_values, "Rotation number, less the fixed point's")
+    return Axis(limits, tick_values, "Rotation number minus the fixed point's")

@@ -7,12 +7,13 @@ from ...analyses.spread import stretches
 from ...dynamics.paper import BALL, EXPONENT, FIGURES
 from ...dynamics.variables import final_exponents
 from ..axes.limits import decades, of_data
-from ..axes.panel import Axis, Panel, corner, log10
+from ..axes.panel import Axis, Panel, corner, letters, log10
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _BAR = 0.001  # width of a bar of the histogram in the paper's case
+_LONGEST = 3.0  # quartile distances below the quartiles that the axis shows
 _LN10 = 2.302585092994046
 
 
@@ -22,23 +23,23 @@ def draw(scene, spread, lyapunov):
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
-    _lengths(sheet, (_LEFT, 1075, _RIGHT, 1425), spread, paper)
-    _short_runs(sheet, (_LEFT, 605, _RIGHT, 905), spread, lyapunov, paper)
-    _regular(sheet, (_LEFT, 105, _RIGHT, 435), spread)
+    frames = [(_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))]
+    letters(sheet, *frames)
+    _lengths(sheet, frames[0], spread, paper)
+    _short_runs(sheet, frames[1], spread, lyapunov, paper)
+    _regular(sheet, frames[2], spread)
     return sheet.figure
 
 
 def _lengths(sheet, frame, spread, paper):
-    """Draw range, quartiles and mean of the exponent against the length."""
+    """Draw range, quartiles and mean against the length; a triangle if the range is cut off."""
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
     low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
     across = decades((low - 0.1, high + 0.1), "Length in impacts")
-    shortest = stretches(spread, first)
-    axis, least = of_data(shortest), float(shortest.min())
-    if paper and least >= 0.0 and float(shortest.max()) < 0.27:
-        ticks = [0.01 * (4 * i) for i in range(int(least / 0.04), 7)]
-        axis = {"limits": (ticks[0], 0.27), "ticks": ticks}
+    shortest = np.sort(stretches(spread, first))
+    low, high = shortest[shortest.size // 4], shortest[3 * (shortest.size - 1) // 4]
+    axis = of_data(np.clip(shortest, low - _LONGEST * (high - low), None))
     panel = Panel(sheet, frame, across, Axis(**axis, name="Largest exponent in the sea"))
     if paper:
         panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
@@ -47,6 +48,8 @@ def _lengths(sheet, frame, spread, paper):
         values = np.sort(stretches(spread, length))
         last = values.size - 1
         panel.line([length] * 2, values[[0, last]], color=style.VERMILION, lw=0.7)
+        if values[0] < axis["limits"][0]:
+            panel.dots([length], values[:1], style.VERMILION, marker="v")
         panel.line([length] * 2, values[[last // 4, 3 * last // 4]], color=style.VERMILION, lw=2.4)
         panel.dots([length], [values.mean()], style.BLACK, size=2.0)
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
@@ -61,8 +64,6 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
     runs = stretches(spread, short)
     paper = paper and short == 200_000
     axis = of_data(runs, marked)
-    if paper:
-        axis = {"limits": (0.205, 0.255), "ticks": (0.21, 0.22, 0.23, 0.24, 0.25)}
     low, high = axis["limits"]
     bar = _BAR if paper else (high - low) / 50
     edges = low + bar * np.arange(round((high - low) / bar) + 1)
