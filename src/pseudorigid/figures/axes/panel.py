@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from string import ascii_lowercase
 
 import numpy as np
 
@@ -214,6 +215,13 @@ def title(sheet, frame, text, rise=4, size=_SMALL):
 def corner(sheet, frame, text, rise=4, size=_SMALL):
     """Write `text` above a frame's right end, `rise` points away."""
     sheet.text(frame[2], frame[3] + rise * POINT, text, ha="right", va="bottom", size=size)
+
+
+def letters(sheet, *frames):
+    """Write (a), (b), ... at the left above frames, beside their titles."""
+    for name, (left, _, _, top) in zip(ascii_lowercase, frames, strict=False):
+        text = rf"$\mathbf{{({name})}}$"
+        sheet.text(left - 2 * POINT, top + 4 * POINT, text, ha="right", va="bottom", size=_SIZE)
 
 
 def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SIZE):
