@@ -218,10 +218,10 @@ def corner(sheet, frame, text, rise=4, size=_SMALL):
 
 
 def letters(sheet, *frames):
-    """Write (a), (b), ... at the left above frames, beside their titles."""
+    """Write (a), (b), ... at the left above frames, beside titles and above labels of ticks."""
     for name, (left, _, _, top) in zip(ascii_lowercase, frames, strict=False):
         text = rf"$\mathbf{{({name})}}$"
-        sheet.text(left - 2 * POINT, top + 4 * POINT, text, ha="right", va="bottom", size=_SIZE)
+        sheet.text(left - 2 * POINT, top + 4.7 * POINT, text, ha="right", va="bottom", size=_SIZE)
 
 
 def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SIZE):
