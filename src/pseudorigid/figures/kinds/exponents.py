@@ -34,7 +34,7 @@ def draw(scene, lyapunov):
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
-        largest=lambda: of_data(greatest[greatest.shape[0] // 2 :], most=4),
+        largest=lambda: of_data(greatest[int(_INSET_START * len(greatest)) :], most=4),
     )
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
