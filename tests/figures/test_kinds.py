@@ -134,7 +134,7 @@ def test_ends_have_open_dots_and_jumps_squares():
     assert marks == {"o": seen[ends].sum(), "s": seen[jumps].sum()}
     assert in_key == bool(seen[jumps].any())
     texts = [text.get_text() for text in figure.texts]
-    assert ("jump of the map" in texts) == bool(seen[jumps].any())
+    assert ("jump" in texts) == bool(seen[jumps].any())
 
 
 def folded(turn_back):
@@ -162,4 +162,4 @@ def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
     labels = [text.get_text() for text in figure.texts]
-    assert labels.count("0.4") == 1 and labels.count("1.2") == 2  # ticks from 0.5 on, twice
+    assert {"0.5", "1.5"} <= {*labels}  # of the inset alone

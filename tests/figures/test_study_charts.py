@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from legible import assert_text_is_whole_and_apart
 
 from pseudorigid.figures import study
 from pseudorigid.figures.axes import panel
@@ -78,15 +79,15 @@ def test_failing_shares_are_heights():
         data = xr.Dataset(named() | exponents | {"near": near, "touch": touch})
         return marks(study.edges(data), FAMILIES[0])
 
-    zero = np.zeros((2, 2, 3))
-    before = drawn(zero, zero)
+    few = np.full((2, 2, 3), 0.1)  # no panel has room for the key
+    before = drawn(few, few)
     for row in range(2):
         for side, place in np.ndindex(2, 3):
             for share in (0.5, 1.0):
-                shares = [zero.copy(), zero.copy()]
+                shares = [few.copy(), few.copy()]
                 shares[row][0, side, place] = share
                 off = moved(before, drawn(*shares))
-                assert off[off != 0] == pytest.approx([share * 300], abs=0.2)  # of 300 pixels
+                assert off[off != 0] == pytest.approx([(share - 0.1) * 360], abs=0.2)
     assert before[0, 0] > before[1, 0] > before[2, 0]  # nearer to grazing is further left
 
 
@@ -104,15 +105,40 @@ def test_the_logarithm_of_axes():
 
 def test_scans_that_differ_in_their_step_have_one_entry():
     names = ["scan 0.5, 1e-12", "scan 0.1, 1e-12", "scan 0.01, 1e-12", "scan 0.1, 1e-06"]
-    families = ["scan 0.5 + bisection"] * 4 + ["time stepping"]
+    families = [f"{name.partition(',')[0]} + bisection" for name in names] + ["time stepping"]
     apart = {"apart": (("method", "impact"), np.full((5, 3), 1e-9)), "impact": [1, 2, 3]}
     figure = study.separation(xr.Dataset(named(families, [*names, "engine 1e-03"]) | apart))
     texts = [text.get_text() for text in figure.texts]
-    assert texts[-3:] == ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$", "engine $10^{-3}$"]
+    scans = ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$"]
+    assert texts[-3:] == [*scans, "time stepping, $10^{-3}$"]
 
 
 @pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
-def test_the_worst_right_root_is_in_the_key_if_it_is_drawn(wrong, drawn):
+def test_the_worst_right_root_is_named_if_it_is_drawn(wrong, drawn):
     figure = study.work(work_data(100.0, wrong=wrong), 1, "evaluations")
-    entries = [text.get_text() for text in figure.texts if "worst" in text.get_text()]
-    assert [("1 %" in text) for text in entries] == [True] * drawn
+    assert ("hollow: worst right root" in [text.get_text() for text in figure.texts]) == drawn
+
+
+def test_the_key_stands_in_a_panel_without_failures_or_below_all():
+    def drawn(least):
+        exponents = {"distance": ("distance", [0, 6]), "depth": ("depth", [2, 8])}
+        failing = {name: (("method", "side", dim), np.full((2, 2, 2), least))
+                   for name, dim in (("near", "distance"), ("touch", "depth"))}  # fmt: skip
+        failing["touch"][1][:, 1] = 0.0
+        figure = study.edges(xr.Dataset(named() | exponents | failing))
+        assert_text_is_whole_and_apart(figure, slack=4)  # letters stand close to labels
+        (text,) = (text for text in figure.texts if text.get_text() == "certified march")
+        return text.get_position()
+
+    assert drawn(0.5)[0] > drawn(0.0)[0]  # at the right, in the last panel; at the left
+
+
+def test_a_method_has_one_name_in_all_charts():
+    known = ("scan 0.1, 1e-12", "scan 0.1 + bisection"), ("brentq 0.1, 1e-12", "scan 0.1 + brentq")
+    assert [study._printed(*method).partition(", $")[0] for method in known] == [
+        "scan 0.1",
+        known[1][1],
+    ]
+    for name, family in (*known, ("heyoka any, 1e-15", "heyoka, any direction")):
+        alone, with_setting = study._printed(family, family), study._printed(name, family)
+        assert with_setting.startswith(f"{alone}, $10^{{-1")

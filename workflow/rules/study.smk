@@ -99,11 +99,11 @@ use rule orbits as draw_study_work with:
     """pseudorigid.figures.study.work"""
     input:
         work="results/study/work.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     output:
-        **made("results/study/figures/{chart}.png"),
+        **made("results/study/figures/{chart}.{extension}"),
     log:
-        log_path("results/study/figures/{chart}.png"),
+        log_path("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="work_(uniform|grazing)",
 
@@ -112,7 +112,7 @@ use rule draw_study_work as draw_study_work_all with:
     """pseudorigid.figures.study.work"""
     input:
         work_all="results/study/work_all.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="(work_all|seconds)_(uniform|grazing)",
 
@@ -121,7 +121,7 @@ use rule draw_study_work as draw_study_edges with:
     """pseudorigid.figures.study.edges"""
     input:
         edges="results/study/edges.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="edges",
 
@@ -130,7 +130,7 @@ use rule draw_study_work as draw_study_edges_all with:
     """pseudorigid.figures.study.edges"""
     input:
         edges_all="results/study/edges_all.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="edges_all",
 
@@ -139,7 +139,7 @@ use rule draw_study_work as draw_study_energy with:
     """pseudorigid.figures.study.energy"""
     input:
         orbits="results/study/orbits.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="energy",
 
@@ -148,7 +148,7 @@ use rule draw_study_work as draw_study_separation with:
     """pseudorigid.figures.study.separation"""
     input:
         orbits="results/study/orbits.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="apart",
 
@@ -157,7 +157,7 @@ use rule draw_study_work as draw_study_figure_errors with:
     """pseudorigid.figures.study.figure_errors"""
     input:
         needs="results/study/needs.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="needs",
 
@@ -166,6 +166,6 @@ use rule draw_study_work as draw_study_verdicts with:
     """pseudorigid.figures.study.verdicts"""
     input:
         verdicts="results/study/verdicts.nc",
-        why=reason("results/study/figures/{chart}.png"),
+        why=reason("results/study/figures/{chart}.{extension}"),
     wildcard_constraints:
         chart="verdicts",

@@ -7,6 +7,7 @@ whose data are the same on every machine, and the atlas.
 import re
 from collections.abc import Collection, Iterable, Mapping
 from functools import cache
+from itertools import product, starmap
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -129,10 +130,11 @@ def _study(variants: paths.Variants) -> PublishedSet:
     """Return the study's charts of what is computed; charts of times are listed as measured."""
     specs = build_specs.of_study(variants)
     charts = {name: part for name, (part, *_) in parts.CHARTS.items() if part in parts.FIXED}
-    fixed = {parts.data(part) for part in parts.FIXED} | {parts.drawn(name) for name in charts}
+    fixed = {*map(parts.data, parts.FIXED), *starmap(parts.drawn, product(charts, parts.FORMATS))}
     config = {n: parts.drawing(n) | specs[parts.data(p)].config for n, p in charts.items()}
     data = {name: {part: parts.data(part)} for name, part in charts.items()}
-    measured = [f"{name}.png" for name in parts.CHARTS if name not in charts]
+    others = (name for name in parts.CHARTS if name not in charts)
+    measured = map(".".join, product(others, parts.FORMATS))
     specs = {path: spec for path, spec in specs.items() if path in fixed}
     return _set("study", config, data, specs, *measured)
 

@@ -116,8 +116,9 @@ def of_study(variants: Variants) -> dict[str, BuildSpec]:
             path, part, "data", block, "study", inputs, given, modules.get(part, ())
         )
     for chart, (part, *_) in parts.CHARTS.items():
-        path, block = parts.drawn(chart), parts.drawing(chart)
-        specs[path] = _drawing(path, chart, block, "study", [parts.data(part)])
+        for path in (parts.drawn(chart, extension) for extension in parts.FORMATS):
+            inputs = [parts.data(part)]
+            specs[path] = _drawing(path, chart, parts.drawing(chart), "study", inputs)
     return specs
 
 

@@ -2,11 +2,12 @@
 
 import math
 import re
+from functools import partial
 
 import numpy as np
 
 from .axes.limits import decades
-from .axes.panel import Axis, Panel, corner, key, log10, title
+from .axes.panel import Axis, Panel, corner, key, letters, log10, title
 from .canvas import style
 from .canvas.sheet import POINT, Sheet
 
@@ -45,7 +46,11 @@ _VERDICTS = {
 _LEFT, _RIGHT = 150, 1010  # pixels: ends of the frames
 _ZERO = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
 _MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
-_COSTS = {"evaluations": (0, 5), "seconds": (-8, 0)}  # decades
+_COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
+_FLAT = 0.02  # share below which a panel has room for the key
+_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
+_COLUMNS, _LINE = 3, 42  # of a key; pixels: height of its lines
+_key = partial(key, columns=_COLUMNS, size=7.0)
 
 
 @style.pinned()
@@ -53,25 +58,24 @@ def work(data, which, cost):
     """Draw a work-precision diagram for one set of states: error and failures against cost.
 
     Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
-    the right roots, if at most one root in a hundred is wrong. Heavy bars are quartiles of the
-    seconds. Below is the share of wrong roots. `cost` is "evaluations" or "seconds".
+    the right roots, if at most one root in a hundred is wrong. Below is the share of wrong roots.
+    `cost` is "evaluations" or "seconds".
     """
-    families = list(dict.fromkeys(data["family"].values))
-    entries, notes = _entries(families, families), [("filled: the median", style.FRAME, "o")]
-    if (data["wrong"].values[which] <= _MAX_WRONG_SHARE).any():
-        words = f"hollow: the worst right root, if at most {100 * _MAX_WRONG_SHARE:.0f} % are wrong"
-        notes.append((words, style.FRAME, "o", True))
-    if cost == "seconds":
-        notes.append(("heavy bars: quartiles of the seconds", style.FRAME, "", False, 1.6))
-    lines = math.ceil(len(entries) / 2)
-    sheet, top = _sheet(1010 + (lines + len(notes)) * 48)
+    data, families = data.isel(set=which), list(dict.fromkeys(data["family"].values))
+    entries, wrong = _entries(families, families), data["wrong"].values
+    sheet, top = _sheet(1030, entries)
     across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
     error = _axis_with_zero(_ZERO, 0, "Relative error of the flight time")
     upper = Panel(sheet, (_LEFT, top - 560, _RIGHT, top), across.blank(), error)
-    share = Axis((0.0, 0.6), (0, 0.2, 0.4, 0.6), "Share of wrong roots")
+    shares = (0, 0.2, 0.4, 0.6) if wrong.max() > 0.1 else (0, 0.05, 0.1)
+    share = Axis((0.0, shares[-1]), shares, "Share of wrong roots")
     lower = Panel(sheet, (_LEFT, top - 830, _RIGHT, top - 630), across, share)
+    letters(sheet, upper.frame, lower.frame)
+    _break_above_zero(upper)
+    if (wrong <= _MAX_WRONG_SHARE).any():
+        corner(sheet, upper.frame, "hollow: worst right root")
     for family, (_, color, marker) in zip(families, entries, strict=True):
-        part = data.isel(set=which, method=data["family"].values == family)
+        part = data.isel(method=data["family"].values == family)
         x, wrong = part[cost].values, part["wrong"].values
         median, worst = (_zero_at_end(part[name].values, _ZERO) for name in ("median", "worst"))
         reliable = wrong <= _MAX_WRONG_SHARE
@@ -79,14 +83,9 @@ def work(data, which, cost):
         upper.line(x[reliable], worst[reliable], color=color, lw=0.5, ls="--")
         upper.dots(x[reliable], worst[reliable], color, hollow=True, marker=marker)
         upper.dots(x, median, color, marker=marker)
-        if cost == "seconds":
-            spans = part["seconds_low"].values, part["seconds_high"].values
-            for *span, y in zip(*spans, median, strict=True):
-                upper.line(span, [y, y], color=color, lw=1.6)
         lower.line(x, wrong, color=color, lw=0.9)
         lower.dots(x, wrong, color, marker=marker)
-    key(sheet, entries, top - 960, 2)
-    key(sheet, notes, top - 960 - 48 * lines, 1)
+    _key(sheet, entries, top - 965)
     return sheet.figure
 
 
@@ -94,11 +93,13 @@ def work(data, which, cost):
 def edges(data):
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
-    A ball that grazes at x > -g comes back at once, at x < -g it leaves.
+    A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
+    in which no method fails, if there is one.
     """
     methods = _entries(data["name"].values, data["family"].values)
-    sheet, top = _sheet(1005 + math.ceil(len(methods) / 2) * 42)
-    gap = 40
+    flat = [(v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _FLAT][:1]
+    sheet, top = _sheet(1075 if flat else 1100 + _LINE * len(methods))
+    gap, frames = 40, []
     wide = (_RIGHT - _LEFT - gap) / 2
     grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
     sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
@@ -107,18 +108,22 @@ def edges(data):
         x = [float(f"1e-{n}") for n in data[exponent].values]
         across = Axis(limits, range(*limits, 4), "", True)
         for side, text in enumerate(sides):
-            left, high = _LEFT + side * (wide + gap), top - row * 480
+            left, high = _LEFT + side * (wide + gap), top - row * 540
             up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
-            frame = left, high - 300, left + wide, high
-            panel = Panel(sheet, frame, across, up)
+            frames.append((left, high - 360, left + wide, high))
+            panel = Panel(sheet, frames[-1], across, up, grid=(variable, side) not in flat)
             if side:
-                middle = left - gap / 2, high - 300 - 16 * POINT
+                middle = left - gap / 2, high - 360 - 16 * POINT
                 sheet.text(*middle, name, ha="center", va="top", size=8.0)
-            title(sheet, frame, text if side else f"Share failing, {text}", size=8.0)
+            title(sheet, frames[-1], text if side else f"Share failing, {text}", size=8.0)
             for (_, color, marker), share in zip(methods, data[variable].values, strict=True):
                 panel.line(x, share[side], color=color, lw=0.9)
                 panel.dots(x, share[side], color, size=2.6, marker=marker)
-    key(sheet, methods, top - 920, 2)
+            if (variable, side) in flat:
+                _key(sheet, methods, high - 30, columns=1, left=left + 30)
+    letters(sheet, *frames)
+    if not flat:
+        _key(sheet, methods, top - 1040, columns=1)
     return sheet.figure
 
 
@@ -128,17 +133,21 @@ def energy(data):
 
     In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
     """
-    sheet, top = _sheet(1350)
+    entries = _methods_with_merged_scans(data)
+    named = list(dict.fromkeys(entries))
+    sheet, top = _sheet(1135, named)
     drift = _axis_with_zero(_ZERO, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (_LEFT, top - 430, _RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
     up = Axis((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
-    lower = Panel(sheet, (_LEFT, 330, _RIGHT, 670), across, up)
+    lower = Panel(sheet, (_LEFT, top - 940, _RIGHT, top - 600), across, up)
+    letters(sheet, upper.frame, lower.frame)
+    _break_above_zero(upper)
+    _break_above_zero(lower)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
-    entries = _methods_with_merged_scans(data)
     for i, (_, color, marker) in enumerate(entries):
         drift = data["drift"].values[i]
         upper.line(data["record"].values, _zero_at_end(drift, _ZERO), color=color, lw=0.9)
@@ -147,7 +156,7 @@ def energy(data):
         if entries.count(entries[i]) > 1:
             lower.note(*end, _scan_step(data["name"].values[i]), shift=(3, 3.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
-    key(sheet, list(dict.fromkeys(entries)), 190, 2)
+    _key(sheet, named, top - 1075)
     return sheet.figure
 
 
@@ -158,10 +167,11 @@ def separation(data):
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
     up = _axis_with_zero(_ZERO, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (_LEFT, top - 600, _RIGHT, top), across, up)
+    _break_above_zero(panel)
     entries = _methods_with_merged_scans(data)
     for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
         panel.line(data["impact"].values, _zero_at_end(distance, _ZERO), color=color, lw=0.9)
-    key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740, 2)
+    _key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
     return sheet.figure
 
 
@@ -173,16 +183,18 @@ def figure_errors(data):
     two cheapest methods that suffice.
     """
     scenes, families = data.sizes["scene"], data["family"].values
-    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
+    sheet = Sheet(style.COLUMN, 75 * (4 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
     up = Axis((0, scenes), middles, labels=names)
     across = _axis_with_zero(-16, 6, "Error of the picture / what it can hide")
     panel = Panel(sheet, (_LEFT, bottom, 720, top), across, up)
+    _break_above_zero(panel, across=True)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     heading = "Evaluations an impact, of the two cheapest that suffice"
     corner(sheet, (_LEFT, bottom, sheet.wide - 15, top), heading)
+    methods = [text for text, *_ in _entries(data["name"].values, families)]
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
         errors = _zero_at_end(row["error"].values / float(row["limit"]), -16)
@@ -190,15 +202,15 @@ def figure_errors(data):
         for family, error, hollow in zip(families, errors, missed, strict=True):
             panel.dots(error, middle, STYLES[family][0], hollow=hollow)
         circles = np.where(missed, " \N{WHITE CIRCLE}", "")
-        named = list(zip(row["evaluations"].values, row["name"].values, circles, strict=True))
+        named = list(zip(row["evaluations"].values, methods, circles, strict=True))
         best = int(row["cheapest"])
         others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
         second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
-            sheet.text(740, y + shift, _printed_name(text), size=7.0)
+            sheet.text(740, y + shift, text, size=7.0)
     entries = dict.fromkeys(_entries(families, families))
-    key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 140, 2)
+    _key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 135)
     return sheet.figure
 
 
@@ -210,10 +222,11 @@ def verdicts(data):
     names = [f"{length:,}" for length in data["length"].values.tolist()]
     across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
     up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
-    orbits = data.attrs["orbits"] * data.sizes["cell"]
+    orbits, frames = data.attrs["orbits"] * data.sizes["cell"], []
     for row, axis in enumerate((across.blank(), across)):
         frame = (_LEFT, top - 420 - row * 500, _RIGHT, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
+        frames.append(frame)
         panel.minor(across=False)
         title(sheet, frame, f"Wrong verdicts, {data['cells'].values[row]}")
         if row == 1:
@@ -226,13 +239,16 @@ def verdicts(data):
             panel.line(cost, shown[0], color=color, lw=0.9)
             panel.bars(cost, *shown[1:], color=color, lw=0.6)
             panel.dots(cost, shown[0], color, marker=marker)
-    key(sheet, [(name, *_VERDICTS[name]) for name in data["name"].values], top - 1070, 2)
+    letters(sheet, *frames)
+    entries = [(name, *_VERDICTS[name]) for name in data["name"].values]
+    _key(sheet, entries, top - 1065, columns=2)
     return sheet.figure
 
 
-def _sheet(least):
-    """Return a sheet of at least this height in pixels, and the upper end of its first frame."""
-    high = 75 * math.ceil(least / 75)  # whole quarters of an inch
+def _sheet(least, entries=()):
+    """Return a sheet for a height in pixels and a key, and the upper end of its first frame."""
+    lines = math.ceil(len(entries) / _COLUMNS)
+    high = 75 * math.ceil((least + lines * _LINE) / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
 
 
@@ -248,10 +264,21 @@ def _zero_at_end(values, zero):
     return np.maximum(values, float(f"1e{zero}"))
 
 
+def _break_above_zero(panel, across=False):
+    """Mark the gap between zero and the powers of ten on an axis that has both."""
+    left, bottom, *_ = panel.frame
+    start, level = (left, bottom) if across else (bottom, left)
+    for shift, rise, color, points in ((0, 0, "white", 1.6), *_STROKES):
+        along = [start + 30 + shift + end for end in (-5, 5)]
+        off = [level - rise, level + rise]
+        ends = (along, off) if across else (off, along)
+        panel.sheet.draw(*ends, color=color, lw=points, zorder=3.5)
+
+
 def _entries(names, families):
     """Return an entry of the key, (text, colour, mark), for each method or family."""
     pairs = zip(names, families, strict=True)
-    return [(_printed_name(name), *STYLES.get(name, STYLES[family])) for name, family in pairs]
+    return [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
 
 
 def _methods_with_merged_scans(data):
@@ -262,7 +289,7 @@ def _methods_with_merged_scans(data):
             scans.setdefault(name.partition(", ")[2], []).append((i, _scan_step(name)))
     for tolerance, scan in scans.items():
         if len(scan) > 1:
-            text = _printed_name(f"scan {scan[0][1]} to {scan[-1][1]}, {tolerance}")
+            text = _printed(tolerance, f"scan {scan[0][1]} to {scan[-1][1]}")
             for i, _ in scan:
                 entries[i] = (text, style.BLUE, "o")
     return entries
@@ -273,9 +300,12 @@ def _scan_step(name):
     return name.partition(", ")[0].removeprefix("scan ")
 
 
-def _printed_name(name):
-    """Return a method's name with typeset powers of ten and relations."""
-    return re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", name).replace("<=", "\N{LESS-THAN OR EQUAL TO}")
+def _printed(name, family):
+    """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
+    family = family.removesuffix(" + bisection").removesuffix(" direction")
+    setting = re.search(r"1e-0?(\d+)$", name)
+    text = family.replace("<=", "\N{LESS-THAN OR EQUAL TO}")
+    return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text
 
 
 _CHARTS = {f.__name__: f for f in (work, edges, energy, separation, figure_errors, verdicts)}

@@ -141,8 +141,8 @@ class _Page:
         sets = []
         for findings in self.sets[1:]:
             published_set = findings.published_set
-            names = [name for name in published_set.drawn if name.endswith(".png")]
-            pictures = [self._on_request(findings, n) for n in (*names, *published_set.measured)]
+            files = (*published_set.drawn, *published_set.measured)
+            pictures = [self._on_request(findings, name) for name in files if name.endswith(".png")]
             sets.append((published_set.command, [each for each in pictures if each]))
         return sets
 

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from itertools import product
 from pathlib import PurePath
 
 from ... import config
@@ -94,9 +95,10 @@ def _study(args: Arguments) -> Selected:
     if not args.makes_nothing:
         add_packages("study")
     files = {}
-    for chart, (part, *_) in study.CHARTS.items():
-        path = study.published(chart) if part in study.FIXED else study.drawn(chart)
-        files[path] = study.drawn(chart)
+    for chart, extension in product(study.CHARTS, study.FORMATS):
+        fixed = study.CHARTS[chart][0] in study.FIXED
+        drawn = study.drawn(chart, extension)
+        files[study.published(chart, extension) if fixed else drawn] = drawn
     return {"study": (files, [*map(study.data, (*study.FIXED, *study.MEASURED))])}
 
 

@@ -1,6 +1,7 @@
 """./reproduce list: show what can be made and the state of each file."""
 
 from collections.abc import Iterator, Sequence
+from itertools import product
 from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
@@ -23,7 +24,8 @@ def run(args: Arguments) -> int:
     freshness = Freshness(ROOT, build_specs.of_all(args.checked))
     for published_set in committed_sets(args.checked):
         _print(published_set.command, [*_published(freshness, published_set)])
-    measured = [parts.drawn(c) for c in parts.CHARTS if parts.CHARTS[c][0] in parts.MEASURED]
+    charts = [chart for chart, (part, *_) in parts.CHARTS.items() if part in parts.MEASURED]
+    measured = [parts.drawn(*each) for each in product(charts, parts.FORMATS)]
     for command, results in (
         ("./reproduce study, measured", measured),
         ("./reproduce sweep", [*map(paths.sweep_dataset, sweeps)]),

@@ -31,8 +31,9 @@ STUDIED = ("portrait", "motion", "tangle", "closeup", "exponents")
 FOLDER = FOLDERS["study"]
 # Functions of a name that return a path from the project's root.
 data = "results/study/{}.nc".format  # of a part
-drawn = "results/study/figures/{}.png".format  # where a chart is drawn
-published = (FOLDER + "/{}.png").format  # where users find a chart
+FORMATS = ("png", "svg")  # of charts
+drawn = "results/study/figures/{}.{}".format  # where a chart is drawn in a format
+published = (FOLDER + "/{}.{}").format  # where users find a chart in a format
 
 
 def block(part: str, scenes: Mapping[str, YamlMapping]) -> YamlMapping:

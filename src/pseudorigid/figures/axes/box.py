@@ -4,7 +4,7 @@ import numpy as np
 
 from ..canvas import style
 from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import POINT, Sheet, width
 from .limits import inside, refuse_empty
 from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
@@ -13,7 +13,8 @@ from .projection import Projection
 _WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
 _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
-_COLUMNS, _ROW = 4, 1.45 * _SIZE  # of the key above the box; points
+_ROW, _LEFT, _BETWEEN = 1.45 * _SIZE, 45, 28  # of the key above the box; points, pixels, pixels
+_RIM = 0.7  # points: width of the rim
 _SIDES = 2000  # pieces of a line of the box, which the surface hides one by one
 
 
@@ -36,16 +37,24 @@ class Box:
             if not self.seen(*shown).any():
                 hides = "the energy surface hides all that is drawn"
                 raise ValueError(f"view {scene['view']}: {hides}")
-        cells = [None, None, *entries]
         if self.seen(*self.surface.rim()).any():
-            cells.append(("grazing rim", style.RIM))
-        self.sheet = self._fit(-(-len(cells) // _COLUMNS))
+            entries = [*entries, ("grazing rim", style.RIM, "", False, _RIM)]
+        text = style.setting(scene)
+        wide = [7 * POINT + width(name, _SIZE) + _BETWEEN for name, *_ in entries]
+        left, row = _LEFT + width(text, _SIZE) + _BETWEEN, 0
+        if left + sum(wide) > _WIDE:
+            left, row = _LEFT, 1
+        self.sheet = self._fit(1 + row)
         self.figure = self.sheet.figure
-        self._key(style.setting(scene), cells)
+        top = self.sheet.high - (4 + _ROW / 2) * POINT
+        self.sheet.text(_LEFT - 8, top, text, size=_SIZE)
+        for entry, space in zip(entries, wide, strict=True):
+            key(self.sheet, [entry], top - row * _ROW * POINT, 1, left, size=_SIZE)
+            left += space
         self._panes()
         self._edges()
         self.line(*self.surface.outline(self.view), style.PANE, 0.6)
-        self.line(*self.surface.rim(), style.RIM, 0.9)
+        self.line(*self.surface.rim(), style.RIM, _RIM)
 
     def points(self, x, y, z, color, size, **line_style):
         """Draw opaque dots of `size` points across, in the order given."""
@@ -84,12 +93,6 @@ class Box:
         bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
-
-    def _key(self, text, cells):
-        """Write energy and ball into the first two cells of the key, and name the marks after."""
-        top, left = self.sheet.high - (4 + _ROW / 2) * POINT, 45
-        self.sheet.text(left - 8, top, text, size=_SIZE)
-        key(self.sheet, cells, top, _COLUMNS, left, _WIDE - left, _SIZE)
 
     def _edge(self, start, along, color, width):
         """Draw the line of the box through `start` in the direction of one axis."""
@@ -139,7 +142,7 @@ class Box:
             low, high = self.spans[along]
             name = list(style.NAMES.values())[along]
             if along == 2:  # this name stands above its axis, the others beside the middle
-                yield [*start[:2], high], (0.0, 1.0), 2 * _GAP, name, _NAME
+                yield [*start[:2], high], (-0.3, 1.0), 2 * _GAP, name, _NAME
                 continue
             size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
             at = [*start[:along], (low + high) / 2, *start[along + 1 :]]

@@ -21,13 +21,8 @@ _MOST = 9  # decades with a tick each; beyond that every second, third, ... has 
 
 
 def of_window(low, high):
-    """Return an axis with a window's edges as limits and the shortest decimals inside as ticks."""
-    for digits in range(1, 16):
-        power = 10**digits
-        ticks = [math.ceil(low * power) / power, math.floor(high * power) / power]
-        if ticks[1] - ticks[0] >= 0.6 * (high - low):
-            break
-    return {"limits": [low, high], "ticks": ticks}
+    """Return an axis with a window's edges as limits and round ticks inside."""
+    return {"limits": [low, high], "ticks": ticks(low, high, 4)}
 
 
 def of_data(*values, margin=0.0, room=0.03, most=8):

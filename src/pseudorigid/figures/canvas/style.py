@@ -20,7 +20,7 @@ MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
 MANY_HUES = (*HUES, SEA)
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
-RIM = "#7a5c3a"
+RIM = BLACK
 
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 

@@ -5,9 +5,9 @@ from functools import partial
 import numpy as np
 
 from ...dynamics.variables import final_exponents
-from ..axes.limits import complete, inside, of_data, refuse_empty
+from ..axes.limits import complete, inside, of_data, refuse_empty, ticks
 from ..axes.panel import Axis, Window, key
-from ..axes.plane import Plane
+from ..axes.plane import Plane, thousands
 from ..canvas import style
 from ..canvas.sheet import POINT
 
@@ -21,7 +21,7 @@ plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 def draw(scene, lyapunov):
     """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
 
-    The inset stands above its own impacts. If some orbits are regular and others chaotic, inset and
+    If some orbits are regular and others chaotic, inset and
     names are those of chaotic ones, and a key has each start. Raises ValueError if the axes show
     nothing.
     """
@@ -34,7 +34,7 @@ def draw(scene, lyapunov):
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
-        largest=lambda: of_data(greatest[greatest.shape[0] // 2 :], most=4),
+        largest=lambda: of_data(greatest[int(_INSET_START * len(greatest)) :], most=4),
     )
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
@@ -92,9 +92,10 @@ def _inset(picture, largest, first, second, last):
     start += _INSET_START * (end - start)
     if last < start:
         return None
-    labelled = zip(picture.across.ticks, picture.across.labels, strict=True)
-    labels = {tick: label for tick, label in labelled if start < tick < end}
-    across = Axis((start, end), [*labels], labels=[*labels.values()])
+    marks = ticks(start, end, 5)
+    power = thousands(picture.across.ticks)
+    across = Axis((start, end), marks, labels=[style.number(mark, power) for mark in marks])
     bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
-    frame = left + _INSET_START * (right - left), bottom, right, high - 0.2 * (high - low)
+    wide = right - left
+    frame = left + 0.2 * wide, bottom, right - 0.05 * wide, high - 0.18 * (high - low)
     return _Inset(picture.sheet, frame, across, Axis(**largest))

@@ -12,9 +12,8 @@ from ..canvas.sheet import POINT
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
 _SHARP = 0.5  # of the reach: the largest distance there between the two sides of a sharp fold
-_WORDS = dict(enumerate(("one", "two", "three", "four", "five", "six"), 1))
 # Stable branches first and broader: both show where they all but coincide.
-_BRANCHES = ((1, style.STABLE, 0.8), (0, style.UNSTABLE, 0.5))
+_BRANCHES = (("stable", 1, style.STABLE, 1.0), ("unstable", 0, style.UNSTABLE, 0.5))
 
 
 @style.pinned()
@@ -28,20 +27,18 @@ def draw(scene, orbits, manifolds, periodic):
     scene = complete_box(scene, orbits, manifolds)
     branches, jumps = states_of(manifolds), _jumps(manifolds)
     saddles = states_of(of_type(periodic, scene["type"]))
-    count = saddles.shape[1]
     entries = [
-        ("stable", style.STABLE),
-        ("unstable", style.UNSTABLE),
-        (f"period-{_WORDS.get(count, count)} points", style.VERMILION, "o"),
-        ("sea and islands", style.BACKDROP, "o"),
+        *((name, hue, "", False, width) for name, _, hue, width in _BRANCHES),
+        ("saddles", style.VERMILION, "o"),
+        ("orbits", style.BACKDROP, "o"),
     ]
     trial = Box(scene, shown=branches)
     spans, pixels = rows(manifolds), np.array(trial.view(*branches))
     tips = [span.start + tip for span in spans for tip in _tips(pixels[:, span], pixels)]
     for name, marker, hollow, size, at in (
-        ("not followed on", "o", True, None, [span.stop - 1 for span in spans]),
-        ("sharp fold", "o", False, _TIP, tips),
-        ("jump of the map", "s", True, None, jumps),
+        ("cut off", "o", True, None, [span.stop - 1 for span in spans]),
+        ("jump", "s", True, None, jumps),
+        ("fold", "o", False, _TIP, tips),
     ):
         if trial.seen(*branches[:, at]).any():
             entries.append((name, style.FRAME, marker, hollow, size))
@@ -57,7 +54,7 @@ def _branches(box, manifolds, states, jumps, tips):
     """Draw the branches, and on top of them the marks of their tips, jumps and ends."""
     spans, marks = rows(manifolds), []
     hollow = {"mfc": "white", "mew": 0.6}
-    for stable, hue, width in _BRANCHES:
+    for _, stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
             line = states[:, span]
             box.line(*line, hue, width)
