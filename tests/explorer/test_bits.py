@@ -25,7 +25,7 @@ STEPS = """
 const rows = floats(args[0]), result = new Float64Array(4 * rows.length / 5);
 for (let i = 0; i < rows.length / 5; i += 1) {
   const [k, g, ...state] = rows.subarray(5 * i, 5 * i + 5);
-  pseudorigid.iterate(k, g, ...state, 1, result.subarray(4 * i, 4 * i + 4));
+  result.set(pseudorigid.iterate(k, g, ...state, 1), 4 * i);
 }
 return text(result);
 """
@@ -165,9 +165,9 @@ def test_a_frame_whose_lengths_leave_the_range_of_doubles(browser):
     """The logarithms are then collected at once; exponents alone would reach it only rarely."""
     start, coefficients = BALL.start(CHAOTIC, ENERGY), impact.impact_coefficients(BALL.k)
     script = """const follower = pseudorigid.follow(0.2, 0.04, ...args.slice(0, 3));
-        follower.orbit.set(floats(args[3]), 17);
+        follower.orbit.set(floats(args[3]), 15);
         follower.advance(1);
-        return text(follower.orbit.subarray(8, 23));"""
+        return text(follower.orbit.subarray(6, 21));"""
     x, _, w, _, *flight, _ = impact.step_with_flight(*start, BALL.k, BALL.g, coefficients, None)
     for lengths in ((1e99, 1.0, 1e-99), (1e100, 2.0, 3.0), (1.0, 1e-101, 1.0), (0.0, 1.0, 1.0)):
         frame, sums = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (3.0, -0.5, 1e-3)

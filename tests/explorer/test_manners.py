@@ -106,22 +106,22 @@ class Visitor:
             values,
         )
 
-    def pointer(self, kind, across, down, target="section", **more):
-        """A pointer or wheel event at a share of an element's width and height."""
+    def pointer(self, kinds, across, down, target="section", **more):
+        """Pointer or wheel events at a share of an element's width and height, at once."""
         self.run(
-            "const [kind, across, down, target, more] = args;"
+            "const [kinds, across, down, target, more] = args;"
             "const node = document.getElementById(target), box = node.getBoundingClientRect();"
-            "const type = kind === 'wheel' ? WheelEvent : PointerEvent;"
+            "const type = kinds === 'wheel' ? WheelEvent : PointerEvent;"
             "node.setPointerCapture = () => {};"
-            "node.dispatchEvent(new type(kind, {clientX: box.left + across * box.width,"
+            "for (const kind of kinds.split(' ')) node.dispatchEvent("
+            "new type(kind, {clientX: box.left + across * box.width,"
             " clientY: box.top + down * box.height, pointerId: 1, pointerType: 'mouse',"
             " bubbles: true, cancelable: true, ...more}))",
-            *(kind, across, down, target, more),
+            *(kinds, across, down, target, more),
         )
 
     def click_at(self, across, down):
-        self.pointer("pointerdown", across, down)
-        self.pointer("pointerup", across, down)
+        self.pointer("pointerdown pointerup", across, down)
 
     def saved(self, name):
         self.run("globalThis.saved = null")
@@ -395,8 +395,7 @@ def test_the_readout_follows_the_wheel(visitor):
 
 def test_a_double_click_starts_one_orbit(visitor):
     count = len(visitor.starts())
-    visitor.click_at(0.5, 0.5)
-    visitor.click_at(0.5, 0.5)
+    visitor.pointer("pointerdown pointerup pointerdown pointerup", 0.5, 0.5)
     assert len(visitor.starts()) == count + 1
 
 

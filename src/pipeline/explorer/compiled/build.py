@@ -14,7 +14,6 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -77,16 +76,25 @@ def _object_code(triple: str) -> bytes:
     linked = llvm.parse_assembly("")
     names = {}  # in LLVM -> in Python
     for function, arguments in ENTRY_POINTS.items():
-        point: Any = numba.njit(error_model="numpy")(function)
-        point.compile(numba.types.void(*arguments))
-        (signature,) = point.signatures
-        names[point.overloads[signature].fndesc.llvm_func_name] = function.__name__
+        point: Any = numba.njit(error_model="numpy")(getattr(function, "py_func", function))
+        point.compile(arguments)
+        ((signature, overload),) = point.overloads.items()
+        names[overload.fndesc.llvm_func_name] = function.__name__
         linked.link_in(llvm.parse_assembly(point.inspect_llvm(signature)))
     features, convention = _PROCESSORS.get(triple, ("", ""))
     target, options = llvm.Target.from_triple(triple), {"reloc": "static", "abiname": convention}
     machine = target.create_target_machine(opt=3, features=features, **options)
-    module = llvm.parse_assembly(_with_private_parts(str(linked), names, features))
+    # Messages of exceptions, which nobody reads, hold the paths of files.
+    messages = r"^(@\.const\.picklebuf\.\S+ = internal constant \{[^}]*\}) \{.*\}"
+    text = re.sub(messages, r"\1 zeroinitializer", str(linked), flags=re.MULTILINE)
+    module = llvm.parse_assembly(text)
     module.triple, module.data_layout = triple, str(machine.target_data)
+    # All definitions but the entry points are private, so that unused ones go.
+    for value in (*module.functions, *module.global_variables):
+        if value.name in names:
+            value.name = names[value.name]
+        elif not value.is_declaration:
+            value.linkage = "internal"
     tuning = llvm.create_pipeline_tuning_options(speed_level=3)
     tuning.loop_vectorization = tuning.slp_vectorization = True
     passes = llvm.create_pass_builder(machine, tuning)
@@ -96,67 +104,36 @@ def _object_code(triple: str) -> bytes:
     return _with_exports(code, functions, [*names.values()]) if triple == WASM else code
 
 
-def _with_private_parts(text: str, names: dict[str, str], features: str) -> str:
-    """Rename the entry points, and make all other definitions private: unused ones then go."""
-    text = re.sub(r"^(@.*) = common ", r"\1 = internal ", text, flags=re.MULTILINE)
-    text = re.sub(r"^define (linkonce_odr )?", "define internal ", text, flags=re.MULTILINE)
-    for mangled, name in names.items():
-        text = text.replace(f"@{mangled}(", f"@{name}(")
-        text = re.sub(rf"^define internal (.*@{name}\()", r"define \1", text, flags=re.MULTILINE)
-    # Messages of exceptions, which nobody reads, hold the paths of files.
-    messages = r"^(@\.const\.picklebuf\.\S+ = internal constant \{[^}]*\}) \{.*\}"
-    text = re.sub(messages, r"\1 zeroinitializer", text, flags=re.MULTILINE)
-    # An instruction in place of a function; both are rounded correctly.
-    text = re.sub(r"^declare double @sqrt\(.*", "", text, flags=re.MULTILINE)
-    text = text.replace("@sqrt(", "@llvm.sqrt.f64(")
-    text = re.sub(r'"target-cpu"="[^"]*"', '"target-cpu"="generic"', text)
-    return re.sub(r'"target-features"="[^"]*"', f'"target-features"="{features}"', text)
-
-
 def _with_exports(code: bytes, functions: list[str], names: list[str]) -> bytes:
     """Return a WebAssembly object as a module that exports these of its functions, by their names.
 
     The object is a module already, whose calls and addresses are resolved because nothing else is
     linked. Its custom sections, with symbols and relocations, are left out.
     """
-    sections = {kind: body for kind, body in _sections(code) if kind != _CUSTOM}
+    sections, at = {}, 8  # after the magic number and the version
+    while at < len(code):
+        content = at + 1 + len(_number(0))
+        size = sum((byte & 0x7F) << 7 * i for i, byte in enumerate(code[at + 1 : content]))
+        sections[code[at]] = code[content : content + size]
+        at = content + size
+    del sections[_CUSTOM]
     # Functions would be counted after imported ones; the module imports only memory and its stack.
     if sections[_IMPORTS].count(b"\3env") != 2 or sections[_IMPORTS][0] != 2:
         raise RuntimeError("the kernel calls a function that the module does not have")
-    exports = (_text(name) + b"\0" + _number(functions.index(name)) for name in names)
+    exports = (_sized(name.encode()) + b"\0" + _number(functions.index(name)) for name in names)
     sections[_EXPORTS] = _number(len(names)) + b"".join(exports)
     order = sorted(sections, key=lambda kind: _CODE - 0.5 if kind == _DATA_COUNT else kind)
-    return code[:8] + b"".join(bytes([kind]) + _text(sections[kind]) for kind in order)
+    return code[:8] + b"".join(bytes([kind]) + _sized(sections[kind]) for kind in order)
 
 
-def _sections(code: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield number and content of each section of a module."""
-    at = 8  # after the magic number and the version
-    while at < len(code):
-        kind, size, shift = code[at], 0, 0
-        while True:  # a size in LEB128
-            at += 1
-            size |= (code[at] & 0x7F) << shift
-            shift += 7
-            if code[at] < 0x80:
-                break
-        yield kind, code[at + 1 : at + 1 + size]
-        at += 1 + size
-
-
-def _text(content: str | bytes) -> bytes:
+def _sized(content: bytes) -> bytes:
     """Return bytes after their number."""
-    content = content.encode() if isinstance(content, str) else content
     return _number(len(content)) + content
 
 
 def _number(value: int) -> bytes:
-    """Return a whole number in unsigned LEB128."""
-    encoded = b""
-    while value >= 0x80:
-        encoded += bytes([value & 0x7F | 0x80])
-        value >>= 7
-    return encoded + bytes([value])
+    """Return a whole number in LEB128, in five bytes as LLVM writes the sizes of sections."""
+    return bytes(value >> 7 * i & 0x7F | (0x80 if i < 4 else 0) for i in range(5))
 
 
 def main(triple: str | None = None) -> None:

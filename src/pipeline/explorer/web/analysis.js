@@ -20,13 +20,14 @@ const analysis = (() => {
   const FINEST = 1e-3;
   const MOST_VERTICES = 400000;
 
-  const out = new Float64Array(4);
-
-  /** The state after some impacts, and in `out[3]` the time of the last flight. */
+  /** The state after some impacts. */
   function iterate(k, g, state, impacts) {
-    if (impacts === 0) return state;
-    pseudorigid.iterate(k, g, state[0], state[1], state[2], impacts, out);
-    return [out[0], out[1], out[2]];
+    return withTime(k, g, state, impacts).slice(0, 3);
+  }
+
+  /** The state after some impacts, and the time of the last flight. */
+  function withTime(k, g, [x, xdot, udot], impacts = 1) {
+    return pseudorigid.iterate(k, g, x, xdot, udot, impacts);
   }
 
   // ---------------------------------------------------------------- facts of one orbit
@@ -173,9 +174,9 @@ const analysis = (() => {
   function orbitFrom(k, g, state, period) {
     const points = [];
     for (let i = 0; i < period; i++) {
-      const after = iterate(k, g, state, 1);
-      points.push([...state, out[3]]);
-      state = after;
+      const [x, v, w, tau] = withTime(k, g, state);
+      points.push([...state, tau]);
+      state = [x, v, w];
     }
     return points;
   }
@@ -188,8 +189,8 @@ const analysis = (() => {
       return [centre + radius * ((2 * q) / (1 + q * q)), k * udot, udot];
     };
     const symmetricFlight = (state) => {
-      const after = iterate(k, g, state, 1);
-      return after[1] - 0.5 * g * out[3];
+      const [, v, , tau] = withTime(k, g, state);
+      return v - 0.5 * g * tau;
     };
     const cells = Array.from({ length: RESOLUTION }, (_, i) => i);
     const inside = cells.map((i) => (2 * i + 1) / RESOLUTION - 1);
@@ -215,8 +216,8 @@ const analysis = (() => {
     const [v, w] = pseudorigid.afterImpact(k, -g * theta, -a * Math.sin(theta));
     if (!(v + w >= 0)) return null;
     const state = [a * cosine, v, w];
-    iterate(k, g, state, 1);
-    return Math.abs(out[3] - 2 * theta) <= 1e-7 * (1 + theta) ? state : null;
+    const tau = withTime(k, g, state)[3];
+    return Math.abs(tau - 2 * theta) <= 1e-7 * (1 + theta) ? state : null;
   }
 
   function solutions(k, g, line, period, radius) {

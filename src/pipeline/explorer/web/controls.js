@@ -790,7 +790,7 @@ class Controls {
     const [x, v, w] = now.state.map((value) => value.toFixed(4).replace("-", "−"));
     const count = motion.count === Infinity ? "" : ` of ${COUNT.format(motion.count)}`;
     element("moment").textContent =
-      `t = ${this.state.time.toFixed(2).replace("-", "−")} after impact ${COUNT.format(motion.impact(now.index)).replace("-", "−")}${count}, at x = ${x}, ẋ⁻ = ${v}, u̇⁻ = ${w}`;
+      `t = ${this.state.time.toFixed(2).replace("-", "−")} after impact ${COUNT.format(motion.impact(now.index)).replace("-", "−")}${count}, at x\u00a0=\u00a0${x}, ẋ⁻\u00a0=\u00a0${v}, u̇⁻\u00a0=\u00a0${w}`;
     const [first, last] = time.window();
     curves.setAttribute("aria-valuemin", first);
     curves.setAttribute("aria-valuemax", last);

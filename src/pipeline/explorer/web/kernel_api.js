@@ -10,24 +10,27 @@ globalThis.pseudorigid = (() => {
   const LANES = 264; // orbits that advance together, as in kernel/lanes.py
   // Addresses in the module's memory: its stack ends where the results of numba's functions begin.
   const RESULT = 65536;
-  const STATE = RESULT + 64;
-  const OUT = STATE + 8 * 24;
-  const ROWS = OUT + 64;
+  const EXCEPTION = RESULT + 8 * 4;
+  const ORBIT = EXCEPTION + 8;
+  const ROWS = ORBIT + 8 * 24;
   const LANE_ROWS = ROWS + 8 * 5 * CHUNK;
   const ORDER = LANE_ROWS + 8 * 30 * LANES;
   const PAGE = 65536; // bytes of a page of memory
   const memory = new WebAssembly.Memory({ initial: Math.ceil((ORDER + 8 * LANES) / PAGE) });
   const doubles = new Float64Array(memory.buffer);
   const at = (address, count) => doubles.subarray(address / 8, address / 8 + count);
-  const state = at(STATE, 24), out = at(OUT, 4);
+  const result = at(RESULT, 4), followed = at(ORBIT, 24);
   const module = new WebAssembly.Module(Uint8Array.from(atob(KERNEL), c => c.charCodeAt(0)));
   const stack = new WebAssembly.Global({ value: "i32", mutable: true }, RESULT);
   const imports = { env: { __linear_memory: memory, __stack_pointer: stack } };
   const kernel = new WebAssembly.Instance(module, imports).exports;
 
-  // Call a function of the kernel; numba passes the places of a result and of an exception first.
-  function call(name, ...args) {
-    if (kernel[name](RESULT, RESULT + 8, ...args)) throw new Error("the kernel found no impact");
+  // Call a function of the kernel, and return the first `count` doubles of its result. Numba passes
+  // the places of the result and of an exception first.
+  function call(name, count, ...args) {
+    const failed = kernel[name](RESULT, EXCEPTION, ...args);
+    if (failed) throw new Error("the kernel found no impact");
+    return [...result.subarray(0, count)];
   }
 
   function refuse(name, value, allowed) {
@@ -45,13 +48,13 @@ globalThis.pseudorigid = (() => {
     }
   }
 
-  // Store a state, all NaN where one coordinate is not finite.
-  function store(x, xdot, udot) {
+  // Return a state, all NaN where one coordinate is not finite.
+  function checkState(x, xdot, udot) {
     const finite = Number.isFinite(x) && Number.isFinite(xdot) && Number.isFinite(udot);
     if (finite && xdot < -udot) {
       throw new RangeError("a state just before an impact has xdot + udot >= 0, eq. (22)");
     }
-    state.set(finite ? [x, xdot, udot] : [NaN, NaN, NaN]);
+    return finite ? [x, xdot, udot] : [NaN, NaN, NaN];
   }
 
   // Copy rows of the kernel to arrays, from their entry `first` on.
@@ -64,11 +67,11 @@ globalThis.pseudorigid = (() => {
   function history(k, g, x, xdot, udot, impacts) {
     checkBall(k, g);
     checkImpacts(impacts);
-    store(x, xdot, udot);
+    let state = checkState(x, xdot, udot);
     const orbit = emptyOrbit(impacts);
     for (let done = 0; done < impacts; done += CHUNK) {
       const count = Math.min(CHUNK, impacts - done);
-      call("history", STATE, k, g, count, 1, ROWS);
+      state = call("history", 3, ...state, k, g, count, ROWS);
       copyRows(Object.values(orbit), done, count);
     }
     return orbit;
@@ -79,13 +82,14 @@ globalThis.pseudorigid = (() => {
     return Object.fromEntries(names.map(name => [name, new Float64Array(impacts)]));
   }
 
-  // Advance a state by `impacts`, and write the last state and flight time to `result` (4).
-  function iterate(k, g, x, xdot, udot, impacts, result) {
-    state[0] = x;
-    state[1] = xdot;
-    state[2] = udot;
-    call("history", STATE, k, g, impacts, 0, ROWS);
-    for (let i = 0; i < 4; i += 1) result[i] = state[i];
+  // Advance a state by `impacts`, and return the last state and flight time.
+  function iterate(k, g, x, xdot, udot, impacts) {
+    let state = [x, xdot, udot];
+    for (let done = 0; done < impacts; done += CHUNK) {
+      const [a, b, c] = state;
+      state = call("history", 4, a, b, c, k, g, Math.min(CHUNK, impacts - done), ROWS);
+    }
+    return state;
   }
 
   // Advance many states in place, {x, xdot, udot, tau} of arrays, with the bits of `iterate`.
@@ -95,7 +99,7 @@ globalThis.pseudorigid = (() => {
       const count = Math.min(LANES, states.x.length - first);
       const rows = arrays.map((_, i) => at(LANE_ROWS + 8 * i * LANES, count));
       rows.forEach((row, i) => row.set(arrays[i].subarray(first, first + count)));
-      call("history_in_lanes", LANE_ROWS, ORDER, count, k, g, impacts);
+      call("history_in_lanes", 0, LANE_ROWS, ORDER, count, k, g, impacts);
       rows.forEach((row, i) => arrays[i].set(row, first));
     }
   }
@@ -103,48 +107,46 @@ globalThis.pseudorigid = (() => {
   // Return the state and flight time of the next impact.
   function step(k, g, x, xdot, udot) {
     checkBall(k, g);
-    store(x, xdot, udot);
-    call("history", STATE, k, g, 1, 0, ROWS);
-    return [...state.subarray(0, 4)];
+    return call("history", 4, ...checkState(x, xdot, udot), k, g, 1, ROWS);
   }
 
   // Return the image of a state under the reversor R. Backwards orbits are R history(R start).
   function reverse(k, x, xdot, udot) {
-    store(x, xdot, udot);
-    call("reverse", STATE, k);
-    return [...state.subarray(0, 3)];
+    return call("reflect", 3, ...checkState(x, xdot, udot), k, ...coefficients(k));
   }
 
   // Return the velocities just after an impact, eq. (25).
   function afterImpact(k, xdot, udot) {
-    state.set([0, xdot, udot]);
-    call("after_impact", STATE, k);
-    return [state[1], state[2]];
+    return call("rebound", 2, xdot, udot, k, ...coefficients(k));
+  }
+
+  function coefficients(k) {
+    return call("impact_coefficients", 2, k);
   }
 
   // Return the state on y = 0 at a fraction of the section's radius, from -1 to 1.
   function start(k, g, energy, fraction) {
     checkBall(k, g);
-    call("start", STATE, k, g, energy, fraction);
-    if (!(state[3] >= 0 && state[3] < Infinity)) {
-      const lowest = -g * g / (2 * k);
-      refuse("energy", energy, `finite, at least ${Number(lowest.toPrecision(6))}`);
-    }
     if (!(Math.abs(fraction) <= 1)) {
       throw new RangeError("a start is a fraction of the section's radius, from -1 to 1");
     }
-    return [...state.subarray(0, 3)];
+    const state = call("start", 3, k, g, energy, fraction);
+    if (!Number.isFinite(state[0])) {
+      const lowest = -g * g / (2 * k);
+      refuse("energy", energy, `finite, at least ${Number(lowest.toPrecision(6))}`);
+    }
+    return state;
   }
 
   // Return the state at a point of the chart (x, y = xdot - k udot).
   function stateXY(k, g, energy, x, y) {
     checkBall(k, g);
-    call("chart_state", STATE, k, g, energy, x, y);
-    if (!(state[3] >= 0)) {
+    const state = call("chart_state", 3, k, g, energy, x, y);
+    if (Number.isNaN(state[2])) {
       const reason = "the point is outside the section";
       throw new RangeError(`no state with this x, y and energy: ${reason}`);
     }
-    return [...state.subarray(0, 3)];
+    return state;
   }
 
   // An orbit that goes on where it ended, with its largest Lyapunov exponent so far. `advance` is
@@ -152,13 +154,12 @@ globalThis.pseudorigid = (() => {
   class Follower {
     constructor(k, g, x, xdot, udot) {
       checkBall(k, g);
-      store(x, xdot, udot);
+      [x, xdot, udot] = checkState(x, xdot, udot);
       [this.k, this.g, this.impacts] = [k, g, 0];
-      [x, xdot, udot] = state;
-      // What `follow` of the kernel carries: state and time, a tangent vector of the energy surface
-      // and a logarithm, three tangent vectors, products of their lengths, sums of logarithms.
+      // What `follow` of the kernel carries: the state, a tangent vector of the energy surface, the
+      // frame's three, products of their lengths, sums of logarithms, and times and further sums.
       this.orbit = new Float64Array(24);
-      this.orbit.set([x, xdot, udot, 0, 0, k * udot, -xdot, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]);
+      this.orbit.set([x, xdot, udot, 0, k * udot, -xdot, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]);
     }
 
     // Advance by some impacts, and return them as `history` does. `size` is the logarithm of the
@@ -166,13 +167,13 @@ globalThis.pseudorigid = (() => {
     advance(impacts) {
       checkImpacts(impacts);
       const orbit = { ...emptyOrbit(impacts), size: new Float64Array(impacts) };
-      state.set(this.orbit);
+      followed.set(this.orbit);
       for (let done = 0; done < impacts; done += CHUNK) {
         const count = Math.min(CHUNK, impacts - done);
-        call("follow", STATE, this.k, this.g, count, ROWS);
+        call("follow", 0, ORBIT, this.k, this.g, count, ROWS);
         copyRows(Object.values(orbit), done, count);
       }
-      this.orbit.set(state);
+      this.orbit.set(followed);
       this.impacts += impacts;
       return orbit;
     }
@@ -200,9 +201,7 @@ globalThis.pseudorigid = (() => {
   function tangent(k, g, x, xdot, udot, impacts) {
     checkBall(k, g);
     checkImpacts(impacts);
-    store(x, xdot, udot);
-    call("chart_tangent", STATE, k, g, impacts, OUT);
-    return [...out];
+    return call("chart_tangent", 4, ...checkState(x, xdot, udot), k, g, impacts);
   }
 
   // Return the bytes of doubles, little-endian, every NaN the same.
