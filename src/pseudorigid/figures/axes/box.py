@@ -4,7 +4,7 @@ import numpy as np
 
 from ..canvas import style
 from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import POINT, Sheet, width
 from .limits import inside, refuse_empty
 from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
@@ -36,12 +36,15 @@ class Box:
             if not self.seen(*shown).any():
                 hides = "the energy surface hides all that is drawn"
                 raise ValueError(f"view {scene['view']}: {hides}")
-        cells = [None, None, *entries]
+        setting = style.setting(scene)
+        taken = int(np.ceil((width(setting, _SIZE) + 40) / (_WIDE / _COLUMNS)))  # cells of the key
+        cells = [None] * max(taken, 2) + [*entries]
         if self.seen(*self.surface.rim()).any():
             cells.append(("grazing rim", style.RIM))
         self.sheet = self._fit(-(-len(cells) // _COLUMNS))
+        self.ticks = [self._apart(along) for along in range(3)]
         self.figure = self.sheet.figure
-        self._key(style.setting(scene), cells)
+        self._key(setting, cells)
         self._panes()
         self._edges()
         self.line(*self.surface.outline(self.view), style.PANE, 0.6)
@@ -85,8 +88,20 @@ class Box:
         self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
 
+    def _apart(self, along):
+        """Return every n-th tick of an axis, so that no label covers the next one."""
+        ticks = self.ticks[along]
+        right, up = (
+            abs(part[along]) * self.view.scale / POINT for part in (self.view.right, self.view.up)
+        )
+        for every in range(1, len(ticks)):
+            step = ticks[every] - ticks[0]
+            if step * up > _SIZE or step * right > _SIZE * (_ems(ticks) + 0.3):
+                return ticks[::every]
+        return ticks[:1]
+
     def _key(self, text, cells):
-        """Write energy and ball into the first two cells of the key, and name the marks after."""
+        """Write energy and ball into the first cells of the key, and name the marks after."""
         top, left = self.sheet.high - (4 + _ROW / 2) * POINT, 45
         self.sheet.text(left - 8, top, text, size=_SIZE)
         key(self.sheet, cells, top, _COLUMNS, left, _WIDE - left, _SIZE)

@@ -100,14 +100,25 @@ def _energies(sheet, frame, rotation):
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
     panel = Panel(sheet, frame, across, up)
-    entries = []
+    entries, drawn = [], []
     for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
         hue, dashed = style.MANY_HUES[number % len(style.MANY_HUES)], number >= len(style.MANY_HUES)
         last = np.logical_and.accumulate(shown).sum()
         panel.line(start[:last], change[:last], color=hue, lw=1.0, ls="--" if dashed else "-")
-        entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
-    rows = -(-len(entries) // 2)
-    key(sheet, entries, frame[1] + 18 + 39 * (rows - 1), 2, _LEFT + 20, 370, 6.5)
+        drawn.append(np.array(panel.place(start[:last], change[:last])))
+        if last > 1:
+            entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
+    high = 39 * -(-len(entries) // 2)
+    x, y = np.hstack(drawn)
+    left, right, low, up = _LEFT + 20, _RIGHT - 350, frame[1] + high - 21, frame[3] - 21
+    corners = [(left, low), (right, low), (right, up), (left, up)]
+    left, top = min(corners, key=lambda at: _taken(x - at[0], at[1] - y, high))
+    key(sheet, entries, top, 2, left, 370, 6.5)
+
+
+def _taken(x, down, high):
+    """Return the number of points, from the first line of a key, that lie behind the key."""
+    return np.sum((x > -20) & (x < 330) & (down > -15) & (down < high))
 
 
 def _departure_axis(curves):
