@@ -94,6 +94,6 @@ def _marks(panel, clusters, estimates):
     _, bottom, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
     x, y = panel.place(places, high)
-    taken = (x > right - 12 * POINT - width(text, 7.0)) & (y > top - 12 * POINT)
+    taken = (x > right - 12 * POINT - width(text, 7.0)) & (y > top - 10 * POINT)
     y, va = (bottom + 3 * POINT, "bottom") if taken.any() else (top - 3 * POINT, "top")
     panel.sheet.text(right - 3 * POINT, y, text, ha="right", va=va, size=7.0)
