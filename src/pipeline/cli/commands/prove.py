@@ -35,7 +35,7 @@ def run(args: Arguments) -> int:
             from ...checks.proved_impacts import impacts
 
             doing = ["reading the impacts"]
-            Heartbeat(lambda: f"reproduce: {doing[0]}")
+            Heartbeat(lambda: f"reproduce: {doing[0]}").print(f"reproduce: {doing[0]}")
             with interruptible(), one_line():
                 return int(impacts(args.checked, partial(doing.__setitem__, 0)))
         return _check(args, args.theorem or [*THEOREMS])
