@@ -189,7 +189,10 @@ def test_an_orbit_is_chaotic_or_a_spiral_or_regular():
 
 
 def test_what_becomes_of_the_islands():
-    data = control.control(BALL, ENERGY, [0.03], 150, 4000, 6, [0.1], 0.03, 20, 40, 1)
+    told = []
+    fields = [0.03], 150, 4000, 6, [0.1], 0.03, 20, 40, 1
+    data = control.control(BALL, ENERGY, *fields, progress=lambda share, _: told.append(share))
+    assert told == [i / 20 for i in (0, *range(1, 20, 2))]
     share = data["class_share"].isel(length=-1)
     assert np.max(np.abs(share.sum("class").values - 1.0)) < 1e-12
     kept = share.sel({"class": "regular"})

@@ -74,15 +74,18 @@ def test_a_killed_search_continues_and_gives_the_same_dataset(tmp_path):
 
     def killed(share, text):
         shares.append(share)
-        if share > 0.6:
+        if share > 0.3:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         families(PAPER, 0.01, **SMALL, progress=killed, folder=folder)
     assert json.loads((folder / "families.json").read_text())["done"] == 20
     again = []
-    data = families(PAPER, 0.01, **SMALL, progress=lambda s, _: again.append(s), folder=folder)
-    assert len(again) == SMALL["levels"] - 20
+    data = families(PAPER, 0.01, **SMALL, progress=lambda *it: again.append(it), folder=folder)
+    levels = [share for share, text in again if text.endswith(" families")]
+    assert len(levels) == SMALL["levels"] - 20 and levels[-1] == 0.5
+    later = [share for share, text in again if text.endswith(" branches")]
+    assert later and min(later) >= 0.5 and max(later) < 1.0
     assert content_hash(data) == content_hash(whole)
     assert not folder.exists()
 

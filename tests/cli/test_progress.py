@@ -10,7 +10,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
 from pipeline.checks.freshness import Freshness
-from pipeline.cli import figures
+from pipeline.cli import figures, packages
 from pipeline.cli.session import UsageError, one_line
 from pipeline.config import build_specs, load
 from pipeline.jobs import heartbeat, stage
@@ -177,3 +177,13 @@ def test_only_errors_of_the_given_kind_are_one_line():
         raise OSError("no archive")
     with pytest.raises(KeyError), one_line("archive: ", OSError):
         raise KeyError("a bug")
+
+
+def test_an_installation_says_how_far_it_is(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(packages, "VENV", tmp_path)
+    monkeypatch.setattr(packages, "LOG", tmp_path / "install.log")
+    monkeypatch.setattr(packages, "_GAP", 0.05)
+    (tmp_path / "lib/python3/site-packages/numpy.dist-info").mkdir(parents=True)
+    assert packages._run(["sleep", "0.12"]) and not packages._run(["false"])
+    lines = capsys.readouterr().err.splitlines()
+    assert {*lines} == {"reproduce: installing: packages so far: 1"} and len(lines) <= 3

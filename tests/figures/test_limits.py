@@ -5,7 +5,7 @@ import pytest
 from samples import DATA, KINDS, SCENES, module
 
 from pseudorigid.figures.axes.box import Box
-from pseudorigid.figures.axes.limits import of_data, refuse_empty
+from pseudorigid.figures.axes.limits import decades, of_data, refuse_empty, ticks
 
 
 @pytest.mark.parametrize("low", [-0.37, 0.0, 1e-9, 12345.6])
@@ -26,6 +26,23 @@ def test_limits_and_ticks_are_round_numbers():
     axis = of_data(np.array([-0.174, 0.573]), most=6)
     assert axis == {"limits": [-0.2, 0.6], "ticks": [-0.2, 0.0, 0.2, 0.4, 0.6]}
     assert of_data([0, 200000], room=0.0)["limits"] == [0, 200000]
+
+
+@pytest.mark.parametrize("low, high", [(0.0799, 0.0809), (-1.01, 1.9), (3e-7, 4.1e-7), (1.0, 3.4)])
+@pytest.mark.parametrize("count", [2.5, 4, 6])
+def test_an_axis_has_at_least_two_round_ticks(low, high, count):
+    assert len(ticks(low, high, count)) >= 2
+
+
+@pytest.mark.parametrize("low", np.linspace(-3, 0, 13))
+@pytest.mark.parametrize("span", [0.36, 0.69, 0.71, 1.0, 1.9])
+def test_a_logarithmic_axis_has_at_least_two_ticks_with_their_values(low, span):
+    axis = decades((low, low + span))
+    labels = axis.texts()
+    assert len(axis.ticks) >= 2 and all(low <= tick <= low + span for tick in axis.ticks)
+    if axis.labels:
+        assert [10.0**tick for tick in axis.ticks] == pytest.approx([*map(float, labels)])
+    assert decades((-2.2, 0.3)).texts() == ["$10^{-2}$", "$10^{-1}$", "$10^{0}$"]
 
 
 WRONG = [

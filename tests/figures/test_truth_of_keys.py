@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from legible import assert_text_is_whole_and_apart
 from matplotlib.colors import to_hex
 from samples import SCENES, SPACE, module, motion
 from sections import BALL
@@ -181,6 +182,67 @@ def test_rotation_and_control_at_low_energy_have_no_chaos_in_their_keys():
     data = control(BALL, -0.003, [0.05], 10, 400, 5, [0.1], 0.05, 400, 10, 1)
     figure = module("control").draw(SCENE | {"energy": -0.003}, data)
     assert "chaotic" not in texts(figure) and "regular" in texts(figure)
+
+
+def test_rotation_names_the_energies_that_are_drawn_beside_their_lines():
+    """The curves fall at once to where the key stands otherwise."""
+    energies, starts = np.array([0.01, 0.02, 0.03]), 40
+    place = np.tile(np.linspace(-0.8, 0.9, starts), (3, 1))
+    growth = np.where(place < -0.6, 0.0, 1.0)
+    growth[2] = 1.0
+    growth[2, 0] = 0.0  # one regular start is no line
+    turns = 0.3 - 0.02 * np.minimum(1.0, 20.0 * (place + 0.8))
+    orbits = {
+        name: ("start", value[0])
+        for name, value in (
+            ("detail_place", place),
+            ("detail_rotation", turns),
+            ("detail_exponent", growth),
+        )
+    }
+    for name, value in (("place", place), ("rotation", turns), ("exponent", growth)):
+        orbits[name] = ("energy", "start"), value
+    orbits |= {
+        "energy": ("energy", energies),
+        "fixed_place": ("energy", [-0.8] * 3),
+        "fixed_rotation": ("energy", [0.3] * 3),
+    }
+    data = xr.Dataset(orbits, attrs={"impacts": 1000, "detail_impacts": 1000})
+    figure = module("rotation").draw(SCENE, data)
+    names = {text.get_text(): text.get_position() for text in figure.texts}
+    assert {"$E$ = 0.01", "$E$ = 0.02"} <= names.keys() and "$E$ = 0.03" not in names
+    across, up = np.array(names["$E$ = 0.01"]) * style.DPI
+    lines = [line for line in figure.artists if line.get_linestyle() == "-"]
+    lines = [line for line in lines if line.get_color() == style.MANY_HUES[0]]
+    (curve,) = (line for line in lines if len(line.get_xdata()) > 2)
+    x, y = curve.get_xydata().T * style.DPI
+    assert not ((x > across - 60) & (x < across + 290) & (abs(y - up) < 15)).any()
+
+
+@pytest.mark.parametrize("cuts", [[0.3, 0.5, 0.8, 1.2], [0.4, 0.5, 0.6, 0.65]])
+def test_the_text_of_clusters_stands_beside_its_cut_and_off_the_marks(cuts):
+    shape = ("cut", "lag", "a", "b")
+    high = np.full((4, 1, 2, 2), 0.97)
+    ends = {
+        f"correlation{end}": (shape, high + shift)
+        for end, shift in (("", 0), ("_low", -0.01), ("_high", 0.01))
+    }
+    ends |= {
+        f"dependence{end}": (shape[:3], high[..., 0] + shift)
+        for end, shift in (("", 0), ("_low", -0.01), ("_high", 0.01))
+    }
+    ends |= {
+        "bin_edge": ("edge", np.linspace(0, 4, 41)),
+        "flights": ("bin", np.arange(40.0)),
+        "period": ("cut", 40.0 + np.arange(4)),
+    }
+    data = xr.Dataset(ends, coords={"cut": cuts, "lag": [1]})
+    figure = module("clusters").draw(SCENE, data)
+    assert_text_is_whole_and_apart(figure)
+    words = [text for text in figure.texts if text.get_text().startswith("95 %")]
+    marks = [line.get_ydata()[0] for line in figure.artists if line.get_marker() in "os^D"]
+    for text in words:
+        assert min(abs(text.get_position()[1] - y) for y in marks) > 0.1
 
 
 def test_flux_without_regions_and_lobes_says_why():

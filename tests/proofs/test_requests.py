@@ -107,7 +107,9 @@ def orbit_impacts(starts, impacts_each):
 
 
 def test_impacts_are_proved_and_errors_small(six):
-    result = impacts.prove_impacts("1/5", "1/25", *orbit_impacts([0.534522, -0.44], [400, 200]))
+    states, told = orbit_impacts([0.534522, -0.44], [400, 200]), []
+    result = impacts.prove_impacts("1/5", "1/25", *states, progress=told.append)
+    assert told == [*range(600)]
     assert result.verdict == "proved"
     assert 0 < result.margins["worst error"] < 1e-12
     assert "600 impacts" in result.line()

@@ -22,11 +22,12 @@ from .freshness import Freshness
 Impacts = tuple[np.ndarray, ...]  # states before, states after, flight times
 
 
-def impacts(checked: dict[str, Any]) -> int:
+def impacts(checked: dict[str, Any], progress: Callable[[str], None]) -> int:
     """Prove scene by scene that each impact behind the figures is the first one; print a line each.
 
     Every impact of portraits and of the orbits in motions is proved. Figures whose data have
-    millions of impacts are sampled, as config.yaml says. Returns 1 if an impact is not proved.
+    millions of impacts are sampled, as config.yaml says. `progress` is called with a line that says
+    how many impacts are done. Returns 1 if an impact is not proved.
     Raises ValueError if a result is missing.
     """
     artifact_paths = paths.artifact_paths(checked["variants"])
@@ -41,8 +42,13 @@ def impacts(checked: dict[str, Any]) -> int:
         def data(stage: str, scene: str = scene) -> xr.Dataset:
             return load(ROOT / artifact_paths[PAPER, scene, stage])
 
-        for name, (before, after, tau) in _impacts_behind(block, data, sample):
-            result = proofs.prove_impacts(k, g, before, after, tau, name=f"{scene} {name}")
+        for part, (before, after, tau) in _impacts_behind(block, data, sample):
+            name = f"{scene} {part}"
+
+            def report(done: int, name: str = name, total: int = tau.size) -> None:
+                progress(f"{name}: {done:,} of {total:,} impacts done")
+
+            result = proofs.prove_impacts(k, g, before, after, tau, name=name, progress=report)
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
             worst = max(worst, result.margins["worst error"])

@@ -14,6 +14,7 @@ shares are kept for four numbers of them.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
@@ -54,13 +55,26 @@ CLASSES = ("regular", "spiral", "chaotic")
 
 
 def control(
-    ball, energy, strengths, orbits, impacts, period, starts, shown, drawn, resamples, seed
+    ball,
+    energy,
+    strengths,
+    orbits,
+    impacts,
+    period,
+    starts,
+    shown,
+    drawn,
+    resamples,
+    seed,
+    *,
+    progress: Callable[[float, str], None] | None = None,
 ) -> xr.Dataset:
     """Compute shares of regular, spiral and chaotic orbits for maps with and without properties.
 
     The maps are those of `perturbed_map.MAPS`, at strength 0, which is the impact map, and at each
     of `strengths`. Shares have Wilson's 95 % intervals, means over orbits those of a bootstrap. The
-    fixed point and the elliptic orbit of `period` are continued in the strength.
+    fixed point and the elliptic orbit of `period` are continued in the strength. `progress` is
+    called with the share of maps done and a text.
 
     >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
@@ -80,6 +94,8 @@ def control(
             if level == 0.0 and rows:
                 rows[name, level] = next(iter(rows.values()))
                 continue
+            if progress is not None:
+                progress(len(rows) / (len(MAPS) * len(levels)), f"{name}, strength {level}")
             grown = _growths(perturbed_map(ball, energy, name, level), points, lengths)
             rows[name, level] = _statistics(*grown, lengths[-1], resampled)
     shares, intervals, means, symmetric, wander = (

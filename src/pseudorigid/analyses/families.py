@@ -57,7 +57,7 @@ def families(
     levels : int
         Number of values of the parameter at which brute force seeks orbits.
     progress : callable, optional
-        Called with the share of levels done and a text.
+        Called with the share done and a text; the levels count for one half of it.
     folder : path, optional
         Keeps the search while it lasts, so that a killed one continues.
 
@@ -96,10 +96,16 @@ def families(
     first = _resume(search, checkpoint, key)
     for done in search.sweep(grid, first):
         if progress is not None:
-            progress(done / levels, f"{len(search.families)} families")
+            progress(0.5 * done / levels, f"{len(search.families)} families")
         if checkpoint is not None and done % _CHECKPOINT == 0:
             _keep(search, checkpoint, key, done)
-    search.complete()
+
+    def report(done: int) -> None:
+        if progress is not None:
+            count = len(search.families)
+            progress(0.5 + 0.5 * done / count, f"{done} of {count} families have their branches")
+
+    search.complete(report)
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
         if checkpoint.parent.is_dir():

@@ -84,18 +84,26 @@ def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float
 
 
 def impact_errors(
-    k: Exact, g: Exact, before: np.ndarray, after: np.ndarray, tau: np.ndarray
+    k: Exact,
+    g: Exact,
+    before: np.ndarray,
+    after: np.ndarray,
+    tau: np.ndarray,
+    progress: Callable[[int], None] | None = None,
 ) -> np.ndarray:
     """Bound the errors of impacts that were computed in doubles, for an exact ball.
 
     `before` and `after`, shape (3, n), have x, xdot, udot just before an impact and just before the
     next one, and `tau` the durations of the flights. Returns upper bounds (n,) of the largest error
     of x', xdot', udot' and tau, with `before` taken as exact; infinite where the next impact is not
-    proved. Raises ValueError if k or g is not an exact number.
+    proved. `progress` is called with the number of impacts done. Raises ValueError if k or g is not
+    an exact number.
     """
     ball = exact("k", k), exact("g", g)
     bounds = np.full(tau.size, np.inf)
     for i, row in enumerate(np.vstack((before, after, tau)).T.tolist()):
+        if progress is not None:
+            progress(i)
 
         def error(state=row[:3], computed=row[3:]):
             proved = _impact(*map(ball_of, ball), *map(arb, state))

@@ -169,7 +169,7 @@ def shares(
     starts, impacts : int
         As for `sweep.cell.cell`.
     progress : callable, optional
-        Called with the share of values done and a text.
+        Called with the share done and a text; the values count for one half of it.
 
     Returns
     -------
@@ -199,7 +199,7 @@ def shares(
     numbers = range(-int(-low // unit), int(high // unit) + 1)
     for done, i in enumerate(numbers):
         if progress is not None:
-            progress(done / len(numbers), f"{done} of {len(numbers)} values")
+            progress(0.5 * done / len(numbers), f"{done} of {len(numbers)} values")
         value = unit * i
         level = value if parameter == "energy" else Fraction(str(energy))
         this = ball if parameter == "energy" else Ball(float(value), ball.g)
@@ -236,7 +236,7 @@ def shares(
     def at(value: float) -> tuple[Ball, float]:
         return (ball, value) if parameter == "energy" else (Ball(value, ball.g), float(energy))
 
-    curves = _breakups(at, values, np.array(rotations), resonances, parts)
+    curves = _breakups(at, values, np.array(rotations), resonances, parts, progress)
     data = described(table) | variables("value", columns, _OF_VALUES)
     data |= variables("breakup", _columns(curves, 3)[:2], _OF_BREAKUPS)
     data |= causes(families, parameter, values, columns[2:5], share, curves, step)
@@ -309,11 +309,18 @@ def _resonances(families: xr.Dataset) -> list[tuple[int, int]]:
 
 
 def _breakups(
-    at: Callable, values: np.ndarray, rotations: np.ndarray, resonances: list, parts: np.ndarray
+    at: Callable,
+    values: np.ndarray,
+    rotations: np.ndarray,
+    resonances: list,
+    parts: np.ndarray,
+    progress: Callable[[float, str], None] | None,
 ) -> list[tuple[str, float, np.ndarray]]:
     """Return event, parameter and part beyond it of curves that break or form along the line."""
     found = []
-    for (p, q), zone in zip(resonances, parts.T, strict=True):
+    for done, ((p, q), zone) in enumerate(zip(resonances, parts.T, strict=True)):
+        if progress is not None:
+            progress(0.5 + 0.5 * done / len(resonances), f"curves beyond {p}/{q}")
         side = rotations > p / q
         for m, step in ((m, step) for m in range(values.size) for step in (1, -1)):
             # The chain is born at the fixed point, and no curve breaks, where the side changes.

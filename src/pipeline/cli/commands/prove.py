@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 
 from ...config import paths
 from ...jobs.heartbeat import Heartbeat
@@ -33,8 +34,10 @@ def run(args: Arguments) -> int:
         if args.impacts:
             from ...checks.proved_impacts import impacts
 
+            doing = ["reading the impacts"]
+            Heartbeat(lambda: f"reproduce: {doing[0]}").print(f"reproduce: {doing[0]}")
             with interruptible(), one_line():
-                return int(impacts(args.checked))
+                return int(impacts(args.checked, partial(doing.__setitem__, 0)))
         return _check(args, args.theorem or [*THEOREMS])
 
 

@@ -12,7 +12,7 @@ import ssl
 import subprocess
 import sys
 from collections.abc import Sequence
-from contextlib import chdir
+from contextlib import chdir, suppress
 from pathlib import Path
 
 from ...records.files import FileError, write_whole
@@ -23,6 +23,7 @@ from . import wheels
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
+_GAP = 4.5  # seconds between two lines of an installation
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
 # Settings of pip that choose where packages come from, and their names for uv.
 _SOURCES = {
@@ -168,7 +169,11 @@ def _run(command: Sequence[str | Path], environment: dict[str, str] | None = Non
             close_fds=False,  # it inherits the lock
         )
         try:
-            return child.wait() == 0
+            while True:
+                with suppress(subprocess.TimeoutExpired):
+                    return child.wait(_GAP) == 0
+                there = len([*VENV.glob("lib/*/site-packages/*.dist-info")])
+                print_error(f"installing: packages so far: {there}")
         finally:
             child.terminate()
             child.wait()

@@ -1,6 +1,6 @@
 """Search for all families: brute force on a grid, branch switching, parents and partners."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import product
 
 import numpy as np
@@ -110,21 +110,25 @@ class Search:
                     self.add(*start)
             yield done
 
-    def complete(self) -> None:
+    def complete(self, report: Callable[[int], None] = lambda done: None) -> None:
         """Add families that branch off or go on beyond a grazing, and name all ends.
+
+        `report` is called with the number of families done, of a growing list.
 
         Families without symmetry branch off at pitchforks of symmetric ones, and at period
         doublings and resonances of each other, and go on with one impact more or less where one
         grazes.
         """
-        for family in self.families:  # the list grows
+        for done, family in enumerate(self.families):  # the list grows
+            report(done)
             self._add_branches(family, "resonance", "doubling")
             for end in family.ends:
                 if end.kind in ("rim", "touch"):
                     self._go_on(family, end)
         for family in list(self.families):
             self._add_branches(family, "pitchfork")
-        for family in self.families:
+        for done, family in enumerate(self.families):
+            report(done)
             if family.line == NO_LINE:
                 self._add_branches(family, "resonance", "doubling")
             for end in family.ends:

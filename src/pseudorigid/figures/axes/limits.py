@@ -10,13 +10,14 @@ from functools import partial
 import numpy as np
 
 from ..canvas import style
-from .panel import Axis
+from .panel import Axis, log10
 
 # Limits are refused if they are wider than the data by these factors. The abscissa of a line may be
 # wide because a run may be a short trial of a longer one, and its ordinate because it may be flat.
 _WIDEST_DOTS, _WIDEST_ABSCISSA, _WIDEST_ORDINATE = 1e3, 1e4, 1e6
 _NARROWEST = 1e-12  # of the size of the data
 _LONGEST = 7  # characters of a tick label that fit at the left of a chart
+_FEW = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
 _MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
@@ -76,15 +77,29 @@ def around(values, room, count, name="", above=None):
 
 
 def ticks(low, high, count):
-    """Return about `count` round numbers from low to high."""
+    """Return about `count` round numbers from low to high, more if there would be less than two."""
     step = _step((high - low) / count * (1.0 + 1e-9))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    if first >= last:
+        return ticks(low, high, 2 * count)
     return [float(i * step) for i in range(first, last + 1)]
 
 
 def decades(limits, name=""):
-    """Return a logarithmic axis with ticks at every n-th whole power of ten."""
+    """Return a logarithmic axis with ticks at every n-th whole power of ten.
+
+    If there is not even one decade between two ticks, they are at multiples of the powers.
+    """
     low, high = limits
+    if math.floor(high + 1e-9) <= math.ceil(low - 1e-9):
+        digits = (1, 2, 5) if high - low > _FEW else (1, 1.5, 2, 3, 4, 5, 6, 8)
+        powers = range(math.floor(low), math.floor(high) + 1)
+        values = [
+            float(Fraction(10) ** power * Fraction(digit)) for power in powers for digit in digits
+        ]
+        at = {float(log10(value)[0]): style.number(value) for value in values}
+        at = {log: label for log, label in at.items() if low <= log <= high}
+        return Axis(limits, list(at), name, True, labels=list(at.values()))
     every = 1 + int(high - low) // _MOST
     first = math.ceil(low / every - 1e-9) * every
     return Axis(limits, range(first, math.floor(high + 1e-9) + 1, every), name, True)

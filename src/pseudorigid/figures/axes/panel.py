@@ -11,6 +11,7 @@ from ..canvas.ragged_rows import pieces
 from ..canvas.sheet import POINT, width
 
 _SIZE, _SMALL = 8.0, 7.0  # points: labels and names, notes
+_LABEL_GAP = 6  # pixels, the least between labels below a frame
 _KEY_LEFT, _KEY_WIDTH = 60, 960  # pixels
 
 
@@ -84,7 +85,7 @@ class Panel:
         left, bottom, right, top = frame
         tick, reach = self.tick * POINT, (self.tick + self.gap) * POINT
         marks = left + across.between(across.ticks) * (right - left)
-        for x, text in zip(marks.tolist(), across.texts(), strict=True):
+        for x, text in zip(marks.tolist(), self._apart(marks, across.texts()), strict=True):
             if grid:
                 self._frame_line([x, x], [bottom, top], color=style.GRID, zorder=0.5)
             self._frame_line([x, x], [bottom, bottom - tick])
@@ -148,6 +149,13 @@ class Panel:
         x, ha = _beside(float(x), shift[0] * POINT, ha, width(text, self.small), left, right)
         y, va = _beside(float(y), shift[1] * POINT, va, self.small * POINT, bottom, top)
         self.sheet.text(x, y, text, ha=ha, va=va, size=self.small)
+
+    def _apart(self, marks, texts):
+        """Return the labels below the frame, without those between every n-th if they touch."""
+        widest = max((width(text, self.size) for text in texts if text), default=0.0)
+        room = float(np.diff(marks).min(initial=np.inf))
+        every = max(int(np.ceil((widest + _LABEL_GAP) / room)), 1)
+        return ["" if i % every else text for i, text in enumerate(texts)]
 
     def _label(self, x, text):
         """Return the middle of a label below the frame."""

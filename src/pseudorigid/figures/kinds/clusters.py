@@ -7,7 +7,7 @@ import numpy as np
 from ..axes.limits import linear, ticks
 from ..axes.panel import Axis, Panel, corner, key, letters
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import POINT, Sheet, width
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _COLUMNS = (1, 135, 540), (0, 600, 1005)  # index in _NAMES, left and right of a column of panels
@@ -60,10 +60,12 @@ def _flights(sheet, frame, clusters):
     corners = np.repeat(edges, 2)[1:-1]
     panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
     cuts = clusters["cut"].values
+    ends = np.array([0.0, *cuts, last])  # of the room for labels
     for i, cut in enumerate(cuts):
         panel.line([cut, cut], [0.0, highest], color=style.HUES[i], lw=0.8, ls="--")
         period = f"{float(clusters['period'].values[i]):.1f}"
-        crowded = np.any((cuts > cut) & (cuts < cut + 0.1 * last))  # by the next cut
+        left, right = cut - ends[ends < cut].max(), ends[ends > cut].min() - cut
+        crowded = right < min(left, _LABEL * last)
         side = {"ha": "right", "shift": (-2, 0)} if crowded else {"ha": "left", "shift": (2, 0)}
         panel.note(cut, (0.95 - 0.1 * i) * highest, period, **side)
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
@@ -83,11 +85,15 @@ def _marks(panel, clusters, estimates):
     """Draw a mark with its interval for each cut and lag, from (value, low, high)."""
     value, low, high = estimates
     lags, cuts = clusters["lag"].values, clusters["cut"].values
-    for i in range(cuts.size):
-        at = lags + min(0.2, 0.8 / cuts.size) * (i - 0.5 * (cuts.size - 1))
+    steps = min(0.2, 0.8 / cuts.size) * (np.arange(cuts.size) - 0.5 * (cuts.size - 1))
+    places = np.add.outer(steps, lags)
+    for i, at in enumerate(places):
         panel.bars(at, low[i], high[i], color=style.HUES[i], lw=0.7)
         panel.dots(at, value[i], style.HUES[i], size=3.2, marker=_MARKS[i % 4])
     widest = 0.5 * float((high - low).max())
-    _, _, right, top = panel.frame
+    _, bottom, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
-    panel.sheet.text(right - 3 * POINT, top - 3 * POINT, text, ha="right", va="top", size=7.0)
+    x, y = panel.place(places, high)
+    taken = (x > right - 12 * POINT - width(text, 7.0)) & (y > top - 10 * POINT)
+    y, va = (bottom + 3 * POINT, "bottom") if taken.any() else (top - 3 * POINT, "top")
+    panel.sheet.text(right - 3 * POINT, y, text, ha="right", va=va, size=7.0)

@@ -103,7 +103,7 @@ def _energies(sheet, frame, rotation):
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
     panel = Panel(sheet, frame, across, up)
-    entries = []
+    entries, drawn = [], []
     for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
         turn, place = divmod(number, len(style.MANY_HUES))
         hue, dashed = style.MANY_HUES[place], (place + turn) % 2 == 1

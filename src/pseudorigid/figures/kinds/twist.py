@@ -7,6 +7,7 @@ from ..axes.plane import Plane
 from ..canvas import style
 
 _DOT = 3.2  # points
+_RIGHTMOST = 0.75  # of the width of the frame: a text beside a point beyond it would leave it
 
 
 @style.pinned()
@@ -35,7 +36,10 @@ def draw(scene, twist):
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
         text = f"$E$ = {style.number(mark)}"
         if plane.shows(energy[at], values[at]):
-            plane.note(energy[at], values[at], text, shift=(4, 2), va="bottom")
+            side = {"ha": "left", "va": "bottom", "shift": (4, 2)}
+            if plane.across.between(energy[at]) > _RIGHTMOST:  # below a line that mostly falls
+                side = {"ha": "right", "va": "top", "shift": (-4, -2)}
+            plane.note(energy[at], values[at], text, **side)
     if plane.shows(zero, 0.0):
         plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
         plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")

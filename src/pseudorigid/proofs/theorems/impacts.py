@@ -1,5 +1,7 @@
 """Proofs that each impact of an orbit or a picture is the first one, with bounds on its error."""
 
+from collections.abc import Callable
+
 import numpy as np
 import xarray as xr
 
@@ -15,12 +17,18 @@ _LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was t
 Impacts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def prove_impacts(k: Exact, g: Exact, *impacts: np.ndarray, name: str = "impacts") -> Result:
+def prove_impacts(
+    k: Exact,
+    g: Exact,
+    *impacts: np.ndarray,
+    name: str = "impacts",
+    progress: Callable[[int], None] | None = None,
+) -> Result:
     """Prove that each of many impacts is the first one; arguments as for `impact_errors`.
 
     The impacts are `before`, `after` and `tau`. The Result has the margin worst error.
     """
-    errors = impact_errors(k, g, *impacts)
+    errors = impact_errors(k, g, *impacts, progress=progress)
     worst, reason = float(np.max(errors, initial=0.0)), ""
     if not errors.size:
         reason = "there are no impacts"
